@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** \file
+ *  Symbol visibility and the version of the header. */
+#ifndef CAIRN_EXPORT_H
+#define CAIRN_EXPORT_H
+
+/** Version of this header; \ref cairn_version tells that of the library that was loaded. */
+#define CAIRN_VERSION_MAJOR 0
+#define CAIRN_VERSION_MINOR 1 /**< minor version of this header */
+#define CAIRN_VERSION_PATCH 0 /**< patch version of this header */
+
+#if defined(__GNUC__)
+/** Marks a function of the C ABI. */
+#define CAIRN_API __attribute__((visibility("default")))
+#else
+#define CAIRN_API
+#endif
+
+#endif

@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** \file
+ *  The filter of one vehicle: create, predict, update, ask. */
+#ifndef CAIRN_FILTER_H
+#define CAIRN_FILTER_H
+
+#include <cairn/map.h>
+#include <cairn/motion.h>
+#include <cairn/pose.h>
+#include <cairn/sensor.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** One vehicle's pose and map, estimated together. */
+typedef struct cairn_filter cairn_filter;
+
+/** Which error of the state the filter's covariance speaks of (docs/invariant_error.md). */
+enum {
+  CAIRN_ERROR_INVARIANT = 0, /**< right-invariant on SE_{K+1}(3): consistent; the default */
+  CAIRN_ERROR_STANDARD = 1   /**< position, attitude and landmarks apart: standard EKF-SLAM, to compare with */
+};
+
+/** Options of \ref cairn_filter_create. Set them by \ref cairn_filter_options_init first. */
+typedef struct cairn_filter_options {
+  uint32_t struct_size;          /**< sizeof(cairn_filter_options) of the caller */
+  int32_t error;                 /**< CAIRN_ERROR_INVARIANT or CAIRN_ERROR_STANDARD */
+  uint32_t max_landmarks;        /**< capacity, 1 to 30000; default 1000. Memory grows with its square */
+  uint32_t max_observations;     /**< observations of one frame, 1 to 4096; default 64 */
+  uint32_t max_sensors;          /**< sensors that can be added, 1 to 256; default 8 */
+  uint32_t iterations;           /**< linearisations of an update, 1 (plain EKF) to 50; default 3 */
+  double iteration_tolerance;    /**< iterating ends where a step is shorter than this many standard deviations, > 0; default 1e-3 */
+  double gate_probability;       /**< chi-square gate of one observation, in (0, 1]; 1 lets all pass; default 0.999 */
+  double batch_gate_probability; /**< chi-square gate of a whole batch, in (0, 1]; 1 lets all pass; default 0.9999 */
+  cairn_pose initial_pose;       /**< body in the map frame at the start; default identity */
+  double initial_covariance[36]; /**< of its error [dp; dtheta], symmetric, positive semidefinite; default 0: it is known */
+} cairn_filter_options;
+
+/** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_options_init(cairn_filter_options *options, size_t struct_size);
+
+/** Bytes that \ref cairn_filter_create will take with these options: all that the filter ever takes.
+ *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_required_bytes(const cairn_filter_options *options, size_t *bytes);
+
+/** Creates a filter; the caller destroys it with \ref cairn_filter_destroy. Options of an older or a newer header are
+ *  taken as far as both sides know them. On an error `*filter` is not written.
+ *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_create(const cairn_filter_options *options, cairn_filter **filter);
+
+/** Destroys a filter, and the map that it owns. NULL is allowed. Threads: one a handle. \since 0.1.0 */
+CAIRN_API void cairn_filter_destroy(cairn_filter *filter);
+
+/** A line of a filter's log; `payload` is what \ref cairn_filter_set_log got. */
+typedef void (*cairn_log)(void *payload, const char *line);
+
+/** Sets where this filter's log lines go (rejected batches, numerical refusals); NULL, the default, is silence.
+ *  The callback runs inside the filter's calls and must not call the same filter. Threads: one a handle.
+ *  Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_set_log(cairn_filter *filter, cairn_log log, void *payload);
+
+/* Sensors. Each call copies the description and gives the sensor's number, counted from 0, for later calls. */
+
+/** Adds a stereo head. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_CAPACITY. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_add_stereo_head(cairn_filter *filter, const cairn_stereo_head *head, int32_t *sensor);
+
+/** Adds a stereo camera. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_CAPACITY. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_add_stereo_camera(cairn_filter *filter, const cairn_stereo_camera *camera,
+                                                      int32_t *sensor);
+
+/** Adds a sensor of points. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_CAPACITY. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_add_cartesian(cairn_filter *filter, const cairn_cartesian *cartesian,
+                                                  int32_t *sensor);
+
+/** Adds a sensor of the caller's own. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_CAPACITY.
+ *  \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_add_custom(cairn_filter *filter, const cairn_custom *custom, int32_t *sensor);
+
+/** Tells how a stereo head stands from now on: pan and stick angle (rad), 0 after it was added. Call it before each
+ *  frame that was seen with other angles. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (not finite, or no stereo
+ *  head), CAIRN_ERROR_NOT_FOUND. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_point_head(cairn_filter *filter, int32_t sensor, double pan, double stick);
+
+/* Motion. Every prediction costs O(1), whatever the size of the map, and allocates nothing. */
+
+/** Sets the vehicle's wheels for \ref cairn_filter_predict_wheels; before it those of \ref cairn_wheels_init hold.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_set_wheels(cairn_filter *filter, const cairn_wheels *wheels);
+
+/** Sets the noise of \ref cairn_filter_predict_twist; before it that of \ref cairn_twist_noise_init holds.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_set_twist_noise(cairn_filter *filter, const cairn_twist_noise *noise);
+
+/** Moves the vehicle by the turning rates of its left and right wheels (rad/s) over `dt` seconds (> 0).
+ *  Mars paper, eq. 1 and 2. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL.
+ *  Complexity: O(1). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_predict_wheels(cairn_filter *filter, double dt, double left_rad_per_s,
+                                                   double right_rad_per_s);
+
+/** Moves the vehicle by its body velocity (m/s) and body rate (rad/s) over `dt` seconds (> 0).
+ *  Mars paper, eq. 2. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(1).
+ *  \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_predict_twist(cairn_filter *filter, double dt, const double velocity[3],
+                                                  const double rate[3]);
+
+/** Moves the vehicle by a relative pose, `T_map_body <- T_map_body T_before_after`, with the covariance (6x6 row-major,
+ *  symmetric, positive semidefinite) of its error [dp; dtheta] in the axes of the body before.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(1). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_predict_increment(cairn_filter *filter, const cairn_pose *T_before_after,
+                                                      const double covariance[36]);
+
+/* Observations. All of a call are one batch. A call that fails leaves the filter as it was, bit for bit. */
+
+/** Takes in one frame of one sensor. Known landmarks update the state, together; unknown ids place new landmarks, with
+ *  their full correlations. `matches` (room for `count`, or NULL) gets the decision on each observation.
+ *  `count` may be 0. Allocates nothing.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also an id twice, CAIRN_ID_NONE, noise that is no covariance),
+ *  CAIRN_ERROR_NOT_FOUND (sensor), CAIRN_ERROR_CAPACITY (more than max_observations, or the map would hold more than
+ *  max_landmarks), CAIRN_ERROR_NUMERICAL. Complexity: O(n^2 m) for n states and m rows. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_update(cairn_filter *filter, int32_t sensor, const cairn_observation *observations,
+                                           size_t count, cairn_match *matches);
+
+/** Updates by what the caller linearised itself: `residual = z - h` (rows values), the noise's `covariance`
+ *  (rows x rows), `jacobian_pose` = dh/[dp; dtheta] (rows x 6, NULL for zero) and `jacobian_landmarks` = dh/d positions
+ *  (rows x 3 count, the columns in the order of `landmarks`); all row-major. Gated as one batch; not iterated.
+ *  `match` (or NULL) gets the decision; its landmark is the first one, or CAIRN_ID_NONE. rows is 1 to 3 max_observations,
+ *  count at most max_observations.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_CAPACITY,
+ *  CAIRN_ERROR_NUMERICAL. Complexity: O(n^2 rows). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_update_linear(cairn_filter *filter, const double *residual, size_t rows,
+                                                  const double *covariance, const double *jacobian_pose,
+                                                  const uint64_t *landmarks, size_t count,
+                                                  const double *jacobian_landmarks, cairn_match *match);
+
+/** Updates by an absolute position (GNSS): `z = p + R lever_arm` in the map frame, m; 3x3 `covariance`, positive definite.
+ *  `lever_arm` (body frame, m) may be NULL: zero. `match` (or NULL) gets the decision.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(n^2). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_update_position(cairn_filter *filter, const double position[3],
+                                                    const double covariance[9], const double lever_arm[3],
+                                                    cairn_match *match);
+
+/** Updates by an absolute attitude (star tracker): quaternion w x y z from body to map; 3x3 `covariance` (rad^2, positive
+ *  definite) of its error dtheta in the map's axes. `match` (or NULL) gets the decision.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(n^2). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_update_attitude(cairn_filter *filter, const double quaternion[4],
+                                                    const double covariance[9], cairn_match *match);
+
+/** Updates by an absolute heading (sun sensor, compass): the yaw of the body's x axis in the map, rad, with its standard
+ *  deviation (> 0). Refused as CAIRN_REASON_NO_IMAGE where that axis stands within 5 degrees of the vertical.
+ *  `match` (or NULL) gets the decision.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(n^2). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_update_heading(cairn_filter *filter, double heading, double sigma,
+                                                   cairn_match *match);
+
+/** Forgets a landmark; what it taught about the others stays. Threads: one a handle.
+ *  Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND. Complexity: O(n). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_remove_landmark(cairn_filter *filter, uint64_t id);
+
+/** What the last update did. */
+typedef struct cairn_update_report {
+  uint32_t struct_size;  /**< sizeof(cairn_update_report) of the caller; set it before the call */
+  uint32_t matched;      /**< observations that updated a landmark */
+  uint32_t placed;       /**< observations that placed one */
+  uint32_t rejected;     /**< observations refused */
+  uint32_t rows;         /**< rows of the batch after the gates: degrees of freedom of `nis` */
+  uint32_t iterations;   /**< linearisations done */
+  double nis;            /**< normalised innovation squared of the batch at the prediction */
+  double nis_lower;      /**< 95 % band of `nis`: lower bound */
+  double nis_upper;      /**< 95 % band of `nis`: upper bound */
+} cairn_update_report;
+
+/** Reports on the last successful update of any kind; zeros before the first. Set `report->struct_size` first.
+ *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_last_update(const cairn_filter *filter, cairn_update_report *report);
+
+/** Pose of the body in the map, and the covariance of its error [dp; dtheta] (6x6 row-major); each may be NULL.
+ *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_pose(const cairn_filter *filter, cairn_pose *pose, double covariance[36]);
+
+/** Joint covariance of the pose's error [dp; dtheta] and the positions of chosen landmarks, in this order, row-major,
+ *  6 + 3 count on a side. `capacity` and `*needed` count doubles; NULL with 0 asks for the size.
+ *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_BUFFER.
+ *  Complexity: O(count^2). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_joint_covariance(const cairn_filter *filter, const uint64_t *ids, size_t count,
+                                                     double *matrix, size_t capacity, size_t *needed);
+
+/** The filter's map. It lives as long as the filter and follows it. Never fails but for NULL, which gives NULL.
+ *  Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
+CAIRN_API const cairn_map *cairn_filter_map(const cairn_filter *filter);
+
+/** Normalised estimation error squared of the pose against a true one, in the filter's own error coordinates: about 6
+ *  on average for a consistent filter. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT,
+ *  CAIRN_ERROR_NUMERICAL (the pose's covariance is singular, as at a known start). Complexity: O(1). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_pose_nees(const cairn_filter *filter, const cairn_pose *truth, double *nees);
+
+/** Audits the whole covariance: `min_pivot` gets the smallest pivot of its Cholesky factor after scaling to unit
+ *  diagonal, 0 or less where it is not positive definite. States that are exactly known (zero variance) are left out.
+ *  Threads: one a handle (it uses the filter's workspace). Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(n^3). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_audit(cairn_filter *filter, double *min_pivot);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

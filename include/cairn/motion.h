@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** \file
+ *  Motion models and their noise: wheels, twist. (An increment brings its covariance with each call.) */
+#ifndef CAIRN_MOTION_H
+#define CAIRN_MOTION_H
+
+#include <cairn/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Sign of the yaw rate that two wheel rates give. */
+enum {
+  CAIRN_YAW_RIGHT_MINUS_LEFT = 0, /**< z up: the vehicle turns left (positive) where the right wheels run faster; the default */
+  CAIRN_YAW_LEFT_MINUS_RIGHT = 1  /**< z down: eq. 1 as the Mars paper prints it */
+};
+
+/** Four-wheel differential drive, both wheels of a side turning at one rate (Mars paper, eq. 1):
+ *  `v_x = r (w_left + w_right) / 2`, `w_z = +-(r / B) (w_right - w_left)`; no motion along y and z, no roll and pitch
+ *  rate. Noise is white, a standard deviation per sample of a call. */
+typedef struct cairn_wheels {
+  uint32_t struct_size;      /**< sizeof(cairn_wheels) of the caller */
+  int32_t yaw_sign;          /**< CAIRN_YAW_RIGHT_MINUS_LEFT or CAIRN_YAW_LEFT_MINUS_RIGHT */
+  double radius;             /**< r, m, > 0; default 0.3 */
+  double track;              /**< B, distance of left and right wheels, m, > 0; default 1.0 */
+  double rate_sigma;         /**< noise of each side's wheel rate, rad/s, >= 0; default 0.01 */
+  double slip_sigma;         /**< noise of each side's rate in proportion to it, >= 0; default 0.02 */
+  double lateral_sigma;      /**< side slip: noise of the velocity along y, m/s, >= 0; default 0.01 */
+  double vertical_sigma;     /**< noise of the velocity along z, m/s, >= 0; default 0.01 */
+  double roll_rate_sigma;    /**< unmeasured roll rate, rad/s, >= 0; default 0.05 */
+  double pitch_rate_sigma;   /**< unmeasured pitch rate, rad/s, >= 0; default 0.05 */
+} cairn_wheels;
+
+/** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+CAIRN_API cairn_status cairn_wheels_init(cairn_wheels *wheels, size_t struct_size);
+
+/** Noise of measured body velocity and body rate (an IMU, visual odometry): white, a standard deviation per sample and
+ *  axis (x, y, z of the body). Mars paper, eq. 2, integrated on the group: `T <- T Exp([v; w] dt)`. */
+typedef struct cairn_twist_noise {
+  uint32_t struct_size;     /**< sizeof(cairn_twist_noise) of the caller */
+  uint32_t reserved;        /**< 0 */
+  double velocity_sigma[3]; /**< m/s, >= 0; default 0.05 each */
+  double rate_sigma[3];     /**< rad/s, >= 0; default 0.005 each */
+} cairn_twist_noise;
+
+/** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+CAIRN_API cairn_status cairn_twist_noise_init(cairn_twist_noise *noise, size_t struct_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
