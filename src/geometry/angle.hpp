@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+namespace cairn {
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+// The same direction in (-pi, pi].
+inline double wrap_angle(double angle) {
+  const double wrapped = std::remainder(angle, 2 * kPi);
+  return wrapped <= -kPi ? wrapped + 2 * kPi : wrapped;
+}
+
+}  // namespace cairn

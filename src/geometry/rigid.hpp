@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Poses of the plane and of space: one template over the group of rotations.
+#pragma once
+
+#include "geometry/types.hpp"
+
+namespace cairn {
+
+// A pose T_a_b takes points from frame b to frame a: p_a = R p_b + t. Tangents are [rho; theta], translation first.
+// As members of the group: the ordinary error [dp; dtheta] of a pose is not the tangent of these functions; they agree
+// but for dp = xi_p + turn(t) xi_R.
+template <class RotationGroup>
+class Rigid {
+ public:
+  using Rotation = RotationGroup;
+  static constexpr int kDim = Rotation::kDim, kTurn = Rotation::kTurn, kDof = kDim + kTurn;
+  using Point = typename Rotation::Point;
+  using Tangent = Eigen::Matrix<double, kDof, 1>;
+  using Square = Eigen::Matrix<double, kDof, kDof>;
+
+  Rigid() : t_(Point::Zero()) {}
+  Rigid(const Rotation& rotation, const Point& translation) : R_(rotation), t_(translation) {}
+
+  const Rotation& rotation() const { return R_; }
+  const Point& translation() const { return t_; }
+
+  static Rigid exp(const Tangent& tau) {
+    const typename Rotation::Tangent theta = tau.template tail<kTurn>();
+    return Rigid(Rotation::exp(theta), Rotation::translation_jacobian(theta) * tau.template head<kDim>());
+  }
+
+  Tangent log() const {
+    const typename Rotation::Tangent theta = R_.log();
+    Tangent tau;
+    tau << Rotation::translation_jacobian_inverse(theta) * t_, theta;
+    return tau;
+  }
+
+  Rigid inverse() const {
+    const Rotation R_inverse = R_.inverse();
+    return Rigid(R_inverse, -(R_inverse * t_));
+  }
+  Rigid operator*(const Rigid& other) const { return Rigid(R_ * other.R_, t_ + R_ * other.t_); }
+  Point operator*(const Point& x) const { return t_ + R_ * x; }
+
+  // T Exp(tau) = Exp(adjoint() tau) T.
+  Square adjoint() const { return blocks(R_.matrix(), -Rotation::turn(t_) * R_.adjoint(), R_.adjoint()); }
+
+  // Exp(tau + d) = Exp(left_jacobian(tau) d) Exp(tau) to first order in d.
+  static Square left_jacobian(const Tangent& tau) {
+    const typename Rotation::Tangent theta = tau.template tail<kTurn>();
+    return blocks(Rotation::translation_jacobian(theta),
+                  Rotation::translation_coupling(tau.template head<kDim>(), theta), Rotation::left_jacobian(theta));
+  }
+
+  // For |theta| < 2 pi.
+  static Square left_jacobian_inverse(const Tangent& tau) {
+    const typename Rotation::Tangent theta = tau.template tail<kTurn>();
+    const typename Rotation::Matrix V_inverse = Rotation::translation_jacobian_inverse(theta);
+    const typename Rotation::Jacobian J_inverse = Rotation::left_jacobian_inverse(theta);
+    return blocks(V_inverse, -V_inverse * Rotation::translation_coupling(tau.template head<kDim>(), theta) * J_inverse,
+                  J_inverse);
+  }
+
+ private:
+  static Square blocks(const typename Rotation::Matrix& point, const typename Rotation::Turn& coupling,
+                       const typename Rotation::Jacobian& turn) {
+    Square A;
+    A.template topLeftCorner<kDim, kDim>() = point;
+    A.template topRightCorner<kDim, kTurn>() = coupling;
+    A.template bottomLeftCorner<kTurn, kDim>().setZero();
+    A.template bottomRightCorner<kTurn, kTurn>() = turn;
+    return A;
+  }
+
+  Rotation R_;
+  Point t_;
+};
+
+}  // namespace cairn

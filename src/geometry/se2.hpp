@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "geometry/rigid.hpp"
+#include "geometry/so2.hpp"
+
+namespace cairn {
+
+// Pose of a planar vehicle.
+using SE2 = Rigid<SO2>;
+
+}  // namespace cairn
