@@ -1,0 +1,48 @@
+# What `cmake --install` lays down. Three components, for those who package them apart: runtime (the library), development
+# (headers, pkg-config, CMake package) and program.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS cairn EXPORT cairnTargets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cairn DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+        FILES_MATCHING PATTERN "*.h")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
+        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+
+# The loader looks here first on a machine that can; nobody links against this one, so it has no libcairn.so.
+if(TARGET cairn_v3)
+  install(TARGETS cairn_v3 LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/x86-64-v3 COMPONENT runtime
+          NAMELINK_SKIP)
+endif()
+
+# The way back from a directory under the prefix to the prefix: what is installed may be moved as a whole.
+function(cairn_path_between from to result)
+  file(RELATIVE_PATH path "${from}" "${to}")
+  string(REGEX REPLACE "/$" "" path "${path}")
+  set(${result} "${path}" PARENT_SCOPE)
+endfunction()
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cairn)
+install(EXPORT cairnTargets NAMESPACE cairn:: DESTINATION ${package_dir} COMPONENT development)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/cairnConfig.cmake.in ${PROJECT_BINARY_DIR}/cairnConfig.cmake
+                              INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
+# Before 1.0 a minor version may break: 0.1 does not serve who asks for 0.2, nor the other way round.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/cairnConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/cairnConfig.cmake ${PROJECT_BINARY_DIR}/cairnConfigVersion.cmake
+        DESTINATION ${package_dir} COMPONENT development)
+
+set(pkgconfig_dir ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
+cairn_path_between(${pkgconfig_dir} ${CMAKE_INSTALL_PREFIX} CAIRN_PC_PREFIX)
+cairn_path_between(${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR} CAIRN_PC_INCLUDEDIR)
+cairn_path_between(${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR} CAIRN_PC_LIBDIR)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/cairn.pc.in ${PROJECT_BINARY_DIR}/cairn.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/cairn.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+
+if(TARGET cairn_program)
+  cairn_path_between(${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR} path)
+  set_target_properties(cairn_program PROPERTIES INSTALL_RPATH "$ORIGIN/${path}")
+  install(TARGETS cairn_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/docs/cairn.1)
+    install(FILES ${PROJECT_SOURCE_DIR}/docs/cairn.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  endif()
+endif()
