@@ -9,6 +9,7 @@ inline constexpr double kPi = 3.14159265358979323846;
 
 // The same direction in (-pi, pi].
 inline double wrap_angle(double angle) {
+  if (angle > -kPi && angle <= kPi) return angle;  // the common case, and exact
   const double wrapped = std::remainder(angle, 2 * kPi);
   return wrapped <= -kPi ? wrapped + 2 * kPi : wrapped;
 }

@@ -77,4 +77,20 @@ class Rigid {
   Point t_;
 };
 
+// The pose whose ordinary error [dp; dtheta] against `pose` is `error`: p + dp, Exp(dtheta) R (docs/notation.md).
+template <class Rotation>
+Rigid<Rotation> retract(const Rigid<Rotation>& pose, const typename Rigid<Rotation>::Tangent& error) {
+  using Pose = Rigid<Rotation>;
+  const typename Rotation::Tangent dtheta = error.template tail<Pose::kTurn>();
+  return Pose(Rotation::exp(dtheta) * pose.rotation(), pose.translation() + error.template head<Pose::kDim>());
+}
+
+// The ordinary error of an estimate: retract(estimate, pose_error(truth, estimate)) is the truth.
+template <class Rotation>
+typename Rigid<Rotation>::Tangent pose_error(const Rigid<Rotation>& truth, const Rigid<Rotation>& estimate) {
+  typename Rigid<Rotation>::Tangent error;
+  error << truth.translation() - estimate.translation(), (truth.rotation() * estimate.rotation().inverse()).log();
+  return error;
+}
+
 }  // namespace cairn

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motion models: how far a vehicle has come in one step, in its own frame, and how uncertain that is.
+#pragma once
+
+#include "geometry/se3.hpp"
+#include "geometry/types.hpp"
+
+namespace cairn {
+
+// Motion from the body before a step to the body after it. `covariance` is that of its ordinary error [dp; dtheta]:
+// true p = d + dp, true R = Exp(dtheta) R, both in the axes of the body before.
+template <class Pose>
+struct Increment {
+  Pose T_before_after;
+  typename Pose::Square covariance = Pose::Square::Zero();
+};
+
+// Constant twist [v; w] in body axes for dt seconds, integrated on the group: Exp([v; w] dt) (Mars paper, eq. 2,
+// without its Euler angles). `noise` is the covariance of the measured twist, a white sample per step.
+template <class Pose>
+Increment<Pose> integrate_twist(const typename Pose::Tangent& twist, double dt, const typename Pose::Square& noise) {
+  const typename Pose::Tangent tau = twist * dt;
+  Increment<Pose> step;
+  step.T_before_after = Pose::exp(tau);
+  // Exp(tau + n dt) = Exp(xi) Exp(tau) with xi = J_l(tau) n dt; of the ordinary error dtheta = xi_R and
+  // dp = xi_p + xi_R x d.
+  typename Pose::Square J_error_twist = Pose::left_jacobian(tau) * dt;
+  J_error_twist.template topRows<Pose::kDim>() +=
+      Pose::Rotation::turn(step.T_before_after.translation()) * J_error_twist.template bottomRows<Pose::kTurn>();
+  const typename Pose::Square lower = J_error_twist * noise * J_error_twist.transpose();
+  step.covariance = lower.template selfadjointView<Eigen::Lower>();
+  return step;
+}
+
+// Noise of a measured body velocity and body rate, standard deviations per sample and axis.
+struct TwistNoise {
+  Vector3 velocity_sigma = Vector3::Constant(0.05);  // m/s
+  Vector3 rate_sigma = Vector3::Constant(0.005);     // rad/s
+};
+
+// v in m/s, w in rad/s, body axes.
+Increment<SE3> integrate_twist(const Vector3& v, const Vector3& w, double dt, const TwistNoise& noise);
+
+// Four-wheel differential drive, the wheels of a side turning at one rate.
+struct Wheels {
+  bool yaw_left_minus_right = false;  // z down, as the Mars paper prints eq. 1; otherwise z up
+  double radius = 0.3;                // m
+  double track = 1.0;                 // distance of left and right wheels, m
+  double rate_sigma = 0.01;           // of each side's rate, rad/s
+  double slip_sigma = 0.02;           // of each side's rate, in proportion to it
+  double lateral_sigma = 0.01;        // m/s
+  double vertical_sigma = 0.01;       // m/s
+  double roll_rate_sigma = 0.05;      // rad/s
+  double pitch_rate_sigma = 0.05;     // rad/s
+};
+
+// Wheel rates in rad/s, forward positive.
+Increment<SE3> drive_wheels(const Wheels& wheels, double left, double right, double dt);
+
+}  // namespace cairn
