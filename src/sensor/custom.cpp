@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sensor/custom.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "geometry/angle.hpp"
+
+namespace cairn {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Packed = Eigen::Map<const RowMajor>;  // views memory, allocates none
+
+constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
+
+std::array<double, 7> pack(const SE3& T) {
+  const Vector3& p = T.translation();
+  const Eigen::Quaterniond& q = T.rotation().quaternion();
+  return {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
+}
+
+}  // namespace
+
+CustomSensor::CustomSensor(const CustomParameters& parameters)
+    : parameters_(parameters), noise_(parameters.sigma.cwiseAbs2().asDiagonal()) {}
+
+bool CustomSensor::predict(const SE3& T_map_body, const Vector3& p_map, const Vector2&, Prediction& out) const {
+  const int n = rows();
+  const std::array<double, 7> pose = pack(T_map_body);
+  // A value that the callback forgets is refused; of a Jacobian it may leave out the zeros.
+  double z[3] = {kUnset, kUnset, kUnset}, J_pose[18] = {}, J_landmark[9] = {};
+  if (parameters_.predict(parameters_.user, pose.data(), p_map.data(), z, J_pose, J_landmark) != 0) return false;
+  out = Prediction();
+  out.z.head(n) = Eigen::Map<const Vector3>(z).head(n);
+  out.J_z_pose.topRows(n) = Packed(J_pose, n, 6);
+  out.J_z_landmark.topRows(n) = Packed(J_landmark, n, 3);
+  return out.z.allFinite() && out.J_z_pose.allFinite() && out.J_z_landmark.allFinite();
+}
+
+bool CustomSensor::place(const SE3& T_map_body, const Vector3& z, const Vector2&, Placement& out) const {
+  if (!places()) return false;
+  const int n = rows();
+  const std::array<double, 7> pose = pack(T_map_body);
+  double landmark[3] = {kUnset, kUnset, kUnset}, J_pose[18] = {}, J_z[9] = {};
+  if (parameters_.place(parameters_.user, pose.data(), z.data(), landmark, J_pose, J_z) != 0) return false;
+  out = Placement();
+  out.landmark = Eigen::Map<const Vector3>(landmark);
+  out.J_landmark_pose = Packed(J_pose, 3, 6);
+  out.J_landmark_z.leftCols(n) = Packed(J_z, 3, n);
+  return out.landmark.allFinite() && out.J_landmark_pose.allFinite() && out.J_landmark_z.allFinite();
+}
+
+Vector3 CustomSensor::residual(const Vector3& z, const Vector3& predicted) const {
+  Vector3 r = Vector3::Zero();
+  for (int i = 0; i < rows(); ++i) {
+    const double difference = z[i] - predicted[i];
+    r[i] = (parameters_.angle_mask >> i & 1u) != 0 ? wrap_angle(difference) : difference;
+  }
+  return r;
+}
+
+namespace {
+
+// About the cube root of the rounding unit, where a central difference is most accurate.
+constexpr double kStep = 1e-5;
+
+// Largest difference of one column, relative to max(1, |numerical value|).
+double difference(const Vector3& analytic, const Vector3& numerical) {
+  return ((analytic - numerical).array().abs() / numerical.array().abs().max(1.0)).maxCoeff();
+}
+
+// Steps one coordinate up and down. Returns the distance that rounding leaves between the two, which is not quite twice
+// the step where the coordinate is large.
+template <class Vector>
+double step(const Vector& x, int i, Vector& above, Vector& below) {
+  above = below = x;
+  above[i] += kStep;
+  below[i] -= kStep;
+  return above[i] - below[i];
+}
+
+// The poses an error of one coordinate away on both sides, likewise.
+double step_pose(const SE3& T, int i, SE3& above, SE3& below) {
+  const Vector6 error = kStep * Vector6::Unit(i);
+  above = retract(T, error);
+  below = retract(T, -error);
+  return i < 3 ? above.translation()[i] - below.translation()[i] : 2 * kStep;
+}
+
+}  // namespace
+
+bool check_custom(const CustomSensor& sensor, const SE3& T_map_body, const Vector3& p_map, double& worst) {
+  const Vector2 mount = Vector2::Zero();
+  Prediction at, up, down;
+  if (!sensor.predict(T_map_body, p_map, mount, at)) return false;
+  double largest = 0;
+  SE3 T_up, T_down;
+  Vector3 x_up, x_down;
+  for (int i = 0; i < 6; ++i) {
+    const double width = step_pose(T_map_body, i, T_up, T_down);
+    if (!sensor.predict(T_up, p_map, mount, up) || !sensor.predict(T_down, p_map, mount, down)) return false;
+    largest = std::max(largest, difference(at.J_z_pose.col(i), sensor.residual(up.z, down.z) / width));
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double width = step(p_map, i, x_up, x_down);
+    if (!sensor.predict(T_map_body, x_up, mount, up) || !sensor.predict(T_map_body, x_down, mount, down)) return false;
+    largest = std::max(largest, difference(at.J_z_landmark.col(i), sensor.residual(up.z, down.z) / width));
+  }
+  worst = largest;
+  if (!sensor.places()) return true;
+
+  Placement placed, above, below;
+  if (!sensor.place(T_map_body, at.z, mount, placed)) return false;
+  for (int i = 0; i < 6; ++i) {
+    const double width = step_pose(T_map_body, i, T_up, T_down);
+    if (!sensor.place(T_up, at.z, mount, above) || !sensor.place(T_down, at.z, mount, below)) return false;
+    largest = std::max(largest, difference(placed.J_landmark_pose.col(i), (above.landmark - below.landmark) / width));
+  }
+  for (int i = 0; i < sensor.rows(); ++i) {
+    const double width = step(at.z, i, x_up, x_down);
+    if (!sensor.place(T_map_body, x_up, mount, above) || !sensor.place(T_map_body, x_down, mount, below)) return false;
+    largest = std::max(largest, difference(placed.J_landmark_z.col(i), (above.landmark - below.landmark) / width));
+  }
+  if (sensor.rows() == 3) {
+    largest = std::max(largest, difference(placed.landmark, p_map));
+  } else {
+    if (!sensor.predict(T_map_body, placed.landmark, mount, up)) return false;
+    largest = std::max(largest, difference(sensor.residual(up.z, at.z), Vector3::Zero()));
+  }
+  worst = largest;
+  return true;
+}
+
+}  // namespace cairn

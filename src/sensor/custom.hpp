@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "sensor/sensor.hpp"
+
+namespace cairn {
+
+// The caller's functions. `pose` is seven doubles: position (m), then the quaternion w x y z. Jacobians are row-major,
+// packed: rows x 6 and rows x 3 of the prediction, 3 x 6 and 3 x rows of the placement. 0 is success, anything else a
+// refusal.
+using CustomPredict = std::int32_t (*)(void* user, const double* pose, const double* landmark, double* z,
+                                       double* jacobian_pose, double* jacobian_landmark);
+using CustomPlace = std::int32_t (*)(void* user, const double* pose, const double* z, double* landmark,
+                                     double* jacobian_pose, double* jacobian_z);
+
+struct CustomParameters {
+  int rows = 3;                     // values of an observation, 1 to 3
+  CustomPredict predict = nullptr;  // required
+  CustomPlace place = nullptr;      // none: the sensor places no landmarks
+  void* user = nullptr;
+  std::uint32_t angle_mask = 0;     // bit i: value i is an angle
+  Vector3 sigma = Vector3::Ones();  // of each value
+};
+
+// A sensor of the caller's own. What it returns is refused where it isn't finite.
+class CustomSensor final : public Sensor {
+ public:
+  explicit CustomSensor(const CustomParameters& parameters);
+
+  int rows() const override { return parameters_.rows; }
+  bool places() const { return parameters_.place != nullptr; }
+  const Matrix3& noise() const override { return noise_; }
+  bool predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction& out) const override;
+  bool place(const SE3& T_map_body, const Vector3& z, const Vector2& mount, Placement& out) const override;
+  Vector3 residual(const Vector3& z, const Vector3& predicted) const override;
+
+ private:
+  CustomParameters parameters_;
+  Matrix3 noise_;
+};
+
+// Compares the sensor's Jacobians with central differences on the manifold at one pose and landmark, and, where the
+// sensor places landmarks, those of the placement at the predicted observation, and that placing leads back: to the
+// landmark, or, where fewer than three values can't tell where it lies, to the observation. `worst` is the largest
+// difference, relative to max(1, |numerical value|). False where the sensor refuses one of the points it is asked for.
+bool check_custom(const CustomSensor& sensor, const SE3& T_map_body, const Vector3& p_map, double& worst);
+
+}  // namespace cairn
