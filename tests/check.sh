@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# The whole check, as CI runs it: builds everything, runs all tests, runs them again under sanitizers, builds the
+# documentation, looks at the scripts. Installs the Debian packages that are missing. Ends at the first failure.
+set -euo pipefail
+# shellcheck source=support/setup.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/support/setup.sh"
+
+steps=()
+step=""
+step_start=0
+finish_step() {
+  if [[ -n $step ]]; then steps+=("$(printf '%4d s  %s' $((SECONDS - step_start)) "$step")"); fi
+}
+begin() {
+  finish_step
+  step=$1
+  step_start=$SECONDS
+  say "$step"
+}
+summary() {
+  local status=$?
+  finish_step
+  say "Summary"
+  printf '%s\n' "${steps[@]}"
+  if ((status == 0)); then
+    echo "All checks passed in $SECONDS s."
+  else
+    echo "FAILED: $step"
+  fi
+}
+trap summary EXIT
+
+begin "Packages"
+need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libmatio-dev \
+  libcmocka-dev doctest-dev doxygen=doxygen shellcheck=shellcheck binutils=nm groff-base=groff
+launcher=()
+if command -v ccache >/dev/null; then
+  launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+fi
+
+begin "Scripts: shellcheck"
+find "$root" -name build -prune -o -name .git -prune -o \( -name '*.sh' -o -path '*/.ci/run' \) -type f -print0 |
+  xargs -0 shellcheck -x --source-path=SCRIPTDIR
+echo "no complaint"
+
+begin "Build: Release, warnings are errors (build/check)"
+configure "$root/build/check" --preset developer "${launcher[@]}"
+cmake --build "$root/build/check" --parallel "$jobs"
+
+begin "Tests"
+ctest --test-dir "$root/build/check" --output-on-failure -j "$jobs"
+
+begin "Documentation: warnings are errors"
+cmake --build "$root/build/check" --target docs
+
+begin "Build: sanitizers (build/sanitize)"
+configure "$root/build/sanitize" --preset sanitize "${launcher[@]}"
+cmake --build "$root/build/sanitize" --parallel "$jobs"
+
+begin "Tests under sanitizers"
+ctest --test-dir "$root/build/sanitize" --output-on-failure -j "$jobs"

@@ -1,0 +1,53 @@
+# shellcheck shell=bash
+# shellcheck disable=SC2034  # root and jobs are for the scripts that source this
+# Sourced by the scripts that must work on a bare Debian 12: where the project is, how they speak, what they install.
+
+root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P)
+jobs=$(nproc)
+
+say() { printf '\n== %s\n' "$*"; }
+fail() {
+  printf '%s: %s\n' "${0##*/}" "$*" >&2
+  exit 1
+}
+
+# need_packages PACKAGE[=COMMAND]...
+# Installs the Debian packages that are missing. One whose command is there, wherever it came from, is not missing.
+need_packages() {
+  local entry package missing=() as_root=()
+  for entry; do
+    package=${entry%%=*}
+    if [[ $entry == *=* ]] && command -v "${entry#*=}" >/dev/null; then continue; fi
+    if [[ $(dpkg-query -W -f '${Status}' "$package" 2>/dev/null) == *'ok installed'* ]]; then continue; fi
+    missing+=("$package")
+  done
+  if ((${#missing[@]} == 0)); then return; fi
+  if ! command -v apt-get >/dev/null; then
+    say "No apt-get here. On Debian these packages would be installed now; going on without: ${missing[*]}"
+    return
+  fi
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null ||
+      fail "these packages are missing, and installing them takes root or sudo: ${missing[*]}"
+    as_root=(sudo)
+  fi
+  say "Installing what is missing: ${missing[*]}"
+  # Every command gets its own empty input: nothing may ask, nor eat the input of the script.
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q -o Acquire::Retries=3 </dev/null ||
+    fail "apt-get update failed: see above"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends \
+    -o Acquire::Retries=3 -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "${missing[@]}" </dev/null ||
+    fail "apt-get could not install: ${missing[*]}"
+}
+
+# configure FOLDER CMAKE_OPTION...: configures the project in a folder that belongs to the calling script.
+configure() {
+  local folder=$1
+  shift
+  # A cache from another place (the checkout was moved or copied) is worth nothing here.
+  if [[ -f $folder/CMakeCache.txt ]] &&
+    ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
+    rm -rf -- "$folder"
+  fi
+  cmake -S "$root" -B "$folder" -G Ninja "$@"
+}
