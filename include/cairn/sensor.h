@@ -88,7 +88,7 @@ CAIRN_API cairn_status cairn_cartesian_init(cairn_cartesian *cartesian, size_t s
 typedef int32_t (*cairn_custom_predict)(void *user, const cairn_pose *pose, const double landmark[3], double *z,
                                         double *jacobian_pose, double *jacobian_landmark);
 
-/** Inverse of \ref cairn_custom_predict: where the landmark lies that gave `z`.
+/** The inverse of \ref cairn_custom_predict tells where the landmark lies that gave `z`.
  *
  *  \param user             the caller's pointer
  *  \param pose             body in the map
