@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rank-k update of a covariance: the one place where an update of the filter spends its time.
+//
+// It exists because Eigen's triangular product takes heap memory beyond a size, and an update may allocate nothing.
+#pragma once
+
+#include <cstddef>
+
+namespace cairn {
+
+// Doubles of workspace that `update_triangle` needs for matrices of up to `n_max` rows and ranks up to `k_max`.
+std::size_t update_triangle_workspace(std::ptrdiff_t n_max, std::ptrdiff_t k_max);
+
+// lower(C) += A B^T. C is n x n, A and B are n x k, all column-major with their leading dimensions; the caller sees to
+// it that A B^T is symmetric (a downdate: A = -B). Nothing above the diagonal of C is read or written.
+// A and B may be one matrix; C overlaps neither. The workspace needs no alignment. Same inputs, same build, same bits.
+void update_triangle(double* C, std::ptrdiff_t ldc, std::ptrdiff_t n, const double* A, std::ptrdiff_t lda,
+                     const double* B, std::ptrdiff_t ldb, std::ptrdiff_t k, double* workspace);
+
+}  // namespace cairn
