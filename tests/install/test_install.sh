@@ -1,0 +1,172 @@
+#!/usr/bin/env bash
+# Installs a build tree to a place with spaces in its path and uses it as a stranger would.
+# test_install.sh SOURCE BUILD CMAKE GENERATOR CC CXX
+set -euo pipefail
+
+source_dir=$1 build_dir=$2 cmake=$3 generator=$4 cc=$5 cxx=$6
+here=$source_dir/tests/install
+work=$(mktemp -d "${TMPDIR:-/tmp}/cairn install.XXXXXX")
+trap 'rm -rf -- "$work"' EXIT
+prefix="$work/a prefix"
+
+pass() { printf 'ok: %s\n' "$*"; }
+skip() { printf 'skipped: %s\n' "$*"; }
+fail() {
+  printf 'FAILED: %s\n' "$*" >&2
+  exit 1
+}
+
+# same FILE FILE WHAT: both lists are equal, or the difference is told.
+same() {
+  diff -u "$1" "$2" || fail "$3"
+}
+
+"$cmake" --install "$build_dir" --prefix "$prefix" >"$work/install.log" || { cat "$work/install.log"; fail "install"; }
+# GNUInstallDirs decides where the library goes: lib, lib64, lib/x86_64-linux-gnu.
+library=$(find "$prefix" -path '*/glibc-hwcaps' -prune -o -name libcairn.so -print)
+[[ -n $library ]] || fail "libcairn.so was not installed"
+libdir=$(dirname -- "$library")
+version=$(sed -n 's/^Version: //p' "$libdir/pkgconfig/cairn.pc")
+major=${version%%.*}
+
+# What was laid down.
+for file in "$libdir/libcairn.so.$major" "$libdir/libcairn.so.$version" "$prefix/include/cairn/cairn.h" \
+  "$libdir/cmake/cairn/cairnConfig.cmake" "$libdir/cmake/cairn/cairnConfigVersion.cmake" \
+  "$prefix/share/doc/cairn/LICENSE" "$prefix/share/doc/cairn/README.md"; do
+  [[ -f $file ]] || fail "missing: ${file#"$prefix/"}"
+done
+libraries=("$libdir/libcairn.so.$version")
+hwcaps=$libdir/glibc-hwcaps/x86-64-v3
+if [[ -f $hwcaps/libcairn.so.$version ]]; then
+  [[ -f $hwcaps/libcairn.so.$major ]] || fail "the x86-64-v3 build lacks its soname"
+  [[ ! -e $hwcaps/libcairn.so ]] || fail "the x86-64-v3 build has a link to link against"
+  libraries+=("$hwcaps/libcairn.so.$version")
+fi
+if grep -rIlF -e "$source_dir/" -e "$build_dir/" "$prefix/include" "$libdir/cmake" "$libdir/pkgconfig"; then
+  fail "the files above name the source or build folder"
+fi
+pass "the tree: version $version, ${#libraries[@]} build(s) of the library"
+
+# The headers, each alone, in both languages.
+mapfile -d '' -t headers < <(cd -- "$prefix/include" && find cairn -name '*.h' -print0 | sort -z)
+strict=(-Wall -Wextra -pedantic -Werror -fsyntax-only -I"$prefix/include")
+for header in "${headers[@]}"; do
+  printf '#include <%s>\n#include <%s>\ntypedef int not_empty;\n' "$header" "$header" >"$work/alone.c"
+  "$cc" -std=c99 "${strict[@]}" "$work/alone.c" || fail "$header alone as C99"
+  "$cxx" -std=c++17 -x c++ "${strict[@]}" "$work/alone.c" || fail "$header alone as C++17"
+done
+pass "${#headers[@]} headers, each alone as C99 and as C++17"
+
+# The symbols: what the headers promise, what the committed list says, and nothing else.
+symbols() { nm -D --defined-only "$1" | awk '$2 != "A" {print $3}' | LC_ALL=C sort; }
+awk '!/^#/ && NF' "$source_dir/src/capi/symbols.txt" | LC_ALL=C sort >"$work/committed"
+for file in "${libraries[@]}"; do
+  symbols "$file" >"$work/exported"
+  same "$work/committed" "$work/exported" "exported symbols of ${file#"$prefix/"} differ from src/capi/symbols.txt"
+done
+for header in "${headers[@]}"; do
+  "$cc" -std=c99 -E -P -I"$prefix/include" "$prefix/include/$header"
+done | grep -o '\<cairn_[a-z0-9_]* *(' | tr -d ' (' | LC_ALL=C sort -u >"$work/declared"
+sed 's/@.*//' "$work/committed" >"$work/names"
+same "$work/declared" "$work/names" "the headers' functions differ from src/capi/symbols.txt"
+pass "$(wc -l <"$work/exported") symbols, as committed and as declared"
+
+# What the library needs of the machine: the C and C++ runtime.
+for file in "${libraries[@]}"; do
+  foreign=$(ldd "$file" | awk '{print $1}' |
+    grep -vE '^(linux-(vdso|gate)\.so\.1|lib(stdc\+\+|m|gcc_s|c)\.so\.[0-9]+|.*/ld-linux[^/]*)$' || true)
+  [[ -z $foreign ]] || fail "${file#"$prefix/"} needs $foreign"
+done
+pass "needs the C and C++ runtime only"
+
+# (a) C99 by pkg-config. Its output is quoted for the shell, since the path has spaces.
+export PKG_CONFIG_PATH=$libdir/pkgconfig
+pkg_config=$(command -v pkg-config || command -v pkgconf) || fail "no pkg-config"
+read_flags() { eval "flags=($("$pkg_config" "$@" cairn))"; }
+flags=()
+build_consumer() {
+  local output=$1
+  shift
+  read_flags --cflags --libs
+  "$cc" -std=c99 -O2 -Wall -Wextra -pedantic -Werror "$@" "$here/consumer/consumer.c" "${flags[@]}" -o "$output" ||
+    fail "consumer by pkg-config with flags: $*"
+}
+[[ $("$pkg_config" --modversion cairn) == "$version" ]] || fail "pkg-config --modversion"
+build_consumer "$work/by_pkgconfig"
+picked=$(LD_LIBRARY_PATH=$libdir "$work/by_pkgconfig") || fail "the consumer by pkg-config, exit $?"
+pass "C99 consumer by pkg-config: $picked"
+
+# (b) C++17 by find_package.
+by_cmake() {
+  "$cmake" -S "$here/consumer" -B "$work/by cmake" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_BUILD_TYPE=Release && "$cmake" --build "$work/by cmake"
+}
+by_cmake >"$work/cmake.log" 2>&1 || { cat "$work/cmake.log"; fail "consumer by find_package"; }
+printed=$("$work/by cmake/consumer") || fail "the consumer by find_package, exit $?"
+[[ $printed == "$picked" ]] || fail "the consumers were given different builds: $picked, $printed"
+pass "C++17 consumer by find_package: $printed"
+
+# The loader picks the x86-64-v3 build where it is installed and the machine can, and the baseline where that is masked.
+loader=$(readelf -l "$work/by_pkgconfig" | sed -n 's/.*program interpreter: \(.*\)\]/\1/p')
+on_baseline() { LD_LIBRARY_PATH=$libdir "$loader" --glibc-hwcaps-mask none "$@"; }
+if [[ $(uname -m) == x86_64 ]]; then
+  if ((${#libraries[@]} == 2)); then
+    printed=$(on_baseline "$work/by_pkgconfig") || fail "the consumer on the baseline build, exit $?"
+    [[ $printed == "$version x86-64" ]] || fail "masked, the loader gave $printed"
+    if "$loader" --help | grep -q 'x86-64-v3 (supported'; then
+      [[ $picked == "$version x86-64-v3" ]] || fail "on a v3 machine the loader gave $picked"
+      pass "the loader picks: $picked; masked: $printed"
+    else
+      [[ $picked == "$version x86-64" ]] || fail "on a machine without v3 the loader gave $picked"
+      skip "this machine has no x86-64-v3 to pick that build for"
+    fi
+  else
+    skip "no x86-64-v3 build in this tree"
+  fi
+
+  # (c) A caller compiled for wider vectors than the library: Eigen's layout depends on them, the C boundary must not.
+  for flag in avx512f avx2 avx; do
+    build_consumer "$work/wide" "-m$flag"
+    if grep -qw "$flag" /proc/cpuinfo; then
+      printed=$(on_baseline "$work/wide") || fail "a caller with -m$flag on the baseline build, exit $?"
+      pass "caller with -m$flag on the baseline build: $printed"
+    else
+      skip "running a caller with -m$flag: it compiles and links, but this CPU has no $flag"
+    fi
+  done
+  build_consumer "$work/wide" -march=native
+  printed=$(on_baseline "$work/wide") || fail "a caller with -march=native on the baseline build, exit $?"
+  pass "caller with -march=native on the baseline build: $printed"
+else
+  skip "the x86-64 part, on $(uname -m)"
+fi
+
+# A moved prefix still serves.
+mv -- "$prefix" "$work/moved away"
+prefix="$work/moved away"
+libdir=$prefix/${libdir#"$work/a prefix/"}
+export PKG_CONFIG_PATH=$libdir/pkgconfig
+build_consumer "$work/after_move"
+LD_LIBRARY_PATH=$libdir "$work/after_move" >/dev/null || fail "the consumer after a move, exit $?"
+pass "pkg-config after a move of the prefix"
+
+# The program and its manual page.
+if [[ -x $prefix/bin/cairn ]]; then
+  printed=$(env -u LD_LIBRARY_PATH "$prefix/bin/cairn" --version) || fail "cairn --version, exit $?"
+  [[ $printed == *"$version"* ]] || fail "cairn --version says $printed, not $version"
+  pass "cairn --version after a move of the prefix: $printed"
+  [[ -f $prefix/share/man/man1/cairn.1 ]] || fail "no manual page"
+  if command -v groff >/dev/null; then
+    complaints=$(groff -man -Tutf8 -ww -z "$prefix/share/man/man1/cairn.1" 2>&1)
+    [[ -z $complaints ]] || fail "manual page: $complaints"
+    pass "the manual page, by groff"
+  else
+    skip "the manual page: no groff"
+  fi
+  if command -v mandoc >/dev/null; then
+    mandoc -T lint -W warning "$prefix/share/man/man1/cairn.1" || fail "manual page, by mandoc"
+    pass "the manual page, by mandoc"
+  fi
+else
+  skip "the program: this tree was built without it"
+fi
