@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The folder of --output: what happened, in files of comma-separated values.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli/runner.hpp"
+#include "cli/summary.hpp"
+#include "io/log.hpp"
+
+namespace cairn::cli {
+
+// A file that is being written. Every failure is a UsageError that names the file.
+class OutputFile {
+ public:
+  OutputFile(const std::string& folder, const char* name);
+
+  void text(const std::string& text);
+  // The fields of a row, from the left; `end` ends it.
+  void field(const std::string& value);
+  void field(const char* value) { field(std::string(value)); }
+  void field(std::uint64_t value) { field(std::to_string(value)); }
+  void field(double value);  // empty where it is NaN
+  void fields(const double* values, std::size_t count);
+  void empty(std::size_t count);
+  void end();
+  void close();
+
+ private:
+  [[noreturn]] void fail() const;
+
+  std::string path_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  bool row_begun_ = false;
+};
+
+class CsvOutput {
+ public:
+  // Creates the folder where there is none, and the files. Throws UsageError.
+  CsvOutput(const io::Log& log, const std::string& folder);
+
+  void add(const StepResult& result, const std::optional<PoseScore>& score);
+  void finish(const cairn_filter* filter, const Summary& summary);
+
+ private:
+  void add_trajectory(const io::Step& step, const StepResult& result, const std::optional<PoseScore>& score);
+  void add_innovations(const io::Step& step, const StepResult& result);
+  void add_timing(const io::Step& step, const StepResult& result);
+  void write_landmarks(const cairn_filter* filter);
+
+  const io::Log& log_;
+  std::string folder_;
+  OutputFile trajectory_;
+  OutputFile innovations_;
+  OutputFile timing_;
+};
+
+}  // namespace cairn::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far a long run has come, on stderr: a bar on a terminal, elsewhere a line now and then.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+namespace cairn::cli {
+
+class Progress {
+ public:
+  Progress(std::size_t steps, bool quiet);
+  ~Progress();  // takes the bar away
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show(std::size_t done);
+
+ private:
+  std::size_t steps_;
+  bool quiet_;
+  bool terminal_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point last_;
+};
+
+}  // namespace cairn::cli
