@@ -57,6 +57,19 @@ for header in "${headers[@]}"; do
 done
 pass "${#headers[@]} headers, each alone as C99 and as C++17"
 
+# The lines of C that the README opens with are true.
+awk '/^```c$/ {on = 1; next} /^```$/ && on {exit} on' "$prefix/share/doc/cairn/README.md" >"$work/readme.txt"
+{
+  grep '^#include' "$work/readme.txt"
+  echo 'cairn_status readme(double dt, double left_rad_per_s, double right_rad_per_s, const double centre[3],'
+  echo '  const cairn_observation *observations, size_t count, cairn_match *matches,'
+  echo '  cairn_landmark *landmarks, size_t capacity, size_t needed) {'
+  grep -v '^#include' "$work/readme.txt"
+  echo 'return status; }'
+} >"$work/readme.c"
+"$cc" -std=c99 "${strict[@]}" -Wno-unused-but-set-parameter "$work/readme.c" || fail "the README's lines of C"
+pass "the README's lines of C compile"
+
 # The symbols: what the headers promise, what the committed list says, and nothing else.
 symbols() { nm -D --defined-only "$1" | awk '$2 != "A" {print $3}' | LC_ALL=C sort; }
 awk '!/^#/ && NF' "$source_dir/src/capi/symbols.txt" | LC_ALL=C sort >"$work/committed"
