@@ -27,7 +27,7 @@ run_and_tell() {
   local log=$1 out=$2 what=$3
   mkdir -p "$out"
   say "Running: cairn run ${log#"$root"/} --output ${out#"$root"/} --summary json"
-  "$program" run "$log" --output "$out" --summary json >"$out/summary.json"
+  "$build/bin/cairn" run "$log" --output "$out" --summary json >"$out/summary.json"
   local s=$out/summary.json
   cat <<END
 
@@ -42,12 +42,8 @@ $what
 END
 }
 
-program=$(find "$build" -type f -name cairn -perm -u+x | head -n 1)
-[[ -n $program ]] || fail "the program cairn was not built"
-generator=$(find "$build" -type f -name make_demo_log -perm -u+x | head -n 1)
-
 say "Writing the log of a drive: build/demo/two_laps.log"
-"$generator" >"$build/two_laps.log"
+"$build/examples/make_demo_log" >"$build/two_laps.log"
 run_and_tell "$build/two_laps.log" "$build/out" "Two laps of a rover over rolling ground, among boulders:"
 
 if [[ -f ${CAIRN_DATA_DIR:-}/starry_night.mat ]]; then
