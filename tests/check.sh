@@ -32,7 +32,7 @@ trap summary EXIT
 
 begin "Packages"
 need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libmatio-dev \
-  libcmocka-dev doctest-dev doxygen=doxygen shellcheck=shellcheck binutils=nm groff-base=groff
+  libcmocka-dev doctest-dev python3 doxygen=doxygen shellcheck=shellcheck binutils=nm groff-base=groff
 launcher=()
 if command -v ccache >/dev/null; then
   launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
