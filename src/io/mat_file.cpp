@@ -13,6 +13,7 @@ namespace cairn::io {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 128;
+constexpr std::size_t kMostDeflated = 1032;  // deflate shrinks by no larger factor
 constexpr std::uint32_t kMatrixElement = 14;
 constexpr std::uint32_t kCompressedElement = 15;
 
@@ -29,7 +30,9 @@ std::uint32_t read_word(const std::string& content, std::size_t offset, bool lit
 // that was cut short without a word, as far as it goes.
 void check_chain(const std::string& path, const std::string& content) {
   if (content.size() < kHeaderBytes) throw LogError(path + ": the MATLAB file is cut short within its header");
-  const bool little_endian = content[126] == 'I';
+  const std::string order = content.substr(126, 2);  // how the writer's machine stores the letters MI
+  const bool little_endian = order == "IM";
+  if (!little_endian && order != "MI") throw LogError(path + ": a MATLAB header, but no byte order at its end");
   const std::uint32_t version = read_word(content, 124, little_endian) >> (little_endian ? 0 : 16) & 0xffff;
   if (version != 0x0100) throw LogError(path + ": not MATLAB version 5 (save it with the option -v7)");
   for (std::size_t offset = kHeaderBytes; offset < content.size();) {
@@ -87,7 +90,7 @@ bool copy_numbers(const matvar_t& variable, std::vector<double>& values) {
 
 }  // namespace
 
-MatFile::MatFile(const std::string& path, const std::string& content) : path_(path) {
+MatFile::MatFile(const std::string& path, const std::string& content) : path_(path), content_size_(content.size()) {
   check_chain(path, content);
   Mat_LogInitFunc("cairn", &drop_message);
   file_ = Mat_Open(path.c_str(), MAT_ACC_RDONLY);
@@ -106,21 +109,28 @@ std::optional<MatArray> MatFile::find(const char* name) const {
   const std::unique_ptr<matvar_t, void (*)(matvar_t*)> info(Mat_VarReadInfo(file_, name), &Mat_VarFree);
   if (!info) return std::nullopt;
   if (info->isComplex != 0 || info->rank < 2) fail(name, "not a real array of numbers");
+  MatArray array;
+  array.dimensions.assign(info->dims, info->dims + info->rank);
+  const std::size_t size = checked_size(name, array.dimensions, info->compression != MAT_COMPRESSION_NONE);
   const std::unique_ptr<matvar_t, void (*)(matvar_t*)> variable(Mat_VarRead(file_, name), &Mat_VarFree);
   if (!variable) fail(name, "its data can't be read");
-  MatArray array;
-  std::size_t size = 1;
-  for (int i = 0; i < variable->rank; ++i) {
-    array.dimensions.push_back(variable->dims[i]);
-    // What libmatio has read bounds every honest product, so that a forged one can't wrap around.
-    if (variable->dims[i] != 0 && size > variable->nbytes / variable->dims[i]) fail(name, "its size and data differ");
-    size *= variable->dims[i];
-  }
   array.values.resize(size);
   if (size > 0 && (variable->data == nullptr || !copy_numbers(*variable, array.values))) {
     fail(name, "not a full array of real numbers");
   }
   return array;
+}
+
+// libmatio takes the memory that the dimensions ask for before it looks for the data: a forged size must not come so
+// far.
+std::size_t MatFile::checked_size(const char* name, const std::vector<std::size_t>& dimensions, bool compressed) const {
+  const std::size_t most = compressed ? content_size_ * kMostDeflated : content_size_;
+  std::size_t size = 1;
+  for (const std::size_t dimension : dimensions) {
+    if (dimension != 0 && size > most / dimension) fail(name, "its size is more than the file can hold");
+    size *= dimension;
+  }
+  return size;
 }
 
 MatArray MatFile::require(const char* name) const {

@@ -42,9 +42,11 @@ class MatFile {
   [[noreturn]] void fail(const char* variable, const std::string& cause) const;
 
  private:
+  std::size_t checked_size(const char* name, const std::vector<std::size_t>& dimensions, bool compressed) const;
   void expect_rows(const char* name, const MatArray& array, std::size_t rows) const;
 
   std::string path_;
+  std::size_t content_size_;
   _mat_t* file_ = nullptr;
 };
 

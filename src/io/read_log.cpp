@@ -12,8 +12,6 @@
 namespace cairn::io {
 namespace {
 
-constexpr std::size_t kMatHeaderBytes = 128;
-
 std::string read_file(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) throw LogError(path + ": " + std::strerror(errno));
@@ -29,12 +27,9 @@ std::string read_file(const std::string& path) {
   return content;
 }
 
-// The header of MATLAB's binary files: 116 bytes of text, 8 of offset, a version and the writer's byte order.
-bool has_mat_header(const std::string& content) {
-  if (content.compare(0, 7, "MATLAB ") != 0) return false;
-  if (content.size() < kMatHeaderBytes) return true;  // one cut short: the reader says so
-  const std::string order = content.substr(126, 2);
-  return order == "IM" || order == "MI";
+// MATLAB's binary files begin with a text that says so; whether the rest of the header is whole, the reader finds out.
+bool is_mat_file(const std::string& content) {
+  return content.compare(0, 7, "MATLAB ") == 0;
 }
 
 }  // namespace
@@ -42,7 +37,7 @@ bool has_mat_header(const std::string& content) {
 Log read_log(const std::string& path, const NoiseOverride& noise) {
   const std::string content = read_file(path);
   if (content.empty()) throw LogError(path + ":1: the file is empty");
-  if (has_mat_header(content)) return read_stars_log(path, content, noise);
+  if (is_mat_file(content)) return read_stars_log(path, content, noise);
   return read_neutral_log(path, content);
 }
 
