@@ -99,7 +99,7 @@ struct Tile {
       CAIRN_UNROLL for (Index q = 0; q < kColumns; ++q) {
         Vector y;
         if constexpr (kSpread == 1) {
-          y = b[q] - Vector{};
+          y = b[q] - Vector{};  // in all lanes
         } else {
           y = load(b + q * kSpread);
         }

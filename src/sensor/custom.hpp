@@ -30,6 +30,7 @@ class CustomSensor final : public Sensor {
   explicit CustomSensor(const CustomParameters& parameters);
 
   int rows() const override { return parameters_.rows; }
+  bool relative() const override { return false; }
   bool places() const { return parameters_.place != nullptr; }
   const Matrix3& noise() const override { return noise_; }
   bool predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction& out) const override;

@@ -32,6 +32,8 @@ class Sensor {
   virtual ~Sensor() = default;
 
   virtual int rows() const { return 3; }
+  // Pose and landmark enter as the body point y = R^T (l - p) alone.
+  virtual bool relative() const { return true; }
   // Default noise of an observation; the upper left rows() x rows() block counts.
   virtual const Matrix3& noise() const = 0;
   virtual MountNoise mount_noise_mode() const { return MountNoise::none; }

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Life, sensors, motion and queries of a filter. Its observations: filter_update.cpp.
+#include "capi/convert.hpp"
+#include "capi/filter_handle.hpp"
+#include "core/chi_square.hpp"
+
+using namespace cairn;
+using namespace cairn::capi;
+
+namespace cairn {
+namespace capi {
+namespace {
+
+cairn_filter_options default_options() {
+  const FilterOptions d;
+  cairn_filter_options options = {};
+  options.struct_size = sizeof options;
+  options.error = CAIRN_ERROR_INVARIANT;
+  options.max_landmarks = static_cast<std::uint32_t>(d.max_landmarks);
+  options.max_observations = static_cast<std::uint32_t>(d.max_observations);
+  options.max_sensors = static_cast<std::uint32_t>(d.max_sensors);
+  options.iterations = static_cast<std::uint32_t>(d.iterations);
+  options.iteration_tolerance = d.iteration_tolerance;
+  options.gate_probability = d.gate_probability;
+  options.batch_gate_probability = d.batch_gate_probability;
+  write_pose(d.initial_pose, &options.initial_pose);
+  return options;
+}
+
+}  // namespace
+
+FilterOptions read_filter_options(const cairn_filter_options* user) {
+  const cairn_filter_options o = read_options(user, default_options(), "options");
+  if (o.error != CAIRN_ERROR_INVARIANT && o.error != CAIRN_ERROR_STANDARD)
+    throw Error(ErrorCode::argument, "options.error is %d, neither CAIRN_ERROR_INVARIANT nor CAIRN_ERROR_STANDARD",
+                o.error);
+  check_range(o.max_landmarks, 1, 30000, "options.max_landmarks");
+  check_range(o.max_observations, 1, 4096, "options.max_observations");
+  check_range(o.max_sensors, 1, 256, "options.max_sensors");
+  check_range(o.iterations, 1, 50, "options.iterations");
+  check_positive(o.iteration_tolerance, "options.iteration_tolerance");
+  check_probability(o.gate_probability, "options.gate_probability");
+  check_probability(o.batch_gate_probability, "options.batch_gate_probability");
+  check_covariance(o.initial_covariance, 6, true, "options.initial_covariance");
+  FilterOptions options;
+  options.error = o.error == CAIRN_ERROR_STANDARD ? ErrorKind::standard : ErrorKind::invariant;
+  options.max_landmarks = o.max_landmarks;
+  options.max_observations = o.max_observations;
+  options.max_sensors = o.max_sensors;
+  options.iterations = static_cast<int>(o.iterations);
+  options.iteration_tolerance = o.iteration_tolerance;
+  options.gate_probability = o.gate_probability;
+  options.batch_gate_probability = o.batch_gate_probability;
+  options.initial_pose = read_pose(&o.initial_pose, "options.initial_pose");
+  options.initial_covariance = Eigen::Map<const Matrix6>(o.initial_covariance);
+  return options;
+}
+
+namespace {
+
+template <class AnySensor>
+void add_sensor(cairn_filter* filter, const AnySensor& sensor, std::int32_t* number) {
+  check_pointer(number, "sensor");
+  *number = filter->filter.add(sensor);
+}
+
+}  // namespace
+}  // namespace capi
+}  // namespace cairn
+
+extern "C" {
+
+cairn_status cairn_filter_options_init(cairn_filter_options* options, size_t struct_size) {
+  return guard([&] { init_options(options, struct_size, default_options(), "options"); });
+}
+
+cairn_status cairn_filter_required_bytes(const cairn_filter_options* options, size_t* bytes) {
+  return guard([&] {
+    const FilterOptions checked = read_filter_options(options);
+    check_pointer(bytes, "bytes");
+    *bytes = sizeof(cairn_filter) + Filter::required_bytes(checked) + Arena::kAlignment;
+  });
+}
+
+cairn_status cairn_filter_create(const cairn_filter_options* options, cairn_filter** filter) {
+  return guard([&] {
+    const FilterOptions checked = read_filter_options(options);
+    check_pointer(filter, "filter");
+    *filter = new cairn_filter(Filter::required_bytes(checked), checked);
+  });
+}
+
+void cairn_filter_destroy(cairn_filter* filter) { delete filter; }
+
+cairn_status cairn_filter_set_log(cairn_filter* filter, cairn_log log, void* payload) {
+  return guard([&] { read_filter(filter).set_log(log, payload); });
+}
+
+cairn_status cairn_filter_add_stereo_head(cairn_filter* filter, const cairn_stereo_head* head, int32_t* sensor) {
+  return guard([&] {
+    read_filter(filter);
+    add_sensor(filter, read_stereo_head(head), sensor);
+  });
+}
+
+cairn_status cairn_filter_add_stereo_camera(cairn_filter* filter, const cairn_stereo_camera* camera, int32_t* sensor) {
+  return guard([&] {
+    read_filter(filter);
+    add_sensor(filter, read_stereo_camera(camera), sensor);
+  });
+}
+
+cairn_status cairn_filter_add_cartesian(cairn_filter* filter, const cairn_cartesian* cartesian, int32_t* sensor) {
+  return guard([&] {
+    read_filter(filter);
+    add_sensor(filter, read_cartesian(cartesian), sensor);
+  });
+}
+
+cairn_status cairn_filter_add_custom(cairn_filter* filter, const cairn_custom* custom, int32_t* sensor) {
+  return guard([&] {
+    read_filter(filter);
+    add_sensor(filter, read_custom(custom), sensor);
+  });
+}
+
+cairn_status cairn_filter_point_head(cairn_filter* filter, int32_t sensor, double pan, double stick) {
+  return guard([&] {
+    Filter& f = read_filter(filter);
+    check_finite(pan, "pan");
+    check_finite(stick, "stick");
+    f.point_head(sensor, pan, stick);
+  });
+}
+
+cairn_status cairn_filter_set_wheels(cairn_filter* filter, const cairn_wheels* wheels) {
+  return guard([&] { read_filter(filter).set_wheels(read_wheels(wheels)); });
+}
+
+cairn_status cairn_filter_set_twist_noise(cairn_filter* filter, const cairn_twist_noise* noise) {
+  return guard([&] { read_filter(filter).set_twist_noise(read_twist_noise(noise)); });
+}
+
+cairn_status cairn_filter_predict_wheels(cairn_filter* filter, double dt, double left_rad_per_s,
+                                         double right_rad_per_s) {
+  return guard([&] {
+    Filter& f = read_filter(filter);
+    check_positive(dt, "dt");
+    check_finite(left_rad_per_s, "left_rad_per_s");
+    check_finite(right_rad_per_s, "right_rad_per_s");
+    f.predict_wheels(dt, left_rad_per_s, right_rad_per_s);
+  });
+}
+
+cairn_status cairn_filter_predict_twist(cairn_filter* filter, double dt, const double velocity[3],
+                                        const double rate[3]) {
+  return guard([&] {
+    Filter& f = read_filter(filter);
+    check_positive(dt, "dt");
+    check_pointer(velocity, "velocity");
+    check_finite(velocity, 3, "velocity");
+    check_pointer(rate, "rate");
+    check_finite(rate, 3, "rate");
+    f.predict_twist(dt, Vector3(velocity), Vector3(rate));
+  });
+}
+
+cairn_status cairn_filter_predict_increment(cairn_filter* filter, const cairn_pose* T_before_after,
+                                            const double covariance[36]) {
+  return guard([&] {
+    Filter& f = read_filter(filter);
+    Increment<SE3> increment;
+    increment.T_before_after = read_pose(T_before_after, "T_before_after");
+    check_pointer(covariance, "covariance");
+    check_covariance(covariance, 6, true, "covariance");
+    increment.covariance = Eigen::Map<const Matrix6>(covariance);
+    f.propagate(increment);
+  });
+}
+
+cairn_status cairn_filter_remove_landmark(cairn_filter* filter, uint64_t id) {
+  return guard([&] { read_filter(filter).remove_landmark(id); });
+}
+
+cairn_status cairn_filter_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]) {
+  return guard([&] {
+    const Filter& f = read_filter(filter);
+    if (covariance != nullptr) write_square<6>(f.pose_covariance(), covariance);
+    if (pose != nullptr) write_pose(f.pose(), pose);
+  });
+}
+
+cairn_status cairn_filter_joint_covariance(const cairn_filter* filter, const uint64_t* ids, size_t count,
+                                           double* matrix, size_t capacity, size_t* needed) {
+  return guard([&] {
+    const Filter& f = read_filter(filter);
+    const std::vector<std::size_t> indices = read_ids(f, ids, count);
+    const std::size_t size = 6 + 3 * count;
+    if (check_room(matrix, capacity, size * size, needed, "matrix"))
+      f.pose_joint_covariance(indices.data(), count, matrix);
+  });
+}
+
+const cairn_map* cairn_filter_map(const cairn_filter* filter) { return filter != nullptr ? &filter->map : nullptr; }
+
+cairn_status cairn_filter_pose_nees(const cairn_filter* filter, const cairn_pose* truth, double* nees) {
+  return guard([&] {
+    const Filter& f = read_filter(filter);
+    const SE3 pose = read_pose(truth, "truth");
+    check_pointer(nees, "nees");
+    const double value = f.pose_nees(pose);
+    if (!(value >= 0.0))
+      throw Error(ErrorCode::numerical, "pose covariance is singular: part of the pose is known exactly");
+    *nees = value;
+  });
+}
+
+cairn_status cairn_filter_audit(cairn_filter* filter, double* min_pivot) {
+  return guard([&] {
+    Filter& f = read_filter(filter);
+    check_pointer(min_pivot, "min_pivot");
+    *min_pivot = f.smallest_pivot();
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Observations that a filter takes in.
+#include "capi/filter_handle.hpp"
+#include "core/chi_square.hpp"
+
+using namespace cairn;
+using namespace cairn::capi;
+
+namespace cairn {
+namespace capi {
+namespace {
+
+void write_match(const Match& match, cairn_match* out) {
+  out->landmark = match.landmark;
+  out->result = match.decision == Decision::matched  ? CAIRN_MATCHED
+                : match.decision == Decision::placed ? CAIRN_NEW
+                                                     : CAIRN_REJECTED;
+  switch (match.reason) {
+    case Reason::none: out->reason = CAIRN_REASON_NONE; break;
+    case Reason::gate: out->reason = CAIRN_REASON_GATE; break;
+    case Reason::batch_gate: out->reason = CAIRN_REASON_BATCH_GATE; break;
+    case Reason::no_image: out->reason = CAIRN_REASON_NO_IMAGE; break;
+    case Reason::no_place: out->reason = CAIRN_REASON_NO_PLACE; break;
+  }
+  out->distance = match.distance;
+  out->threshold = match.threshold;
+}
+
+void write_matches(const Filter& filter, std::size_t count, cairn_match* matches) {
+  if (matches == nullptr) return;
+  for (std::size_t i = 0; i < count; ++i) write_match(filter.decisions()[i], matches + i);
+}
+
+void read_observation(const cairn_observation& from, std::size_t number, std::size_t rows, Observation& to) {
+  char name[64];
+  if (from.id == CAIRN_ID_NONE)
+    throw Error(ErrorCode::argument, "observations[%zu].id is CAIRN_ID_NONE, which no landmark has", number);
+  std::snprintf(name, sizeof name, "observations[%zu].z", number);
+  check_finite(from.z, rows, name);
+  std::snprintf(name, sizeof name, "observations[%zu].covariance", number);
+  check_finite(from.covariance, rows * rows, name);
+  bool given = false;
+  for (std::size_t i = 0; i < rows * rows; ++i) given = given || from.covariance[i] != 0.0;
+  if (given) check_covariance(from.covariance, rows, false, name);
+  to.id = from.id;
+  std::fill_n(to.z, 3, 0.0);
+  std::copy_n(from.z, rows, to.z);
+  std::fill_n(to.covariance, 9, 0.0);
+  std::copy_n(from.covariance, rows * rows, to.covariance);
+}
+
+}  // namespace
+}  // namespace capi
+}  // namespace cairn
+
+extern "C" {
+
+cairn_status cairn_filter_update(cairn_filter* filter, int32_t sensor, const cairn_observation* observations,
+                                 size_t count, cairn_match* matches) {
+  return guard([&] {
+    Filter& f = read_filter(filter);
+    const std::size_t rows = static_cast<std::size_t>(f.sensor_rows(sensor));
+    if (count > 0) check_pointer(observations, "observations");
+    const std::size_t most = static_cast<std::size_t>(f.options().max_observations);
+    if (count > most)
+      throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu", count, most);
+    for (std::size_t i = 0; i < count; ++i) read_observation(observations[i], i, rows, f.staging()[i]);
+    f.update(sensor, static_cast<Index>(count));
+    write_matches(f, count, matches);
+  });
+}
+
+cairn_status cairn_filter_update_linear(cairn_filter* filter, const double* residual, size_t rows,
+                                        const double* covariance, const double* jacobian_pose,
+                                        const uint64_t* landmarks, size_t count, const double* jacobian_landmarks,
+                                        cairn_match* match) {
+  return guard([&] {
+    Filter& f = read_filter(filter);
+    check_pointer(residual, "residual");
+    const std::size_t most = static_cast<std::size_t>(f.options().max_observations);
+    if (rows == 0) throw Error(ErrorCode::argument, "rows is 0; an update has at least one");
+    if (rows > 3 * most)
+      throw Error(ErrorCode::capacity, "rows: %zu, and 3 max_observations is %zu", rows, 3 * most);
+    if (count > most)
+      throw Error(ErrorCode::capacity, "count: %zu landmarks, and max_observations is %zu", count, most);
+    check_finite(residual, rows, "residual");
+    check_pointer(covariance, "covariance");
+    check_covariance(covariance, rows, false, "covariance", f.workspace());
+    if (jacobian_pose != nullptr) check_finite(jacobian_pose, 6 * rows, "jacobian_pose");
+    if (count > 0) {
+      check_pointer(landmarks, "landmarks");
+      check_pointer(jacobian_landmarks, "jacobian_landmarks");
+      check_finite(jacobian_landmarks, 3 * count * rows, "jacobian_landmarks");
+    } else if (jacobian_pose == nullptr) {
+      throw Error(ErrorCode::argument, "jacobian_pose is NULL and count 0: the rows depend on nothing");
+    }
+    f.update_linear({residual, static_cast<Index>(rows), covariance, jacobian_pose, landmarks,
+                     static_cast<Index>(count), jacobian_landmarks});
+    write_matches(f, 1, match);
+  });
+}
+
+cairn_status cairn_filter_update_position(cairn_filter* filter, const double position[3], const double covariance[9],
+                                          const double lever_arm[3], cairn_match* match) {
+  return guard([&] {
+    Filter& f = read_filter(filter);
+    check_pointer(position, "position");
+    check_finite(position, 3, "position");
+    check_pointer(covariance, "covariance");
+    check_covariance(covariance, 3, false, "covariance");
+    if (lever_arm != nullptr) check_finite(lever_arm, 3, "lever_arm");
+    f.update_position(Vector3(position), Matrix3(Eigen::Map<const Matrix3>(covariance)),
+                      lever_arm != nullptr ? Vector3(lever_arm) : Vector3(Vector3::Zero()));
+    write_matches(f, 1, match);
+  });
+}
+
+cairn_status cairn_filter_update_attitude(cairn_filter* filter, const double quaternion[4], const double covariance[9],
+                                          cairn_match* match) {
+  return guard([&] {
+    Filter& f = read_filter(filter);
+    const SO3 attitude = read_quaternion(quaternion, "quaternion");
+    check_pointer(covariance, "covariance");
+    check_covariance(covariance, 3, false, "covariance");
+    f.update_attitude(attitude, Matrix3(Eigen::Map<const Matrix3>(covariance)));
+    write_matches(f, 1, match);
+  });
+}
+
+cairn_status cairn_filter_update_heading(cairn_filter* filter, double heading, double sigma, cairn_match* match) {
+  return guard([&] {
+    Filter& f = read_filter(filter);
+    check_finite(heading, "heading");
+    check_positive(sigma, "sigma");
+    check_positive(sigma * sigma, "square of sigma");
+    f.update_heading(heading, sigma);
+    write_matches(f, 1, match);
+  });
+}
+
+cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_report* report) {
+  return guard([&] {
+    const Filter& f = read_filter(filter);
+    check_pointer(report, "report");
+    std::uint32_t size = 0;
+    std::memcpy(&size, report, sizeof size);
+    check_struct_size(size, "report");
+    const UpdateReport& r = f.report();
+    cairn_update_report out = {};
+    out.struct_size = size;
+    out.matched = static_cast<std::uint32_t>(r.matched);
+    out.placed = static_cast<std::uint32_t>(r.placed);
+    out.rejected = static_cast<std::uint32_t>(r.rejected);
+    out.rows = static_cast<std::uint32_t>(r.rows);
+    out.iterations = static_cast<std::uint32_t>(r.iterations);
+    out.nis = r.nis;
+    if (r.rows > 0) {
+      out.nis_lower = chi_square_quantile(static_cast<double>(r.rows), 0.025);
+      out.nis_upper = chi_square_quantile(static_cast<double>(r.rows), 0.975);
+    }
+    std::memcpy(static_cast<void*>(report), &out, std::min<std::size_t>(size, sizeof out));
+  });
+}
+
+}  // extern "C"

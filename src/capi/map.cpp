@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <set>
+
+#include "capi/guard.hpp"
+
+using namespace cairn;
+using namespace cairn::capi;
+
+namespace cairn {
+namespace capi {
+
+std::vector<std::size_t> read_ids(const Landmarks& map, const std::uint64_t* ids, std::size_t count) {
+  if (count > 0) check_pointer(ids, "ids");
+  std::vector<std::size_t> indices(count);
+  std::set<std::uint64_t> seen;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!map.find(ids[i], indices[i]))
+      throw Error(ErrorCode::not_found, "ids[%zu]: the map has no landmark %llu", i,
+                  static_cast<unsigned long long>(ids[i]));
+    if (!seen.insert(ids[i]).second)
+      throw Error(ErrorCode::argument, "ids[%zu]: landmark %llu comes twice", i, static_cast<unsigned long long>(ids[i]));
+  }
+  return indices;
+}
+
+namespace {
+
+const Landmarks& read_map(const cairn_map* map) {
+  check_pointer(map, "map");
+  return *map->landmarks;
+}
+
+cairn_landmark landmark_at(const Landmarks& map, std::size_t index) {
+  cairn_landmark landmark;
+  landmark.id = map.id(index);
+  landmark.observations = map.observations(index);
+  const Vector3 position = map.position(index);
+  std::copy_n(position.data(), 3, landmark.position);
+  write_square<3>(map.covariance(index), landmark.covariance);
+  return landmark;
+}
+
+void write_landmarks(const Landmarks& map, const std::vector<std::size_t>& indices, cairn_landmark* landmarks,
+                     std::size_t capacity, std::size_t* needed) {
+  if (!check_room(landmarks, capacity, indices.size(), needed, "landmarks")) return;
+  for (std::size_t i = 0; i < indices.size(); ++i) landmarks[i] = landmark_at(map, indices[i]);
+}
+
+}  // namespace
+}  // namespace capi
+}  // namespace cairn
+
+extern "C" {
+
+cairn_status cairn_map_size(const cairn_map* map, size_t* count) {
+  return guard([&] {
+    const Landmarks& source = read_map(map);
+    check_pointer(count, "count");
+    *count = source.size();
+  });
+}
+
+cairn_status cairn_map_landmark(const cairn_map* map, uint64_t id, cairn_landmark* landmark) {
+  return guard([&] {
+    const Landmarks& source = read_map(map);
+    check_pointer(landmark, "landmark");
+    std::size_t index = 0;
+    if (!source.find(id, index))
+      throw Error(ErrorCode::not_found, "id: the map has no landmark %llu", static_cast<unsigned long long>(id));
+    *landmark = landmark_at(source, index);
+  });
+}
+
+cairn_status cairn_map_landmarks(const cairn_map* map, cairn_landmark* landmarks, size_t capacity, size_t* needed) {
+  return guard([&] {
+    const Landmarks& source = read_map(map);
+    write_landmarks(source, all_by_id(source), landmarks, capacity, needed);
+  });
+}
+
+cairn_status cairn_map_within(const cairn_map* map, const double centre[3], double radius, cairn_landmark* landmarks,
+                              size_t capacity, size_t* needed) {
+  return guard([&] {
+    const Landmarks& source = read_map(map);
+    check_pointer(centre, "centre");
+    check_finite(centre, 3, "centre");
+    check_not_negative(radius, "radius");
+    write_landmarks(source, within(source, Vector3(centre), radius), landmarks, capacity, needed);
+  });
+}
+
+cairn_status cairn_map_nearest(const cairn_map* map, const double point[3], size_t count, cairn_landmark* landmarks,
+                               size_t capacity, size_t* needed) {
+  return guard([&] {
+    const Landmarks& source = read_map(map);
+    check_pointer(point, "point");
+    check_finite(point, 3, "point");
+    write_landmarks(source, nearest(source, Vector3(point), count), landmarks, capacity, needed);
+  });
+}
+
+cairn_status cairn_map_in_box(const cairn_map* map, const double lower[3], const double upper[3],
+                              cairn_landmark* landmarks, size_t capacity, size_t* needed) {
+  return guard([&] {
+    const Landmarks& source = read_map(map);
+    check_pointer(lower, "lower");
+    check_pointer(upper, "upper");
+    check_finite(lower, 3, "lower");
+    check_finite(upper, 3, "upper");
+    for (int i = 0; i < 3; ++i)
+      if (lower[i] > upper[i])
+        throw Error(ErrorCode::argument, "lower[%d] = %g lies above upper[%d] = %g", i, lower[i], i, upper[i]);
+    write_landmarks(source, in_box(source, Vector3(lower), Vector3(upper)), landmarks, capacity, needed);
+  });
+}
+
+cairn_status cairn_map_joint_covariance(const cairn_map* map, const uint64_t* ids, size_t count, double* matrix,
+                                        size_t capacity, size_t* needed) {
+  return guard([&] {
+    const Landmarks& source = read_map(map);
+    const std::vector<std::size_t> indices = read_ids(source, ids, count);
+    if (check_room(matrix, capacity, 9 * count * count, needed, "matrix"))
+      source.joint_covariance(indices.data(), count, matrix);
+  });
+}
+
+}  // extern "C"

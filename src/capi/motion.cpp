@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion/motion.hpp"
+
+#include "capi/convert.hpp"
+#include "capi/guard.hpp"
+
+namespace cairn {
+namespace capi {
+namespace {
+
+cairn_wheels default_wheels() {
+  const Wheels d;
+  cairn_wheels wheels = {};
+  wheels.struct_size = sizeof wheels;
+  wheels.yaw_sign = CAIRN_YAW_RIGHT_MINUS_LEFT;
+  wheels.radius = d.radius;
+  wheels.track = d.track;
+  wheels.rate_sigma = d.rate_sigma;
+  wheels.slip_sigma = d.slip_sigma;
+  wheels.lateral_sigma = d.lateral_sigma;
+  wheels.vertical_sigma = d.vertical_sigma;
+  wheels.roll_rate_sigma = d.roll_rate_sigma;
+  wheels.pitch_rate_sigma = d.pitch_rate_sigma;
+  return wheels;
+}
+
+cairn_twist_noise default_twist_noise() {
+  const TwistNoise d;
+  cairn_twist_noise noise = {};
+  noise.struct_size = sizeof noise;
+  std::copy_n(d.velocity_sigma.data(), 3, noise.velocity_sigma);
+  std::copy_n(d.rate_sigma.data(), 3, noise.rate_sigma);
+  return noise;
+}
+
+}  // namespace
+
+Wheels read_wheels(const cairn_wheels* user) {
+  const cairn_wheels w = read_options(user, default_wheels(), "wheels");
+  if (w.yaw_sign != CAIRN_YAW_RIGHT_MINUS_LEFT && w.yaw_sign != CAIRN_YAW_LEFT_MINUS_RIGHT)
+    throw Error(ErrorCode::argument, "wheels.yaw_sign is %d, none of the CAIRN_YAW_ constants", w.yaw_sign);
+  check_positive(w.radius, "wheels.radius");
+  check_positive(w.track, "wheels.track");
+  check_not_negative(w.rate_sigma, "wheels.rate_sigma");
+  check_not_negative(w.slip_sigma, "wheels.slip_sigma");
+  check_not_negative(w.lateral_sigma, "wheels.lateral_sigma");
+  check_not_negative(w.vertical_sigma, "wheels.vertical_sigma");
+  check_not_negative(w.roll_rate_sigma, "wheels.roll_rate_sigma");
+  check_not_negative(w.pitch_rate_sigma, "wheels.pitch_rate_sigma");
+  return {w.yaw_sign == CAIRN_YAW_LEFT_MINUS_RIGHT, w.radius,        w.track,
+          w.rate_sigma,                             w.slip_sigma,    w.lateral_sigma,
+          w.vertical_sigma,                         w.roll_rate_sigma, w.pitch_rate_sigma};
+}
+
+TwistNoise read_twist_noise(const cairn_twist_noise* user) {
+  const cairn_twist_noise n = read_options(user, default_twist_noise(), "noise");
+  check_not_negative(n.velocity_sigma, 3, "noise.velocity_sigma");
+  check_not_negative(n.rate_sigma, 3, "noise.rate_sigma");
+  return {Vector3(n.velocity_sigma), Vector3(n.rate_sigma)};
+}
+
+}  // namespace capi
+}  // namespace cairn
+
+using namespace cairn::capi;
+
+extern "C" {
+
+cairn_status cairn_wheels_init(cairn_wheels* wheels, size_t struct_size) {
+  return guard([&] { init_options(wheels, struct_size, default_wheels(), "wheels"); });
+}
+
+cairn_status cairn_twist_noise_init(cairn_twist_noise* noise, size_t struct_size) {
+  return guard([&] { init_options(noise, struct_size, default_twist_noise(), "noise"); });
+}
+
+}  // extern "C"

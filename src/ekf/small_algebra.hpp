@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Dense algebra on column-major blocks that the caller owns. Eigen's own factorisations take temporaries beyond a size;
+// an update may take none.
+#pragma once
+
+#include <cstddef>
+
+namespace cairn {
+
+using Index = std::ptrdiff_t;
+
+// Lower Cholesky factor of the m x m matrix in place; reads and writes the lower triangle only.
+// False, with the matrix spoilt, where a pivot is not positive or not finite.
+bool cholesky(double* S, Index ld, Index m);
+
+// x <- L^-1 x and x <- L^-T x.
+void solve_lower(const double* L, Index ld, Index m, double* x);
+void solve_lower_transposed(const double* L, Index ld, Index m, double* x);
+
+// W <- W L^-T for the n x m matrix W. `workspace` holds solve_workspace(m) doubles.
+void solve_right_transposed(const double* L, Index ld, Index m, double* W, Index ldw, Index n, double* workspace);
+std::size_t solve_workspace(Index m);
+
+// Full symmetric inverse (both triangles) of L L^T into `inverse`, m x m.
+void inverse_from_cholesky(const double* L, Index ld, Index m, double* inverse, Index ld_inverse);
+
+}  // namespace cairn

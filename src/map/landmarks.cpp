@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/landmarks.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace cairn {
+namespace {
+
+struct Entry {
+  double distance;
+  std::uint64_t id;
+  std::size_t index;
+  bool operator<(const Entry& other) const {
+    return distance != other.distance ? distance < other.distance : id < other.id;
+  }
+};
+
+std::vector<Entry> entries_within(const Landmarks& map, const Vector3& centre, double radius) {
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const double distance = (map.position(i) - centre).norm();
+    if (distance <= radius) entries.push_back({distance, map.id(i), i});
+  }
+  return entries;
+}
+
+std::vector<std::size_t> indices_of(const std::vector<Entry>& entries) {
+  std::vector<std::size_t> indices;
+  indices.reserve(entries.size());
+  for (const Entry& entry : entries) indices.push_back(entry.index);
+  return indices;
+}
+
+}  // namespace
+
+std::vector<std::size_t> all_by_id(const Landmarks& map) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  return in_box(map, Vector3::Constant(-infinity), Vector3::Constant(infinity));
+}
+
+std::vector<std::size_t> within(const Landmarks& map, const Vector3& centre, double radius) {
+  std::vector<Entry> entries = entries_within(map, centre, radius);
+  std::sort(entries.begin(), entries.end());
+  return indices_of(entries);
+}
+
+std::vector<std::size_t> nearest(const Landmarks& map, const Vector3& point, std::size_t count) {
+  std::vector<Entry> entries = entries_within(map, point, std::numeric_limits<double>::infinity());
+  count = std::min(count, entries.size());
+  std::partial_sort(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(count), entries.end());
+  entries.resize(count);
+  return indices_of(entries);
+}
+
+std::vector<std::size_t> in_box(const Landmarks& map, const Vector3& lower, const Vector3& upper) {
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const Vector3 p = map.position(i);
+    if ((p.array() >= lower.array()).all() && (p.array() <= upper.array()).all()) entries.push_back({0.0, map.id(i), i});
+  }
+  std::sort(entries.begin(), entries.end());
+  return indices_of(entries);
+}
+
+}  // namespace cairn

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every map can tell of its landmarks, whoever holds them; and the queries that follow from it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/types.hpp"
+
+namespace cairn {
+
+class Landmarks {
+ public:
+  virtual ~Landmarks() = default;
+  virtual std::size_t size() const = 0;
+  // `index` counts from 0 to size() - 1 and holds until the map changes.
+  virtual std::uint64_t id(std::size_t index) const = 0;
+  virtual std::uint64_t observations(std::size_t index) const = 0;
+  virtual Vector3 position(std::size_t index) const = 0;
+  virtual Matrix3 covariance(std::size_t index) const = 0;
+  // The index of an id; false where there is none.
+  virtual bool find(std::uint64_t id, std::size_t& index) const = 0;
+  // Joint covariance of `count` positions, 3 count x 3 count.
+  virtual void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const = 0;
+};
+
+// Indices of all landmarks by ascending id.
+std::vector<std::size_t> all_by_id(const Landmarks& map);
+// Indices of those within `radius` of `centre`, nearest first, ties by id.
+std::vector<std::size_t> within(const Landmarks& map, const Vector3& centre, double radius);
+// Indices of the `count` nearest, nearest first, ties by id.
+std::vector<std::size_t> nearest(const Landmarks& map, const Vector3& point, std::size_t count);
+// Indices of those in a closed box, by ascending id.
+std::vector<std::size_t> in_box(const Landmarks& map, const Vector3& lower, const Vector3& upper);
+
+}  // namespace cairn

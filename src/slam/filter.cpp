@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Creation, sensors, motion and queries of one vehicle's filter.
+#include "slam/filter.hpp"
+
+#include <cstdarg>
+#include <cstdio>
+#include <new>
+
+#include "core/chi_square.hpp"
+#include "core/error.hpp"
+
+namespace cairn {
+
+Filter::Filter(Arena& arena, const FilterOptions& options)
+    : options_(options),
+      ekf_(arena, options.error, {options.max_landmarks, options.max_observations}),
+      slots_(arena, static_cast<std::size_t>(options.max_landmarks)),
+      frame_ids_(arena, static_cast<std::size_t>(options.max_observations)),
+      ids_(arena.take<std::uint64_t>(options.max_landmarks)),
+      counts_(arena.take<std::uint64_t>(options.max_landmarks)),
+      sensor_storage_(arena.take<unsigned char>(options.max_sensors * sizeof(AnySensorSlot))),
+      observations_(arena.take<Observation>(options.max_observations)),
+      matches_(arena.take<Match>(options.max_observations)),
+      next_matches_(arena.take<Match>(options.max_observations)),
+      candidates_(arena.take<Candidate>(options.max_observations)),
+      window_slots_(arena.take<Index>(options.max_observations)),
+      new_ones_(arena.take<Index>(options.max_observations)),
+      residual_(arena.take<double>(3 * options.max_observations + 6)),
+      thresholds_(arena.take<double>(3 * options.max_observations + 7)) {
+  static_assert(alignof(AnySensorSlot) <= Arena::kAlignment, "the arena aligns to a cache line");
+  if (arena.measuring()) return;
+  for (int rows = 1; rows <= 6; ++rows) gate_thresholds_[rows] = chi_square_quantile(rows, options.gate_probability);
+  ekf_.start(options.initial_pose, options.initial_covariance);
+}
+
+Filter::~Filter() {
+  for (int i = 0; i < sensor_count_; ++i) sensor_slot(i).~AnySensorSlot();
+}
+
+std::size_t Filter::required_bytes(const FilterOptions& options) {
+  Arena measure;
+  const Filter unused(measure, options);
+  return measure.used();
+}
+
+int Filter::add_sensor(const AnySensorSlot& sensor) {
+  if (sensor_count_ == options_.max_sensors)
+    throw Error(ErrorCode::capacity, "sensor: all %d are taken; create the filter with a larger max_sensors",
+                sensor_count_);
+  new (sensor_storage_ + sensor_count_ * sizeof(AnySensorSlot)) AnySensorSlot(sensor);
+  return sensor_count_++;
+}
+
+Filter::AnySensorSlot& Filter::sensor_slot(int sensor) {
+  if (sensor < 0 || sensor >= sensor_count_)
+    throw Error(ErrorCode::not_found, "sensor: there is no number %d; %d have been added, counted from 0", sensor,
+                sensor_count_);
+  return *std::launder(reinterpret_cast<AnySensorSlot*>(sensor_storage_ + sensor * sizeof(AnySensorSlot)));
+}
+
+const Sensor& Filter::sensor_at(int sensor) {
+  return std::visit([](auto& s) -> const Sensor& { return s; }, sensor_slot(sensor));
+}
+
+void Filter::point_head(int sensor, double pan, double stick) {
+  StereoHead* head = std::get_if<StereoHead>(&sensor_slot(sensor));
+  if (head == nullptr)
+    throw Error(ErrorCode::argument, "sensor: number %d is no stereo head and can't be pointed", sensor);
+  head->point(pan, stick);
+}
+
+void Filter::propagate(const Increment<SE3>& increment) {
+  if (!ekf_.propagate(increment))
+    throw Error(ErrorCode::numerical, "prediction: the pose or its covariance would not be finite; nothing was changed");
+}
+
+void Filter::remove_landmark(std::uint64_t id) {
+  const std::int32_t slot = slots_.find(id);
+  if (slot == IdTable::kAbsent)
+    throw Error(ErrorCode::not_found, "id: the map has no landmark %llu", static_cast<unsigned long long>(id));
+  const Index last = ekf_.size() - 1;
+  ekf_.remove(slot);
+  slots_.erase(id);
+  if (slot == last) return;
+  ids_[slot] = ids_[last];
+  counts_[slot] = counts_[last];
+  slots_.set(ids_[slot], slot);
+}
+
+bool Filter::find(std::uint64_t id, std::size_t& index) const {
+  const std::int32_t slot = slots_.find(id);
+  if (slot == IdTable::kAbsent) return false;
+  index = static_cast<std::size_t>(slot);
+  return true;
+}
+
+void Filter::pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  const std::vector<Index> slots(indices, indices + count);
+  ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), matrix, static_cast<Index>(6 + 3 * count));
+}
+
+void Filter::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  const std::size_t joint_size = 6 + 3 * count, size = 3 * count;
+  std::vector<double> joint(joint_size * joint_size);
+  pose_joint_covariance(indices, count, joint.data());
+  for (std::size_t c = 0; c < size; ++c)
+    for (std::size_t r = 0; r < size; ++r) matrix[c * size + r] = joint[(6 + c) * joint_size + 6 + r];
+}
+
+void Filter::say(const char* format, ...) const {
+  if (log_ == nullptr) return;
+  char line[256];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  log_(log_payload_, line);
+}
+
+}  // namespace cairn

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Observations: sorted into known and new, gated, taken in as one batch, and the new ones placed.
+#include <algorithm>
+#include <cmath>
+
+#include "core/chi_square.hpp"
+#include "core/error.hpp"
+#include "geometry/angle.hpp"
+#include "slam/filter.hpp"
+
+namespace cairn {
+namespace {
+
+[[noreturn]] void throw_not_definite() {
+  throw Error(ErrorCode::numerical,
+              "update: the covariance would not stay positive definite; nothing was changed. Is the noise realistic?");
+}
+
+bool given(const Observation& observation) {
+  return std::any_of(observation.covariance, observation.covariance + 9, [](double v) { return v != 0.0; });
+}
+
+// Squared Mahalanobis distance of `rows` values against the lower triangle of their covariance.
+double squared_distance(const double* residual, const double* covariance, Index ld, Index rows) {
+  double L[9], x[3];
+  for (Index c = 0; c < rows; ++c) {
+    x[c] = residual[c];
+    for (Index r = c; r < rows; ++r) L[c * 3 + r] = covariance[c * ld + r];
+  }
+  if (!cholesky(L, 3, rows)) return -1.0;
+  solve_lower(L, 3, rows, x);
+  double sum = 0.0;
+  for (Index r = 0; r < rows; ++r) sum += x[r] * x[r];
+  return sum;
+}
+
+}  // namespace
+
+double Filter::batch_threshold(Index rows) {
+  if (thresholds_[rows] == 0.0)
+    thresholds_[rows] = chi_square_quantile(static_cast<double>(rows), options_.batch_gate_probability);
+  return thresholds_[rows];
+}
+
+// The noise of one observation, that of its own head angles included where they are its own.
+Matrix3 Filter::noise_of(const Sensor& sensor, const Observation& observation) const {
+  if (!given(observation)) return sensor.noise();
+  Matrix3 noise = Matrix3::Zero();
+  const int rows = sensor.rows();
+  for (int c = 0; c < rows; ++c)
+    for (int r = 0; r < rows; ++r) noise(r, c) = observation.covariance[r * rows + c];
+  return noise;
+}
+
+void Filter::start_report(Index count) {
+  next_report_ = UpdateReport();
+  for (Index i = 0; i < count; ++i) next_matches_[i] = Match();
+}
+
+void Filter::finish_report(Index count) {
+  for (Index i = 0; i < count; ++i) {
+    const Match& match = next_matches_[i];
+    next_report_.matched += match.decision == Decision::matched;
+    next_report_.placed += match.decision == Decision::placed;
+    next_report_.rejected += match.decision == Decision::rejected;
+  }
+  report_ = next_report_;
+  std::swap(matches_, next_matches_);
+}
+
+// Candidates for the batch, and observations that could place a landmark; all others get their reason.
+void Filter::sort_out(const Sensor& sensor, Index count) {
+  candidate_count_ = new_count_ = 0;
+  frame_ids_.clear();
+  for (Index i = 0; i < count; ++i) {
+    const Observation& observation = observations_[i];
+    if (frame_ids_.find(observation.id) != IdTable::kAbsent)
+      throw Error(ErrorCode::argument, "observations: landmark %llu comes twice in one frame",
+                  static_cast<unsigned long long>(observation.id));
+    frame_ids_.set(observation.id, static_cast<std::int32_t>(i));
+    Match& match = next_matches_[i];
+    const Vector3 z(observation.z);
+    const std::int32_t slot = slots_.find(observation.id);
+    if (slot != IdTable::kAbsent) {
+      match.landmark = observation.id;
+      Prediction prediction;
+      if (sensor.predict(ekf_.pose(), ekf_.landmark(slot), Vector2::Zero(), prediction))
+        candidates_[candidate_count_++] = {i, slot, noise_of(sensor, observation)};
+      else
+        match.reason = Reason::no_image;
+    } else {
+      Placement placement;
+      if (sensor.place(ekf_.pose(), z, Vector2::Zero(), placement))
+        new_ones_[new_count_++] = i;
+      else
+        match.reason = Reason::no_place;
+    }
+  }
+  if (ekf_.size() + new_count_ > options_.max_landmarks)
+    throw Error(ErrorCode::capacity, "observations: %td new landmarks, and the map holds %td of max_landmarks = %td",
+                new_count_, ekf_.size(), options_.max_landmarks);
+}
+
+void Filter::open_candidates(const Sensor& sensor) {
+  for (Index a = 0; a < candidate_count_; ++a) window_slots_[a] = candidates_[a].slot;
+  const Matrix2 mount = sensor.mount_noise();
+  ekf_.open(window_slots_, candidate_count_, sensor.mount_noise_mode() == MountNoise::per_frame ? &mount : nullptr);
+}
+
+// Fills the batch at the iterate; or, where `residual_only` is given, just that. False where a landmark has no image.
+bool Filter::linearise(const Sensor& sensor, double* residual_only) {
+  const Index rows = sensor.rows();
+  const MountNoise mode = sensor.mount_noise_mode();
+  if (residual_only == nullptr) ekf_.batch().clear();
+  for (Index a = 0; a < candidate_count_; ++a) {
+    const Candidate& candidate = candidates_[a];
+    Prediction prediction;
+    if (!sensor.predict(ekf_.iterate_pose(), ekf_.iterate_landmark(a), ekf_.iterate_mount(), prediction)) return false;
+    const Vector3 residual = sensor.residual(Vector3(observations_[candidate.observation].z), prediction.z);
+    double* target = residual_only != nullptr ? residual_only : ekf_.batch().residual();
+    for (Index r = 0; r < rows; ++r) target[a * rows + r] = residual(r);
+    if (residual_only != nullptr) continue;
+
+    const Index row = ekf_.batch().add_rows(rows);
+    const auto pose = ekf_.add_pose_block(row, rows, prediction.J_z_pose, sensor.relative());
+    if (mode == MountNoise::per_frame) ekf_.add_mount_block(row, rows, prediction.J_z_mount);
+    ekf_.add_landmark_block(row, rows, prediction.J_z_landmark, a, pose);
+    Matrix3 noise = candidate.noise;
+    if (mode == MountNoise::per_observation)
+      noise += prediction.J_z_mount * sensor.mount_noise() * prediction.J_z_mount.transpose();
+    double* block = ekf_.batch().add_noise(row, rows);
+    for (Index c = 0; c < rows; ++c)
+      for (Index r = 0; r < rows; ++r) block[c * rows + r] = noise(r, c);
+  }
+  return true;
+}
+
+// Chi-square gate of every observation by itself.
+void Filter::gate_each() {
+  if (candidate_count_ == 0) return;
+  const Index m = ekf_.batch().rows(), rows = m / candidate_count_;
+  Index kept = 0;
+  for (Index a = 0; a < candidate_count_; ++a) {
+    Match& match = next_matches_[candidates_[a].observation];
+    match.distance =
+        squared_distance(ekf_.batch().residual() + a * rows, ekf_.innovation() + a * rows * (m + 1), m, rows);
+    match.threshold = gate_thresholds_[rows];
+    if (match.distance < 0.0) throw_not_definite();
+    if (match.distance <= match.threshold)
+      candidates_[kept++] = candidates_[a];
+    else
+      match.reason = Reason::gate;
+  }
+  candidate_count_ = kept;
+}
+
+// Chi-square gate of the batch: while it fails, the observation goes without which the distance falls most. Leaving a
+// block i out takes u_i^T (S^-1)_ii^-1 u_i off the distance, with u = S^-1 r; what remains follows by block inversion.
+void Filter::gate_batch(const Sensor& sensor) {
+  const Index m = ekf_.batch().rows();
+  if (m == 0) return;
+  const Index rows = sensor.rows();
+  if (!ekf_.factor()) throw_not_definite();
+  if (options_.batch_gate_probability >= 1.0 || ekf_.nis() <= batch_threshold(m)) return;
+  ekf_.compute_innovation();  // the factor stands where it was
+  const double* inverse = ekf_.inverse_innovation();
+  if (inverse == nullptr) throw_not_definite();
+  double nis = ekf_.distance_by_inverse(residual_);
+  Index left = candidate_count_;
+  while (left > 0 && nis > batch_threshold(left * rows)) {
+    Index worst = -1;
+    double largest = -1.0;
+    for (Index a = 0; a < candidate_count_; ++a) {
+      if (candidates_[a].slot < 0) continue;
+      const double fall = squared_distance(residual_ + a * rows, inverse + a * rows * (m + 1), m, rows);
+      if (fall > largest) largest = fall, worst = a;
+    }
+    if (worst < 0) throw_not_definite();
+    ekf_.leave_out(worst * rows, rows, residual_);
+    nis -= largest;
+    Match& match = next_matches_[candidates_[worst].observation];
+    match.reason = Reason::batch_gate;
+    match.threshold = batch_threshold(left * rows);
+    candidates_[worst].slot = -1;
+    --left;
+  }
+  if (left == candidate_count_) return;
+  say("update: the batch gate refused %td of %td observations", candidate_count_ - left, candidate_count_);
+  candidate_count_ = std::remove_if(candidates_, candidates_ + candidate_count_,
+                                    [](const Candidate& c) { return c.slot < 0; }) - candidates_;
+}
+
+// Gauss-Newton on the batch (iterated EKF), which stands factored at the prediction.
+template <class Linearise>
+void Filter::iterate(int iterations, Linearise&& linearise) {
+  next_report_.nis = ekf_.nis();
+  for (int i = 1;; ++i) {
+    ekf_.solve();
+    next_report_.iterations = i;
+    if (i >= iterations) break;
+    ekf_.step();
+    // A landmark may lose its image on the way: what was linearised last stands.
+    if (!linearise(residual_) || !(ekf_.misfit(residual_) > options_.iteration_tolerance)) break;
+    linearise(nullptr);
+    ekf_.compute_innovation();
+    if (!ekf_.factor()) throw_not_definite();
+  }
+  next_report_.rows = ekf_.batch().rows();
+  if (!ekf_.commit()) throw_not_definite();
+}
+
+void Filter::place_new(const Sensor& sensor) {
+  const MountNoise mode = sensor.mount_noise_mode();
+  for (Index k = 0; k < new_count_; ++k) {
+    const Observation& observation = observations_[new_ones_[k]];
+    Match& match = next_matches_[new_ones_[k]];
+    match.reason = Reason::no_place;
+    Placement placement;
+    if (!sensor.place(ekf_.pose(), Vector3(observation.z), ekf_.iterate_mount(), placement)) continue;
+    const int rows = sensor.rows();
+    const auto J_z = placement.J_landmark_z.leftCols(rows);
+    Matrix3 noise = Matrix3::Zero();
+    noise.noalias() += J_z.lazyProduct(noise_of(sensor, observation).topLeftCorner(rows, rows).eval().lazyProduct(J_z.transpose()));
+    if (mode == MountNoise::per_observation)
+      noise += placement.J_landmark_mount * sensor.mount_noise() * placement.J_landmark_mount.transpose();
+    const Index slot = ekf_.size();
+    if (!ekf_.augment(placement.landmark, placement.J_landmark_pose,
+                      mode == MountNoise::per_frame ? &placement.J_landmark_mount : nullptr, noise, sensor.relative()))
+      continue;
+    ids_[slot] = observation.id;
+    counts_[slot] = 1;
+    slots_.set(observation.id, static_cast<std::int32_t>(slot));
+    match = {observation.id, Decision::placed, Reason::none, 0.0, 0.0};
+  }
+}
+
+void Filter::update(int sensor_number, Index count) {
+  const Sensor& sensor = sensor_at(sensor_number);
+  start_report(count);
+  sort_out(sensor, count);
+  const auto relinearise = [&](double* residual_only) { return linearise(sensor, residual_only); };
+
+  open_candidates(sensor);
+  const Index seen = candidate_count_;
+  linearise(sensor, nullptr);
+  ekf_.compute_innovation();
+  gate_each();
+  if (candidate_count_ < seen) {
+    open_candidates(sensor);
+    linearise(sensor, nullptr);
+    ekf_.compute_innovation();
+  }
+  const Index passed = candidate_count_;
+  gate_batch(sensor);
+  if (candidate_count_ < passed) {
+    open_candidates(sensor);
+    linearise(sensor, nullptr);
+    ekf_.compute_innovation();
+    if (!ekf_.factor()) throw_not_definite();
+  }
+  if (candidate_count_ > 0) iterate(options_.iterations, relinearise);
+  for (Index a = 0; a < candidate_count_; ++a) {
+    next_matches_[candidates_[a].observation].decision = Decision::matched;
+    ++counts_[candidates_[a].slot];
+  }
+  place_new(sensor);
+  finish_report(count);
+}
+
+// A batch that touches no landmark, or such as the caller linearised: gated as a whole.
+template <class Linearise>
+void Filter::update_alone(Index rows, int iterations, std::uint64_t landmark, Linearise&& linearise) {
+  linearise(nullptr);
+  ekf_.compute_innovation();
+  Match& match = next_matches_[0];
+  match.landmark = landmark;
+  match.threshold = rows <= 6 ? gate_thresholds_[rows]
+                              : chi_square_quantile(static_cast<double>(rows), options_.gate_probability);
+  if (!ekf_.factor()) throw_not_definite();
+  match.distance = ekf_.nis();
+  if (!(match.distance <= match.threshold)) {
+    match.reason = Reason::gate;
+  } else {
+    iterate(iterations, linearise);
+    match.decision = Decision::matched;
+  }
+  finish_report(1);
+}
+
+void Filter::update_position(const Vector3& position, const Matrix3& covariance, const Vector3& lever_arm) {
+  start_report(1);
+  ekf_.open(nullptr, 0, nullptr);
+  update_alone(3, options_.iterations, kNoId, [&](double* residual_only) {
+    const SE3& T = ekf_.iterate_pose();
+    const Vector3 arm = T.rotation() * lever_arm;
+    const Vector3 residual = position - T.translation() - arm;
+    std::copy_n(residual.data(), 3, residual_only != nullptr ? residual_only : ekf_.batch().residual());
+    if (residual_only != nullptr) return true;
+    Matrix36 J;  // h = p + R a
+    J << Matrix3::Identity(), SO3::turn(arm);
+    add_pose_rows(3, J, covariance.data());
+    return true;
+  });
+}
+
+void Filter::update_attitude(const SO3& attitude, const Matrix3& covariance) {
+  start_report(1);
+  ekf_.open(nullptr, 0, nullptr);
+  update_alone(3, options_.iterations, kNoId, [&](double* residual_only) {
+    const Vector3 residual = (attitude * ekf_.iterate_pose().rotation().inverse()).log();
+    std::copy_n(residual.data(), 3, residual_only != nullptr ? residual_only : ekf_.batch().residual());
+    if (residual_only != nullptr) return true;
+    Matrix36 J;  // Log(R_z (Exp(theta) R)^T) = r - J_r(r)^-1 theta, and J_r(r) = J_l(-r)
+    J << Matrix3::Zero(), SO3::left_jacobian_inverse(-residual);
+    add_pose_rows(3, J, covariance.data());
+    return true;
+  });
+}
+
+void Filter::update_heading(double heading, double sigma) {
+  constexpr double kMinimumLevel = 0.0871557427476582;  // sin of 5 degrees
+  start_report(1);
+  const auto level = [&] { return (ekf_.iterate_pose().rotation() * Vector3::UnitX()).head<2>().norm(); };
+  ekf_.open(nullptr, 0, nullptr);
+  if (level() < kMinimumLevel) {
+    next_matches_[0].reason = Reason::no_image;
+    return finish_report(1);
+  }
+  const double variance = sigma * sigma;
+  update_alone(1, options_.iterations, kNoId, [&](double* residual_only) {
+    if (level() < kMinimumLevel) return false;
+    const Vector3 a = ekf_.iterate_pose().rotation() * Vector3::UnitX();
+    (residual_only != nullptr ? residual_only : ekf_.batch().residual())[0] = wrap_angle(heading - std::atan2(a.y(), a.x()));
+    if (residual_only != nullptr) return true;
+    const double level_squared = a.head<2>().squaredNorm();
+    Eigen::Matrix<double, 1, 6> J;  // d atan2(a_y, a_x) for da = theta x a
+    J << 0.0, 0.0, 0.0, -a.x() * a.z() / level_squared, -a.y() * a.z() / level_squared, 1.0;
+    add_pose_rows(1, J, &variance);
+    return true;
+  });
+}
+
+template <class JPose>
+void Filter::add_pose_rows(Index rows, const JPose& J_pose, const double* covariance) {
+  ekf_.batch().clear();
+  const Index row = ekf_.batch().add_rows(rows);
+  ekf_.add_pose_block(row, rows, J_pose, false);
+  std::copy_n(covariance, rows * rows, ekf_.batch().add_noise(row, rows));
+}
+
+void Filter::update_linear(const Linear& linear) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  start_report(1);
+  frame_ids_.clear();
+  for (Index k = 0; k < linear.count; ++k) {
+    const std::uint64_t id = linear.landmarks[k];
+    if (frame_ids_.find(id) != IdTable::kAbsent)
+      throw Error(ErrorCode::argument, "landmarks: %llu comes twice", static_cast<unsigned long long>(id));
+    frame_ids_.set(id, static_cast<std::int32_t>(k));
+    const std::int32_t slot = slots_.find(id);
+    if (slot == IdTable::kAbsent)
+      throw Error(ErrorCode::not_found, "landmarks: the map has no landmark %llu", static_cast<unsigned long long>(id));
+    window_slots_[k] = slot;
+  }
+  ekf_.open(window_slots_, linear.count, nullptr);
+  const Index rows = linear.rows;
+  update_alone(rows, 1, linear.count > 0 ? linear.landmarks[0] : kNoId, [&](double*) {
+    ekf_.batch().clear();
+    const Index row = ekf_.batch().add_rows(rows);
+    std::copy_n(linear.residual, rows, ekf_.batch().residual());
+    std::copy_n(linear.covariance, rows * rows, ekf_.batch().add_noise(row, rows));
+    const auto J_pose = [&](Index r, Index c) { return linear.J_pose != nullptr ? linear.J_pose[r * 6 + c] : 0.0; };
+    const auto pose = ekf_.add_pose_block(row, rows, J_pose, false);
+    if (linear.count == 0) return true;
+    const Eigen::Map<const RowMajor> J(linear.J_landmarks, rows, 3 * linear.count);
+    for (Index k = 0; k < linear.count; ++k) ekf_.add_landmark_block(row, rows, J.middleCols<3>(3 * k), k, pose);
+    return true;
+  });
+  if (matches_[0].decision == Decision::matched)
+    for (Index k = 0; k < linear.count; ++k) ++counts_[window_slots_[k]];
+}
+
+}  // namespace cairn
