@@ -18,7 +18,6 @@ bool StereoCamera::predict(const SE3& T_map_body, const Vector3& p_map, const Ve
   if (!(depth >= c.near_depth)) return false;  // a NaN fails it too
   const double ku = c.fu / depth, kv = c.fv / depth;
   out.z << ku * x + c.cu, ku * (x - c.baseline) + c.cu, kv * y + c.cv;
-  if (!out.z.allFinite()) return false;
 
   Matrix3 J_z_camera;
   J_z_camera.row(0) << ku, 0, -ku * x / depth;
@@ -26,7 +25,7 @@ bool StereoCamera::predict(const SE3& T_map_body, const Vector3& p_map, const Ve
   J_z_camera.row(2) << 0, kv, -kv * y / depth;
   map_jacobians(T_map_body, p_map, J_z_camera * R_body_camera_.transpose(), out);
   out.J_z_mount.setZero();
-  return true;
+  return out.z.allFinite() && out.J_z_pose.allFinite();  // a far point far off the axis overflows
 }
 
 bool StereoCamera::place(const SE3& T_map_body, const Vector3& z, const Vector2&, Placement& out) const {
