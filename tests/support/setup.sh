@@ -4,6 +4,7 @@
 
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P)
 jobs=$(nproc)
+export PATH  # where the caller had none, bash knows one but keeps it to itself
 
 say() { printf '\n== %s\n' "$*"; }
 fail() {
