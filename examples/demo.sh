@@ -8,37 +8,33 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/../tests/support/setup.sh"
 need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libmatio-dev
 
 build=$root/build/demo
-say "Building the library and the program in build/demo (a minute or two the first time)"
+say "Building the library, the program and the examples in build/demo (a few minutes the first time)"
 configure "$build" -DCMAKE_BUILD_TYPE=Release -DCAIRN_BUILD_TESTS=OFF --log-level=WARNING
-cmake --build "$build" --parallel "$jobs" --target cairn cairn_program example_make_demo_log
-if grep -q '^CAIRN_HWCAPS:BOOL=ON$' "$build/CMakeCache.txt"; then
-  cmake --build "$build" --parallel "$jobs" --target cairn_v3
-fi
+cmake --build "$build" --parallel "$jobs"
 
-# value FILE KEY: a number of a summary, "-" where it has none.
+# value KEY [DECIMALS]: a number of the summary, "-" where it has none.
 value() {
-  local number
-  number=$(sed -n "s/.*\"$2\": *\([-+.0-9eE]*\).*/\1/p" "$1" | head -n 1)
-  echo "${number:--}"
+  local number LC_ALL=C
+  number=$(sed -n "s/.*\"$1\": *\([-+.0-9eE]*\).*/\1/p" "$summary" | head -n 1)
+  if [[ -n $number ]]; then printf '%.*f' "${2:-0}" "$number"; else printf -- '-'; fi
 }
 
 # run_and_tell LOG FOLDER WHAT: runs the program on a log and says in a few lines what came out.
 run_and_tell() {
   local log=$1 out=$2 what=$3
+  local summary=$out/summary.json
   mkdir -p "$out"
   say "Running: cairn run ${log#"$root"/} --output ${out#"$root"/} --summary json"
-  "$build/bin/cairn" run "$log" --output "$out" --summary json >"$out/summary.json"
-  local s=$out/summary.json
+  "$build/bin/cairn" run "$log" --output "$out" --summary json >"$summary"
   cat <<END
 
 $what
-  read               $(value "$s" steps) steps, $(value "$s" observations) observations of $(value "$s" landmarks) landmarks; rejected $(value "$s" rejected)
-  pose, online       $(value "$s" pose_rmse_m) m root mean square error, $(value "$s" pose_final_m) m at the end
-  attitude, online   $(value "$s" attitude_rmse_deg) degrees root mean square error
-  map, at the end    $(value "$s" landmark_rmse_m) m root mean square error
-  consistency        $(value "$s" pose_anees_per_dof) squared pose error over its own variance, per degree of freedom (1 is right)
-  time a step        $(value "$s" step_ms_mean) ms on average, $(value "$s" step_ms_worst) ms at worst
-  files              ${out#"$root"/}: $(cd -- "$out" && echo *)
+  read         $(value steps) steps, $(value observations) observations of $(value landmarks) landmarks; $(value rejected) rejected
+  pose         $(value pose_rmse_m 2) m and $(value attitude_rmse_deg 2) degrees off (root mean square, online), $(value pose_final_m 2) m at the end
+  map          $(value landmark_rmse_m 2) m off (root mean square, at the end)
+  consistency  $(value pose_anees_per_dof 2): squared error of the pose over its variance, 1 where the filter is right about itself
+  time         $(value step_ms_mean 2) ms a step on average, $(value step_ms_worst 2) ms at worst
+  files        ${out#"$root"/}/: $(cd -- "$out" && echo *.csv summary.json)
 END
 }
 
