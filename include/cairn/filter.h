@@ -30,8 +30,9 @@ typedef struct cairn_filter_options {
   uint32_t max_observations;     /**< observations of one frame, 1 to 4096; default 64 */
   uint32_t max_sensors;          /**< sensors that can be added, 1 to 256; default 8 */
   uint32_t iterations;           /**< linearisations of an update, 1 (plain EKF) to 50; default 3 */
-  double iteration_tolerance;    /**< iterating ends where a step is shorter than this many standard deviations, > 0; default 1e-3 */
-  double gate_probability;       /**< chi-square gate of one observation, in (0, 1]; 1 lets all pass; default 0.999 */
+  double iteration_tolerance;    /**< iterating ends where the linearisation misses the observations by fewer than this
+                                      many of their standard deviations, > 0; default 0.1 */
+  double gate_probability;       /**< chi-square gate of one observation, in (0, 1]; 1 lets all pass; default 0.99 */
   double batch_gate_probability; /**< chi-square gate of a whole batch, in (0, 1]; 1 lets all pass; default 0.9999 */
   cairn_pose initial_pose;       /**< body in the map frame at the start; default identity */
   double initial_covariance[36]; /**< of its error [dp; dtheta], symmetric, positive semidefinite; default 0: it is known */

@@ -60,6 +60,8 @@ typedef struct cairn_stereo_camera {
   double sigma[3];       /**< noise of u_left, u_right, v, pixels, > 0; default 1 each */
   double near_depth;     /**< a prediction nearer than this has no image, m, > 0; default 0.1 */
   double min_disparity;  /**< a landmark is placed only from an observation of at least this u_left - u_right, pixels, > 0; default 1 */
+  double min_disparity_sigmas; /**< and of at least so many of its standard deviations (by `sigma`), >= 0; default 2.5: a
+                                    depth known to 40 %. Farther landmarks wait until they are seen from nearer */
 } cairn_stereo_camera;
 
 /** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */

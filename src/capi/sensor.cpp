@@ -39,6 +39,7 @@ cairn_stereo_camera default_stereo_camera() {
   std::copy_n(d.sigma.data(), 3, camera.sigma);
   camera.near_depth = d.near_depth;
   camera.min_disparity = d.min_disparity;
+  camera.min_disparity_sigmas = d.min_disparity_sigmas;
   return camera;
 }
 
@@ -101,6 +102,7 @@ StereoCamera read_stereo_camera(const cairn_stereo_camera* user) {
   check_positive(c.sigma, 3, "camera.sigma");
   check_positive(c.near_depth, "camera.near_depth");
   check_positive(c.min_disparity, "camera.min_disparity");
+  check_not_negative(c.min_disparity_sigmas, "camera.min_disparity_sigmas");
   StereoCameraParameters parameters;
   parameters.fu = c.fu;
   parameters.fv = c.fv;
@@ -111,6 +113,7 @@ StereoCamera read_stereo_camera(const cairn_stereo_camera* user) {
   parameters.sigma = Vector3(c.sigma);
   parameters.near_depth = c.near_depth;
   parameters.min_disparity = c.min_disparity;
+  parameters.min_disparity_sigmas = c.min_disparity_sigmas;
   return StereoCamera(parameters);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensor/stereo_camera.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cairn {
@@ -8,7 +9,9 @@ namespace cairn {
 StereoCamera::StereoCamera(const StereoCameraParameters& parameters)
     : parameters_(parameters),
       R_body_camera_(parameters.T_body_camera.rotation().matrix()),
-      noise_(parameters.sigma.cwiseAbs2().asDiagonal()) {}
+      noise_(parameters.sigma.cwiseAbs2().asDiagonal()),
+      least_disparity_(std::max(parameters.min_disparity,
+                                parameters.min_disparity_sigmas * parameters.sigma.head<2>().norm())) {}
 
 bool StereoCamera::predict(const SE3& T_map_body, const Vector3& p_map, const Vector2&, Prediction& out) const {
   const StereoCameraParameters& c = parameters_;
@@ -31,7 +34,7 @@ bool StereoCamera::predict(const SE3& T_map_body, const Vector3& p_map, const Ve
 bool StereoCamera::place(const SE3& T_map_body, const Vector3& z, const Vector2&, Placement& out) const {
   const StereoCameraParameters& c = parameters_;
   const double disparity = z[0] - z[1];
-  if (!z.allFinite() || disparity < c.min_disparity) return false;
+  if (!z.allFinite() || disparity < least_disparity_) return false;
   const double depth = c.fu * c.baseline / disparity;
   if (depth < c.near_depth) return false;  // a landmark there would have no image
   const Vector3 p_camera((z[0] - c.cu) * depth / c.fu, (z[2] - c.cv) * depth / c.fv, depth);

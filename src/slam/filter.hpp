@@ -26,7 +26,7 @@ struct FilterOptions {
   Index max_sensors = 8;
   int iterations = 3;
   double iteration_tolerance = 0.1;
-  double gate_probability = 0.999;
+  double gate_probability = 0.99;
   double batch_gate_probability = 0.9999;
   SE3 initial_pose;
   Matrix6 initial_covariance = Matrix6::Zero();
