@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Steps of the filter and their parts, through the C functions. Only the calls named are timed, by hand: what draws the
+// next frame is not.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+
+#include "course.hpp"
+
+namespace {
+
+using bench::Course;
+
+template <class Call>
+void timed(benchmark::State& state, const Call& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+  b->ArgName("landmarks")->Arg(60)->Arg(200)->Arg(354)->Arg(1000)->UseManualTime()->Unit(benchmark::kMicrosecond);
+}
+
+// Predict and update, 12 observations.
+void step(benchmark::State& state) {
+  Course course(static_cast<int>(state.range(0)));
+  double rows = 0.0, refused = 0.0;
+  for (auto _ : state) {
+    course.advance();
+    timed(state, [&] { course.predict_and_update(); });
+    const cairn_update_report report = course.filter().last_update();
+    rows += report.rows;
+    refused += report.rejected;
+  }
+  state.counters["rows"] = benchmark::Counter(rows, benchmark::Counter::kAvgIterations);
+  state.counters["rejected"] = benchmark::Counter(refused, benchmark::Counter::kAvgIterations);
+  state.SetLabel(cairn_build());
+}
+BENCHMARK(step)->Apply(sizes);
+
+// An update alone, right after one prediction, by the number of its observations: what it costs to have more rows.
+void update_of(benchmark::State& state) {
+  Course course(static_cast<int>(state.range(0)));
+  const auto count = static_cast<std::size_t>(state.range(1));
+  for (auto _ : state) {
+    course.advance();
+    course.predict();
+    std::vector<cairn_observation> some = course.observations();
+    some.resize(count);
+    timed(state, [&] { course.filter().update(some); });
+  }
+}
+BENCHMARK(update_of)
+    ->ArgNames({"landmarks", "observations"})
+    ->ArgsProduct({{60, 354}, {0, 1, 3, 6, 12}})
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+
+// Three rows on the pose: no landmark's Jacobian, the same covariance.
+void update_position(benchmark::State& state) {
+  Course course(static_cast<int>(state.range(0)));
+  const double covariance[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  for (auto _ : state) {
+    course.advance();
+    course.predict();
+    const cairn_pose pose = course.estimate();
+    timed(state, [&] {
+      bench::check(cairn_filter_update_position(course.handle(), pose.position, covariance, nullptr, nullptr));
+    });
+  }
+}
+BENCHMARK(update_position)->Apply(sizes);
+
+// One row.
+void update_heading(benchmark::State& state) {
+  Course course(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    course.advance();
+    course.predict();
+    const cairn_pose pose = course.estimate();
+    double roll = 0.0, pitch = 0.0, yaw = 0.0;
+    bench::check(cairn_quaternion_to_euler(pose.quaternion, &roll, &pitch, &yaw));
+    timed(state, [&] { bench::check(cairn_filter_update_heading(course.handle(), yaw, 0.05, nullptr)); });
+  }
+}
+BENCHMARK(update_heading)->Apply(sizes);
+
+// A prediction costs the same whatever the size of the map. Many of them follow one another here without an update, as
+// at the rate of an inertial sensor; the covariance that grows is not looked at.
+void predict_increment(benchmark::State& state) {
+  Course course(static_cast<int>(state.range(0)));
+  cairn_pose increment;
+  bench::check(cairn_pose_identity(&increment));
+  increment.position[0] = 1e-3;
+  for (auto _ : state) course.filter().predict(increment);
+}
+BENCHMARK(predict_increment)->ArgName("landmarks")->Arg(60)->Arg(1000);
+
+void predict_twist(benchmark::State& state) {
+  Course course(60);
+  const double velocity[3] = {1.0, 0.0, 0.0}, rate[3] = {0.0, 0.0, 0.1};
+  for (auto _ : state) bench::check(cairn_filter_predict_twist(course.handle(), 0.01, velocity, rate));
+}
+BENCHMARK(predict_twist);
+
+void predict_wheels(benchmark::State& state) {
+  Course course(60);
+  for (auto _ : state) bench::check(cairn_filter_predict_wheels(course.handle(), 0.01, 3.0, 3.1));
+}
+BENCHMARK(predict_wheels);
+
+}  // namespace
