@@ -3,8 +3,9 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <cinttypes>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -98,10 +99,11 @@ void OutputFile::field(const std::string& value) {
   row_begun_ = true;
 }
 
+// The fewest digits that read back as the same number.
 void OutputFile::field(double value) {
-  char buffer[32] = "";
-  if (!std::isnan(value)) std::snprintf(buffer, sizeof buffer, "%.17g", value);
-  field(buffer);
+  char buffer[32];
+  const char* end = std::isnan(value) ? buffer : std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  field(std::string(static_cast<const char*>(buffer), end));
 }
 
 void OutputFile::fields(const double* values, std::size_t count) {

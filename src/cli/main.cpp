@@ -39,6 +39,7 @@ constexpr const char* kHelp =
     "  --iterations N          linearisations of an update, 1 to 50\n"
     "  --max-landmarks N       capacity of the map (default: what the log needs)\n"
     "  --min-disparity PX      place a landmark only from at least this disparity (stereo camera)\n"
+    "  --min-disparity-sigmas N  and of at least so many of its standard deviations; 0: no bound\n"
     "  --pixel-noise PX        noise of the stereo camera, instead of the file's or 2\n"
     "  --velocity-noise M_S    noise of the body velocity, instead of the file's or 0.1\n"
     "  --rate-noise RAD_S      noise of the body rate, instead of the file's or 0.01\n"

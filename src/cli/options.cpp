@@ -33,21 +33,25 @@ std::uint64_t parse_whole(const char* name, const std::string& value, std::uint6
   return number;
 }
 
-// In (0, high].
-double parse_positive(const char* name, const std::string& value, double high) {
+enum class Range { kPositive, kNotNegative, kProbability };  // the last without 0
+
+double parse_number(const char* name, const std::string& value, Range range) {
   double number = 0;
   const char* end = value.data() + value.size();
   const auto [stop, error] = std::from_chars(value.data(), end, number);
-  if (error != std::errc() || stop != end || !std::isfinite(number) || !(number > 0) || number > high) {
-    reject(name, value, high == 1 ? "a probability above 0, up to 1" : "a number above 0");
+  const bool low_enough = range == Range::kNotNegative ? number >= 0 : number > 0;
+  const bool high_enough = range == Range::kProbability ? number <= 1 : std::isfinite(number);
+  if (error != std::errc() || stop != end || !low_enough || !high_enough) {
+    static constexpr const char* kExpected[] = {"a number above 0", "a number of 0 or more",
+                                                "a probability above 0, up to 1"};
+    reject(name, value, kExpected[static_cast<int>(range)]);
   }
   return number;
 }
 
 std::vector<Option> run_option_table(RunOptions& o) {
-  constexpr double kAnyHigh = std::numeric_limits<double>::max();
-  const auto positive = [](const char* name, double high, std::optional<double>& target) {
-    return Option{name, true, [=, &target](const std::string& v) { target = parse_positive(name, v, high); }};
+  const auto number = [](const char* name, Range range, std::optional<double>& target) {
+    return Option{name, true, [=, &target](const std::string& v) { target = parse_number(name, v, range); }};
   };
   const auto whole = [](const char* name, std::uint32_t low, std::uint32_t high, std::optional<std::uint32_t>& target) {
     return Option{name, true, [=, &target](const std::string& v) {
@@ -78,14 +82,15 @@ std::vector<Option> run_option_table(RunOptions& o) {
       {"--seed", true, [](const std::string& v) { parse_whole("--seed", v, 0, kAnyWhole); }},
       {"--forget-after", true,
        [&o](const std::string& v) { o.forget_after = parse_whole("--forget-after", v, 0, kAnyWhole); }},
-      positive("--gate", 1, o.gate),
-      positive("--batch-gate", 1, o.batch_gate),
+      number("--gate", Range::kProbability, o.gate),
+      number("--batch-gate", Range::kProbability, o.batch_gate),
       whole("--iterations", 1, 50, o.iterations),
       whole("--max-landmarks", 1, 30000, o.max_landmarks),
-      positive("--min-disparity", kAnyHigh, o.min_disparity),
-      positive("--pixel-noise", kAnyHigh, o.noise.pixel),
-      positive("--velocity-noise", kAnyHigh, o.noise.velocity),
-      positive("--rate-noise", kAnyHigh, o.noise.rate),
+      number("--min-disparity", Range::kPositive, o.min_disparity),
+      number("--min-disparity-sigmas", Range::kNotNegative, o.min_disparity_sigmas),
+      number("--pixel-noise", Range::kPositive, o.noise.pixel),
+      number("--velocity-noise", Range::kPositive, o.noise.velocity),
+      number("--rate-noise", Range::kPositive, o.noise.rate),
   };
 }
 

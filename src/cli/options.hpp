@@ -30,7 +30,8 @@ struct RunOptions {
   std::optional<double> batch_gate;
   std::optional<std::uint32_t> iterations;
   std::optional<std::uint32_t> max_landmarks;
-  std::optional<double> min_disparity;  // pixels
+  std::optional<double> min_disparity;         // pixels
+  std::optional<double> min_disparity_sigmas;  // standard deviations of the disparity
   io::NoiseOverride noise;
 };
 

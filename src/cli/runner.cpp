@@ -89,6 +89,7 @@ void Runner::add_sensor() {
   }
   cairn_stereo_camera camera = log_.camera;
   camera.min_disparity = options_.min_disparity.value_or(camera.min_disparity);
+  camera.min_disparity_sigmas = options_.min_disparity_sigmas.value_or(camera.min_disparity_sigmas);
   check(cairn_filter_add_stereo_camera(filter_.get(), &camera, &sensor_));
   check(cairn_filter_set_twist_noise(filter_.get(), &log_.twist_noise));
 }
