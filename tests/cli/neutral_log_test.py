@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The program on small neutral logs: figures, files and options."""
+import json
+import math
+import os
+import unittest
+
+import make_log
+from support import ALWAYS, WITH_TRUE_LANDMARKS, WITH_TRUE_POSES, ProgramTest, call
+
+
+def records(text, letter):
+    return [[float(field) for field in line.split()[1:]] for line in text.splitlines() if line.startswith(letter + " ")]
+
+
+def dead_reckoning_rmse(text):
+    """Position error where the increments alone are added up."""
+    truths = {int(r[0]): r[2:] for r in records(text, "T")}
+    position, attitude = truths[0][:3], make_log.Rotation.from_euler(*truths[0][3:])
+    square = 0.0
+    for r in records(text, "O"):
+        moved = attitude.turn(r[1:4])
+        position = [a + b for a, b in zip(position, moved)]
+        attitude = attitude * make_log.Rotation.from_euler(*r[4:7])
+        square += sum((a - b) ** 2 for a, b in zip(position, truths[int(r[0])]))
+    return math.sqrt(square / len(truths))
+
+
+class NeutralLog(ProgramTest):
+    def test_figures(self):
+        text = self.neutral_log(steps=400)
+        s = self.summary(self.write("a.log", text))
+        self.assertEqual(set(s), ALWAYS | WITH_TRUE_POSES | WITH_TRUE_LANDMARKS)
+        self.assertEqual(s["steps"], 401)
+        self.assertEqual(s["observations"], len(records(text, "Z")))
+        self.assertEqual(s["landmarks"], len({r[1] for r in records(text, "Z")}))
+        self.assertLess(s["rejected"], 0.05 * s["observations"])
+        self.assertLess(s["pose_rmse_m"], 0.3 * dead_reckoning_rmse(text))
+        self.assertLess(s["landmark_rmse_m"], 0.25)
+        self.assertLess(s["attitude_rmse_deg"], 1.0)
+        self.assertLessEqual(s["pose_rmse_m"], s["pose_max_m"])
+        self.assertLessEqual(s["pose_final_m"], s["pose_max_m"])
+        self.assertTrue(0.1 < s["pose_anees_per_dof"] < 2, s)
+        self.assertTrue(0.8 < s["nis_per_dof"] < 1.2, s)
+        self.assertTrue(0 < s["step_ms_mean"] <= s["step_ms_worst"], s)
+        self.assertLessEqual(s["step_ms_p99"], s["step_ms_worst"])
+
+    def test_same_log_same_figures(self):
+        log = self.write("a.log", self.neutral_log())
+        runs = [self.summary(log) for _ in range(2)]
+        for s in runs:
+            for key in [k for k in s if k.startswith("step_ms") or k in ("seconds", "peak_rss_mib")]:
+                del s[key]
+        self.assertEqual(*runs)
+
+    def test_without_truth(self):
+        text = self.neutral_log()
+        kept = [line for line in text.splitlines(True) if line[0] in "OZ" or line.startswith("T 0 ")]
+        s = self.summary(self.write("a.log", "".join(kept)))
+        self.assertEqual(set(s), ALWAYS | WITH_TRUE_POSES - {"pose_anees_per_dof"})  # the start alone is known
+        self.assertEqual(s["steps"], 151)
+
+    def test_comments_blanks_and_line_ends(self):
+        text = self.neutral_log(steps=20)
+        plain = self.summary(self.write("a.log", text))
+        varied = "# a comment\n\n" + text.replace("\n", "\r\n").replace(" ", "\t ")
+        self.assertEqual(self.summary(self.write("b.log", varied))["pose_rmse_m"], plain["pose_rmse_m"])
+
+    def test_options_matter(self):
+        log = self.write("a.log", self.neutral_log())
+        plain = self.summary(log)
+        self.assertEqual(self.summary(log, "--single-map", "--seed=5", "--error=invariant")["pose_rmse_m"],
+                         plain["pose_rmse_m"])
+        for options in (["--error", "standard"], ["--iterations=1"], ["--gate=0.5", "--batch-gate", "1"]):
+            other = self.summary(log, *options)
+            self.assertNotEqual(other["pose_rmse_m"], plain["pose_rmse_m"], options)
+        self.assertGreater(self.summary(log, "--gate=0.5", "--batch-gate=1")["rejected"], plain["rejected"])
+        self.assertEqual(self.summary(log, "--gate=1", "--batch-gate=1")["rejected"], 0)
+
+    def test_forgetting_bounds_the_map(self):
+        log = self.write("a.log", self.neutral_log())
+        plain = self.summary(log)
+        forgetful = self.summary(log, "--forget-after", "1")
+        self.assertLessEqual(forgetful["landmarks"], 8)  # those of the last frame
+        self.assertGreater(forgetful["pose_rmse_m"], plain["pose_rmse_m"])
+        self.assertEqual(self.summary(log, "--forget-after=1000")["pose_rmse_m"], plain["pose_rmse_m"])
+        for frames in (2, 7, 30):
+            self.summary(log, "--forget-after", str(frames))  # the capacity that it works out suffices
+
+    def test_too_small_a_map_is_the_library_s_refusal(self):
+        log = self.write("a.log", self.neutral_log())
+        self.assert_refused(call("run", log, "--max-landmarks", "10"), "step", "CAIRN_ERROR_CAPACITY", status=1)
+
+    def test_text_summary(self):
+        log = self.write("a.log", self.neutral_log(steps=20))
+        done = call("run", log)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for key in ALWAYS | WITH_TRUE_POSES | WITH_TRUE_LANDMARKS:
+            self.assertIn(key, done.stdout)
+
+    def test_output_files(self):
+        text = self.neutral_log()
+        log, out = self.write("a.log", text), self.path("out")
+        done = call("run", log, "--summary", "json", "--output", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        s = json.loads(done.stdout)
+        with open(os.path.join(out, "summary.json")) as file:
+            self.assertEqual(json.load(file), s)
+
+        trajectory = self.read_csv(out, "trajectory.csv")
+        self.assertEqual([int(row["step"]) for row in trajectory], list(range(151)))
+        squares = [sum(float(row["error_%s_m" % axis]) ** 2 for axis in "xyz") for row in trajectory]
+        self.assertAlmostEqual(math.sqrt(sum(squares) / 151), s["pose_rmse_m"], places=6)
+        nees = [float(row["nees"]) for row in trajectory if row["nees"]]
+        self.assertAlmostEqual(sum(nees) / len(nees) / 6, s["pose_anees_per_dof"], places=5)
+        for row in trajectory:
+            for name in ("x_m", "y_m", "z_m"):
+                self.assertAlmostEqual(float(row["true_" + name]) - float(row[name]), float(row["error_" + name]))
+            attitude = make_log.Rotation.from_euler(*(float(row[n]) for n in ("roll_rad", "pitch_rad", "yaw_rad")))
+            sign = math.copysign(1, attitude.w * float(row["qw"]))
+            for name in ("w", "x", "y", "z"):
+                self.assertAlmostEqual(sign * getattr(attitude, name), float(row["q" + name]), places=6)
+        first, last = trajectory[0], trajectory[-1]
+        self.assertEqual(float(first["error_x_m"]), 0)
+        self.assertGreater(float(last["sigma3_x_m"]), 0)
+        inside = sum(abs(float(r["error_x_m"])) <= float(r["sigma3_x_m"]) for r in trajectory)
+        self.assertGreater(inside, 0.9 * len(trajectory))
+
+        landmarks = self.read_csv(out, "landmarks.csv")
+        self.assertEqual(len(landmarks), s["landmarks"])
+        squares = [sum(float(row["error_%s_m" % axis]) ** 2 for axis in "xyz") for row in landmarks]
+        self.assertAlmostEqual(math.sqrt(sum(squares) / len(squares)), s["landmark_rmse_m"], places=6)
+
+        innovations = self.read_csv(out, "innovations.csv")
+        self.assertEqual(len(innovations), s["observations"])
+        results = [row["result"] for row in innovations]
+        self.assertEqual(results.count("rejected"), s["rejected"])
+        self.assertEqual(set(results) - {"matched", "new", "rejected"}, set())
+        seen = [(int(r[0]), int(r[1])) for r in records(text, "Z")]
+        self.assertEqual([(int(row["step"]), int(row["id"])) for row in innovations], seen)
+        self.assertEqual(sum(int(row["observations"]) for row in landmarks), len(seen) - s["rejected"])
+
+        timing = self.read_csv(out, "timing.csv")
+        self.assertEqual(len(timing), 151)
+        rows = sum(int(row["nis_rows"]) for row in timing)
+        self.assertAlmostEqual(sum(float(row["nis"]) for row in timing) / rows, s["nis_per_dof"], places=6)
+        self.assertAlmostEqual(sum(float(row["step_ms"]) for row in timing) / 151, s["step_ms_mean"], places=5)
+
+    def test_large_ids(self):
+        text = self.neutral_log(steps=20)
+        big = 2 ** 64 - 1000
+        lines = []
+        for line in text.splitlines():
+            fields = line.split()
+            place = {"Z": 2, "L": 1}.get(fields[0])
+            if place:
+                fields[place] = str(big + int(fields[place]))
+            lines.append(" ".join(fields))
+        out = self.path("out")
+        s = self.summary(self.write("a.log", "\n".join(lines) + "\n"), "--output", out)
+        self.assertEqual(s["landmark_rmse_m"], self.summary(self.write("b.log", text))["landmark_rmse_m"])
+        self.assertTrue(all(int(row["id"]) > big for row in self.read_csv(out, "landmarks.csv")))
+
+
+if __name__ == "__main__":
+    unittest.main()
