@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Accuracy and consistency over many logs: runs the program cairn on each, with both kinds of error, and prints the means
-# and how often the pose's NEES, averaged over the runs, stays in its 95 % band.
+# Accuracy and consistency over many logs: runs the program cairn on each, with both kinds of error, and prints the
+# means and how often the pose's NEES, averaged over the runs, stays in its 95 % band.
 #
 #   tests/bench/neutral_campaign.sh [--seeds M] [--landmarks N] [--steps S] [--program CAIRN] [LOGS|GENERATOR]
 #

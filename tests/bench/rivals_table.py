@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints the table of rivals.sh: rivals_table.py FOLDER LOGS. One JSON object a round in FOLDER/<log>.ours and .mrpt."""
+"""Prints the table of rivals.sh: rivals_table.py FOLDER LOGS.
+
+FOLDER/<log>.ours and FOLDER/<log>.mrpt hold one JSON object a round.
+"""
 import json
 import pathlib
 import statistics

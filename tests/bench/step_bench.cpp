@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps of the filter and their parts, through the C functions. Only the calls named are timed, by hand: what draws the
-// next frame is not.
+// Steps of the filter and their parts, through the C functions. Only the calls named are timed, by hand and in
+// processor time: what draws the next frame is not, nor are other programs.
 #include <benchmark/benchmark.h>
 
-#include <chrono>
-
 #include "course.hpp"
+#include "samples.hpp"
 
 namespace {
 
@@ -13,9 +12,9 @@ using bench::Course;
 
 template <class Call>
 void timed(benchmark::State& state, const Call& call) {
-  const auto start = std::chrono::steady_clock::now();
+  const bench::Stopwatch watch;
   call();
-  state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  state.SetIterationTime(1e-3 * watch.milliseconds());
 }
 
 void sizes(benchmark::internal::Benchmark* b) {
