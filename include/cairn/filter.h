@@ -30,8 +30,8 @@ typedef struct cairn_filter_options {
   uint32_t max_observations;     /**< observations of one frame, 1 to 4096; default 64 */
   uint32_t max_sensors;          /**< sensors that can be added, 1 to 256; default 8 */
   uint32_t iterations;           /**< linearisations of an update, 1 (plain EKF) to 50; default 3 */
-  double iteration_tolerance;    /**< iterating ends where the linearisation misses the observations by fewer than this
-                                      many of their standard deviations, > 0; default 0.1 */
+  double iteration_tolerance;    /**< iterating ends where the linearisation misses the observations of the batch by less
+                                      than this, in their standard deviations, root of the sum of squares, > 0; default 0.1 */
   double gate_probability;       /**< chi-square gate of one observation, in (0, 1]; 1 lets all pass; default 0.99 */
   double batch_gate_probability; /**< chi-square gate of a whole batch, in (0, 1]; 1 lets all pass; default 0.9999 */
   cairn_pose initial_pose;       /**< body in the map frame at the start; default identity */
@@ -124,7 +124,7 @@ CAIRN_API cairn_status cairn_filter_update(cairn_filter *filter, int32_t sensor,
 
 /** Updates by what the caller linearised itself: `residual = z - h` (rows values), the noise's `covariance`
  *  (rows x rows), `jacobian_pose` = dh/[dp; dtheta] (rows x 6, NULL for zero) and `jacobian_landmarks` = dh/d positions
- *  (rows x 3 count, the columns in the order of `landmarks`); all row-major. Gated as one batch; not iterated.
+ *  (rows x 3 count, the columns in the order of `landmarks`); all row-major. Gated as one observation of that many rows (gate_probability); not iterated.
  *  `match` (or NULL) gets the decision; its landmark is the first one, or CAIRN_ID_NONE. rows is 1 to 3 max_observations,
  *  count at most max_observations.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_CAPACITY,

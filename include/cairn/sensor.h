@@ -25,21 +25,21 @@ enum {
  *  `m_b = d + Rz(pan) Ry(stick) (s + R(q) m_c)`: the platform sits at `d`, turns by `pan` about its z axis and
  *  by `stick` about the bolt, its y axis; the stick carries the camera at `s`, tilted by `q`.
  *  The observation is `z = (range, azimuth, elevation)` of `m_c`: `range = |m_c|` (m),
- *  `azimuth = atan2(y, x)` (rad, left positive), `elevation = atan2(z, sqrt(x^2 + y^2))` (rad, up positive), the
- *  angle that the stick would still have to turn. With the default mount the camera frame is the body frame. */
+ *  `azimuth = atan2(y, x)` (rad, left positive), `elevation = atan2(z, sqrt(x^2 + y^2))` (rad, up positive): a
+ *  stick that turns by -elevation (its positive turn lowers the lens) meets the point in the end. With the default mount the camera frame is the body frame. */
 typedef struct cairn_stereo_head {
   uint32_t struct_size;       /**< sizeof(cairn_stereo_head) of the caller */
   int32_t encoder_mode;       /**< CAIRN_ENCODER_PER_OBSERVATION or CAIRN_ENCODER_PER_FRAME */
   double platform[3];         /**< d: pan axis in the body frame, m; default 0 */
-  double stick[3];            /**< s: camera on the stick, in the turned platform's frame, m; default 0 */
+  double stick[3];            /**< s: camera in the stick's frame, that after both turns, m; default 0 */
   double camera_quaternion[4];/**< q: camera axes in the stick's frame, w x y z; default identity */
   double range_sigma;         /**< m, > 0; default 1.0 (Table 1) */
   double azimuth_sigma;       /**< rad, > 0; default 3 degrees (Table 1) */
   double elevation_sigma;     /**< rad, > 0; default 3 degrees (Table 1) */
   double pan_sigma;           /**< encoder noise of pan, rad, >= 0; default 0 */
   double stick_sigma;         /**< encoder noise of the stick, rad, >= 0; default 0 */
-  double near_range;          /**< an observation or a prediction nearer than this is refused, m, > 0; default 0.1 */
-  double max_elevation;       /**< one steeper than this has no azimuth and is refused, rad, in (0, pi/2); default 85 degrees */
+  double near_range;          /**< a prediction, or an observation that would place a landmark, nearer than this is refused, m, > 0; default 0.1 */
+  double max_elevation;       /**< one steeper than this has hardly an azimuth and is refused too, rad, in (0, pi/2); default 85 degrees */
 } cairn_stereo_head;
 
 /** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
@@ -108,10 +108,12 @@ typedef struct cairn_custom {
   uint32_t struct_size;         /**< sizeof(cairn_custom) of the caller */
   uint32_t rows;                /**< values of an observation, 1 to 3; default 3 */
   cairn_custom_predict predict; /**< required */
-  cairn_custom_place place;     /**< NULL: this sensor places no landmarks, it only observes those that others placed */
+  cairn_custom_place place;     /**< NULL: this sensor places no landmarks, it only observes those that others placed;
+                                     required to be NULL where rows < 3, which leave a landmark's position open */
   void *user;                   /**< handed to both */
   uint32_t angle_mask;          /**< bit i set: value i is an angle (rad), its residual is wrapped to (-pi, pi] */
-  uint32_t reserved;            /**< 0 */
+  uint32_t relative;            /**< 1: pose and landmark enter as the body point R^T (l - p) alone, which the filter
+                                     then makes use of; default 0: any function of both */
   double sigma[3];              /**< noise of each value, > 0; default 1 each */
 } cairn_custom;
 
@@ -121,7 +123,7 @@ CAIRN_API cairn_status cairn_custom_init(cairn_custom *custom, size_t struct_siz
 /** Compares a custom sensor's Jacobians with central differences on the manifold, at one pose and landmark.
  *  `worst` gets the largest difference, each relative to max(1, |numerical value|); a correct Jacobian gives about 1e-6
  *  and less. Where `place` is set it is checked too, at the observation that `predict` gives, and so is that placing
- *  returns to the landmark. Threads: any. Errors: CAIRN_ERROR_ARGUMENT (also where predict refuses the landmark).
+ *  returns to the landmark. `relative` is not checked. Threads: any. Errors: CAIRN_ERROR_ARGUMENT (also where predict refuses the landmark).
  *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_custom_check(const cairn_custom *custom, const cairn_pose *pose, const double landmark[3],
                                           double *worst);
@@ -154,7 +156,8 @@ typedef struct cairn_match {
   uint64_t landmark; /**< landmark that it was compared with or that it placed; CAIRN_ID_NONE where there is none */
   int32_t result;    /**< CAIRN_MATCHED, CAIRN_NEW or CAIRN_REJECTED */
   int32_t reason;    /**< one of the CAIRN_REASON_ constants */
-  double distance;   /**< squared Mahalanobis distance of the innovation; 0 where there is none */
+  double distance;   /**< squared Mahalanobis distance of the innovation (CAIRN_REASON_BATCH_GATE: of the whole batch
+                          when this observation was taken out); 0 where there is none */
   double threshold;  /**< chi-square bound that it was held against; 0 where there is none */
 } cairn_match;
 

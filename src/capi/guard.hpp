@@ -62,7 +62,7 @@ void check_not_negative(const double* values, std::size_t count, const char* nam
 void check_range(double value, double lower, double upper, const char* name);  // closed
 void check_probability(double value, const char* name);                        // (0, 1]
 // Finite, symmetric, positive definite (`semi`: semidefinite); `size` on a side, row-major. Beyond 6 it takes a
-// workspace of size^2.
+// workspace of size^2 + cholesky_workspace(size) doubles.
 void check_covariance(const double* matrix, std::size_t size, bool semi, const char* name, double* workspace = nullptr);
 
 // --- conversions --- with their checks

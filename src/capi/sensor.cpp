@@ -136,6 +136,9 @@ CustomSensor read_custom(const cairn_custom* user) {
   if (c.predict == nullptr) throw Error(ErrorCode::argument, "custom.predict is NULL; a sensor must predict");
   if (c.angle_mask >> c.rows != 0)
     throw Error(ErrorCode::argument, "custom.angle_mask names values beyond custom.rows = %u", c.rows);
+  if (c.place != nullptr && c.rows < 3)
+    throw Error(ErrorCode::argument, "custom.place is set, and %u values place no landmark; leave it NULL", c.rows);
+  if (c.relative > 1) throw Error(ErrorCode::argument, "custom.relative must be 0 or 1, and is %u", c.relative);
   check_positive(c.sigma, c.rows, "custom.sigma");
   CustomParameters parameters;
   parameters.rows = static_cast<int>(c.rows);
@@ -143,6 +146,7 @@ CustomSensor read_custom(const cairn_custom* user) {
   parameters.place = reinterpret_cast<CustomPlace>(c.place);
   parameters.user = c.user;
   parameters.angle_mask = c.angle_mask;
+  parameters.relative = c.relative != 0;
   for (std::uint32_t i = 0; i < c.rows; ++i) parameters.sigma(i) = c.sigma[i];
   return CustomSensor(parameters);
 }

@@ -22,7 +22,7 @@ bool definite(const double* matrix, std::size_t size, double slack, double* L) {
       L[c * n + r] = scale > 0.0 ? matrix[r * n + c] / scale : 0.0;
       if (r == c) L[c * n + r] = 1.0 + slack;
     }
-  return cholesky(L, n, n);
+  return cholesky(L, n, n, L + n * n);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 //   invariant  X = Exp(xi) X_hat on SE_{K+1}: R = Exp(xi_R) R_hat, x = Exp(xi_R) x_hat + J_l(xi_R) xi_x for the position
 //              and every landmark x. Propagation is the identity (theory of the right-invariant EKF).
 //   standard   the ordinary one: R = Exp(theta) R_hat, x = x_hat + e_x.
-// To first order e_x = xi_x + G(x_hat) xi_R with G = Rotation::turn: the only formula that tells them apart.
+// To first order e_x = xi_x + G(x_hat) xi_R with G = Rotation::turn: what F, U and the retraction below follow from.
 //
 // States stand as [xi_p; xi_R; xi_1; xi_2; ...]; only the lower triangle of P is kept. Motion between two updates costs
 // O(1): it is held back as P_now = F P F^T + U N U^T, where F turns the pose block alone (standard error), and N is the
@@ -69,7 +69,7 @@ class Ekf {
   // Smallest pivot of the Cholesky factor of P scaled to unit diagonal; uses the upper triangle as scratch.
   double smallest_pivot();
 
-  double* scratch() { return scratch_; }  // rows()^2 doubles, free between calls
+  double* scratch() { return scratch_; }  // m^2 + cholesky_workspace(m) doubles for m = rows(), free between calls
 
   // --- update --- open, then fill the batch, then (innovation, factor, solve) as often as wanted, then commit.
   // The window: the pose, the mount's angles, the chosen landmarks; its iterate starts at the estimate.
@@ -105,7 +105,8 @@ class Ekf {
   void solve();                                     // the iterate's error against the estimate
   void step();                                      // iterate <- Exp(error) estimate
   double misfit(const double* residual) const;      // how far residuals at the iterate are from what solve() foresaw, sigmas
-  // Takes in the batch: W, P, state. False, with nothing changed, where P would not stay positive definite.
+  // Takes in the batch: W, P, state. False, with nothing changed, where a variance of P would not stay positive or a
+  // value not finite: what tells, at the cost of O(n m), that P would lose definiteness. smallest_pivot() tells surely.
   bool commit();
 
   // --- augment and remove ---
@@ -143,7 +144,7 @@ class Ekf {
   void to_ordinary(const Index* slots, Index count, double* matrix, Index ld) const;
   void retract(const Tangent& error, Pose& pose) const;
   void pending_pose_columns(double* out) const;  // of P_now, all rows
-  Index pending_factors(Index first);
+  void prepare_pending(Index first);
   void gather_columns();  // the window's columns of P_now, all rows
   void write_covariance(Index rank, const double* pose_columns);
   void apply_pending();
@@ -180,9 +181,13 @@ class Ekf {
   double* error_window_;
   double* foreseen_;  // residual that solve() foresees at its own iterate
   double* columns_;   // the window's columns of P_now, a row a state
+  Index noise_rank_ = 0;
+  double* noise_left_ = nullptr;   // U N and U in left_ and right_
+  double* noise_right_ = nullptr;
   double* left_;      // [-W, U N]; the mount's rows of W behind those of the states
   double* right_;     // [ W, U  ]
   double* error_state_;
+  double* shrunk_;  // what an update takes off the diagonal
   double* diagonal_;
   double* mount_cross_;  // covariance of every state with the mount's angles after the commit
   Eigen::Matrix<double, kMount, kMount> mount_covariance_ = Eigen::Matrix<double, kMount, kMount>::Zero();

@@ -37,11 +37,13 @@ Ekf<Pose>::Ekf(Arena& arena, ErrorKind error, const Capacity& capacity)
       columns_(arena.take<double>(ld_ * capacity.window())),
       left_(arena.take<double>(ld_ * (capacity.rows() + kTurn))),
       right_(arena.take<double>(ld_ * (capacity.rows() + kTurn))),
-      error_state_(arena.take<double>(capacity.states())),
+      error_state_(arena.take<double>(capacity.states() + kMount)),
+      shrunk_(arena.take<double>(capacity.states() + kMount)),
       diagonal_(arena.take<double>(capacity.states())),
       mount_cross_(arena.take<double>(ld_ * kMount)),
       scratch_(arena.take<double>(
-          std::max({solve_workspace(capacity.rows()), static_cast<std::size_t>(capacity.states()),
+          std::max({solve_workspace(capacity.rows()),
+                    static_cast<std::size_t>(capacity.rows() * capacity.rows()) + cholesky_workspace(capacity.rows()),
                     update_triangle_workspace(capacity.states(), capacity.rows() + kTurn)}))) {}
 
 template <class Pose>

@@ -11,6 +11,11 @@
 
 namespace cairn {
 
+// y += factor x from row `first` to before row `last`.
+inline void add_scaled(double factor, const double* x, Index first, Index last, double* y) {
+  for (Index i = first; i < last; ++i) y[i] += factor * x[i];
+}
+
 template <class Pose>
 void Ekf<Pose>::open(const Index* slots, Index count, const Eigen::Matrix<double, kMount, kMount>* mount_noise) {
   slot_count_ = count;
@@ -65,7 +70,7 @@ const double* Ekf<Pose>::inverse_innovation() {
   const Index m = batch_.rows();
   double* L = scratch_;
   for (Index j = 0; j < m; ++j) std::copy(S_ + j * m + j, S_ + (j + 1) * m, L + j * m + j);
-  if (!cholesky(L, m, m)) return nullptr;
+  if (!cholesky(L, m, m, scratch_ + m * m)) return nullptr;
   inverse_from_cholesky(L, m, m, S_inverse_, m);
   return S_inverse_;
 }
@@ -110,7 +115,7 @@ void Ekf<Pose>::leave_out(Index row, Index rows, double* u) {
 template <class Pose>
 bool Ekf<Pose>::factor() {
   const Index m = batch_.rows();
-  if (!cholesky(S_, m, m)) return false;
+  if (!cholesky(S_, m, m, scratch_)) return false;
   // The residual of the iterated filter: r(x_i) + H_i xi_i (Bell and Cathey 1993); xi is zero at the first.
   batch_.add_product(1.0, error_window_, innovation_);
   std::copy_n(innovation_, m, foreseen_);
@@ -163,96 +168,96 @@ double Ekf<Pose>::misfit(const double* residual) const {
   return std::sqrt(sum);
 }
 
+// U N and U behind column `first` of left_ and right_, one row a state; the pose's rows are zero, its columns of P are
+// written whole. noise_rank_ tells how many columns there are: none with the standard error.
 template <class Pose>
-void Ekf<Pose>::pending_pose_columns(double* out) const {
-  const Index n = states();
-  const Square pose = pose_block();
-  for (Index c = 0; c < kDof; ++c) std::copy_n(pose.data() + c * kDof, kDof, out + c * ld_);
-  if (!pending_) {
-    for (Index c = 0; c < kDof; ++c) std::copy_n(P_ + c * ld_ + kDof, n - kDof, out + c * ld_ + kDof);
-    return;
-  }
-  const Eigen::Matrix<double, kTurn, kDof> N_turn = N_.template bottomRows<kTurn>();
-  for (Index slot = 0; slot < size_; ++slot) {
-    const Index row = state(slot);
-    PointByPose cross;
-    for (Index c = 0; c < kDof; ++c)
-      for (Index r = 0; r < kDim; ++r) cross(r, c) = P(row + r, c);
-    if (error_ == ErrorKind::invariant)
-      cross -= Rotation::turn(landmark(slot)) * N_turn;
-    else
-      cross = (cross * F_.transpose()).eval();
-    for (Index c = 0; c < kDof; ++c)
-      for (Index r = 0; r < kDim; ++r) out[c * ld_ + row + r] = cross(r, c);
-  }
-}
-
-// Columns of U N and U behind column `first` of left_ and right_; the number of them.
-template <class Pose>
-Index Ekf<Pose>::pending_factors(Index first) {
-  if (!pending_ || error_ == ErrorKind::standard) return 0;
+void Ekf<Pose>::prepare_pending(Index first) {
+  noise_rank_ = pending_ && error_ == ErrorKind::invariant ? kTurn : 0;
+  noise_left_ = left_ + first * ld_;
+  noise_right_ = right_ + first * ld_;
+  if (noise_rank_ == 0) return;
   const Eigen::Matrix<double, kTurn, kTurn> N = N_.template bottomRightCorner<kTurn, kTurn>();
   for (Index t = 0; t < kTurn; ++t) {
-    double* left = left_ + (first + t) * ld_;
-    double* right = right_ + (first + t) * ld_;
-    std::fill_n(left, kDof, 0.0);  // the pose's columns are written whole
-    std::fill_n(right, kDof, 0.0);
+    std::fill_n(noise_left_ + t * ld_, kDof, 0.0);
+    std::fill_n(noise_right_ + t * ld_, kDof, 0.0);
   }
   for (Index slot = 0; slot < size_; ++slot) {
     const typename Rotation::Turn U = -Rotation::turn(landmark(slot));
     const typename Rotation::Turn UN = U * N;
     for (Index t = 0; t < kTurn; ++t)
       for (Index r = 0; r < kDim; ++r) {
-        left_[(first + t) * ld_ + state(slot) + r] = UN(r, t);
-        right_[(first + t) * ld_ + state(slot) + r] = U(r, t);
+        noise_left_[t * ld_ + state(slot) + r] = UN(r, t);
+        noise_right_[t * ld_ + state(slot) + r] = U(r, t);
       }
   }
-  return kTurn;
 }
 
-// P <- P_now + left right^T over `rank` columns that stand there, and those of the motion held back.
+// The pose's columns of P_now, all rows: P F^T + U N.
+template <class Pose>
+void Ekf<Pose>::pending_pose_columns(double* out) const {
+  const Index n = states();
+  const Square pose = pose_block();
+  for (Index c = 0; c < kDof; ++c) {
+    double* to = out + c * ld_;
+    std::copy_n(pose.data() + c * kDof, kDof, to);
+    if (!pending_ || error_ == ErrorKind::invariant) {  // F = I
+      std::copy(P_ + c * ld_ + kDof, P_ + c * ld_ + n, to + kDof);
+    } else {
+      std::fill(to + kDof, to + n, 0.0);
+      for (Index k = 0; k < kDof; ++k) add_scaled(F_(c, k), P_ + k * ld_, kDof, n, to);
+    }
+    for (Index t = 0; t < noise_rank_; ++t) add_scaled(N_(kDim + t, c), noise_right_ + t * ld_, kDof, n, to);
+  }
+}
+
+// P <- P_now + left right^T over `rank` columns; those of prepare_pending(rank) stand behind them.
 template <class Pose>
 void Ekf<Pose>::write_covariance(Index rank, const double* pose_columns) {
   const Index n = states();
-  const Index noise = pending_factors(rank);
   for (Index c = 0; c < kDof; ++c) std::copy(pose_columns + c * ld_ + c, pose_columns + c * ld_ + n, P_ + c * ld_ + c);
-  if (rank + noise > 0) update_triangle(P_, ld_, n, left_, ld_, right_, ld_, rank + noise, scratch_);
+  if (rank + noise_rank_ > 0) update_triangle(P_, ld_, n, left_, ld_, right_, ld_, rank + noise_rank_, scratch_);
   clear_pending();
 }
 
 template <class Pose>
 void Ekf<Pose>::apply_pending() {
   if (!pending_) return;
+  prepare_pending(0);
   pending_pose_columns(columns_);
   write_covariance(0, columns_);
 }
 
 template <class Pose>
 void Ekf<Pose>::gather_columns() {
+  constexpr Index kAhead = 4;  // columns
   const Index n = states();
+  prepare_pending(batch_.rows());
   pending_pose_columns(columns_);
   for (Index i = 0; i < mount_; ++i) std::fill_n(columns_ + (kDof + i) * ld_, n, 0.0);
-  const bool noisy = pending_ && error_ == ErrorKind::invariant;
+  // What stands left of a landmark's diagonal block lies along rows of P: a cache line a column. All landmarks of one
+  // column in turn keep to its few pages, and the line of some columns ahead is fetched meanwhile.
+  for (Index c = kDof; c < n; ++c) {
+    const double* column = P_ + c * ld_;
+    for (Index a = 0; a < slot_count_; ++a) {
+      const Index from = state(slots_[a]);
+      if (c >= from) continue;
+      __builtin_prefetch(column + kAhead * ld_ + from);
+      double* to = columns_ + landmark_column(a) * ld_ + c;
+      for (Index d = 0; d < kDim; ++d) to[d * ld_] = column[from + d];
+    }
+  }
   for (Index a = 0; a < slot_count_; ++a) {
     const Index from = state(slots_[a]);
     double* to = columns_ + landmark_column(a) * ld_;
     for (Index c = 0; c < kDof; ++c)
       for (Index d = 0; d < kDim; ++d) to[d * ld_ + c] = columns_[c * ld_ + from + d];
-    for (Index c = kDof; c < from; ++c)
-      for (Index d = 0; d < kDim; ++d) to[d * ld_ + c] = P(from + d, c);
     for (Index d = 0; d < kDim; ++d)
       for (Index r = 0; r < kDim; ++r) to[d * ld_ + from + r] = symmetric(from + r, from + d);
     for (Index d = 0; d < kDim; ++d)
       std::copy_n(&P_[(from + d) * ld_ + from + kDim], n - from - kDim, to + d * ld_ + from + kDim);
-    if (!noisy) continue;
-    // + U_i N U_a^T
-    const Eigen::Matrix<double, kTurn, kDim> NU =
-        -N_.template bottomRightCorner<kTurn, kTurn>() * Rotation::turn(landmark(slots_[a])).transpose();
-    for (Index slot = 0; slot < size_; ++slot) {
-      const PointSquare noise = -Rotation::turn(landmark(slot)) * NU;
-      for (Index d = 0; d < kDim; ++d)
-        for (Index r = 0; r < kDim; ++r) to[d * ld_ + state(slot) + r] += noise(r, d);
-    }
+    for (Index d = 0; d < kDim; ++d)  // + U N U_a^T
+      for (Index t = 0; t < noise_rank_; ++t)
+        add_scaled(noise_right_[t * ld_ + from + d], noise_left_ + t * ld_, kDof, n, to + d * ld_);
   }
 }
 
@@ -263,35 +268,17 @@ bool Ekf<Pose>::commit() {
   batch_.times_transposed(columns_, ld_, n, right_, ld_);
   for (Index j = 0; j < m; ++j)  // the mount's rows stand behind the states
     for (Index i = 0; i < mount_; ++i) right_[j * ld_ + n + i] = T_[j * window_ + kDof + i];
-  solve_right_transposed(S_, m, m, right_, ld_, n + mount_, scratch_);  // W = P H^T L^-T
+  // W = P H^T L^-T, the error xi = W L^-1 r, and what P_new = P - W W^T (Mars paper, eq. 13) takes off the diagonal,
+  // before anything is changed.
+  const RowSums sums{innovation_, left_, shrunk_, error_state_};
+  solve_right_transposed(S_, m, m, right_, ld_, n + mount_, scratch_, &sums);
 
-  for (Index i = 0; i < n; ++i) diagonal_[i] = P(i, i);
-  for (Index c = 0; c < kDof; ++c) diagonal_[c] = columns_[c * ld_ + c];
-  if (pending_ && error_ == ErrorKind::invariant) {
-    const auto N = N_.template bottomRightCorner<kTurn, kTurn>();
-    for (Index slot = 0; slot < size_; ++slot) {
-      const auto U = Rotation::turn(landmark(slot));
-      const PointSquare noise = U * N * U.transpose();
-      for (Index d = 0; d < kDim; ++d) diagonal_[state(slot) + d] += noise(d, d);
-    }
-  }
-  // P_new = P - W W^T (Mars paper, eq. 13): its diagonal, and the error xi = W L^-1 r, before anything is changed.
-  std::fill_n(error_state_, n, 0.0);
-  double* shrunk = scratch_;  // what the update takes off the diagonal
-  std::fill_n(shrunk, n, 0.0);
-  for (Index j = 0; j < m; ++j) {
-    const double* W = right_ + j * ld_;
-    double* negative = left_ + j * ld_;
-    const double weight = innovation_[j];
-    for (Index i = 0; i < n; ++i) {
-      shrunk[i] += W[i] * W[i];
-      error_state_[i] += W[i] * weight;
-      negative[i] = -W[i];
-    }
-  }
+  for (Index i = 0; i < n; ++i) diagonal_[i] = i < kDof ? columns_[i * ld_ + i] : P(i, i);
+  for (Index t = 0; t < noise_rank_; ++t)
+    for (Index i = kDof; i < n; ++i) diagonal_[i] += noise_left_[t * ld_ + i] * noise_right_[t * ld_ + i];
   for (Index i = 0; i < n; ++i) {
     if (!std::isfinite(error_state_[i])) return false;
-    const double left = diagonal_[i] - shrunk[i];
+    const double left = diagonal_[i] - shrunk_[i];
     if (!(diagonal_[i] > 0.0 ? left > 0.0 : left >= 0.0)) return false;
   }
 

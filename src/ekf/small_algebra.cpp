@@ -4,30 +4,56 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ekf/triangle.hpp"
+
 namespace cairn {
 namespace {
 
-constexpr Index kRows = 16;  // rows that the right solve takes at once: four AVX2 registers, four independent chains
+// Four doubles: one AVX2 register, two of SSE2. GCC's vectors keep the sums of a strip in registers, where a loop over
+// an array of them went through memory.
+typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+constexpr Index kRows = 16;    // rows that the right solve takes at once, four registers
+constexpr Index kPanel = 48;   // columns of a blocked Cholesky factor
 
-// One strip of W: column j minus the solved columns before it. `strip` is kRows x m, packed; `rows_of_L` is L by rows
-// with the reciprocal of the diagonal.
-void solve_strip(const double* rows_of_L, Index m, double* strip) {
-  for (Index j = 0; j < m; ++j) {
-    const double* row = rows_of_L + j * m;
-    double sum[kRows];
-    for (Index r = 0; r < kRows; ++r) sum[r] = strip[j * kRows + r];
-    for (Index i = 0; i < j; ++i) {
-      const double factor = row[i];
-      const double* solved = strip + i * kRows;
-      for (Index r = 0; r < kRows; ++r) sum[r] -= factor * solved[r];
+Four load(const double* p) { return *reinterpret_cast<const Four*>(p); }
+void store(double* p, Four value) { *reinterpret_cast<Four*>(p) = value; }
+
+// Columns j to j + count - 1 of one strip of W: minus the solved columns before them. `strip` is kRows x m, packed;
+// `rows_of_L` is L by rows with the reciprocal of the diagonal.
+template <int count>
+void solve_columns(const double* rows_of_L, Index m, Index j, double* strip) {
+  Four sum[count][4];
+  for (int c = 0; c < count; ++c)
+    for (int q = 0; q < 4; ++q) sum[c][q] = load(strip + (j + c) * kRows + 4 * q);
+  for (Index i = 0; i < j; ++i) {
+    const double* solved = strip + i * kRows;
+    const Four s0 = load(solved), s1 = load(solved + 4), s2 = load(solved + 8), s3 = load(solved + 12);
+    for (int c = 0; c < count; ++c) {
+      const double factor = rows_of_L[(j + c) * m + i];
+      sum[c][0] -= factor * s0;
+      sum[c][1] -= factor * s1;
+      sum[c][2] -= factor * s2;
+      sum[c][3] -= factor * s3;
     }
-    for (Index r = 0; r < kRows; ++r) strip[j * kRows + r] = sum[r] * row[j];
+  }
+  for (int c = 0; c < count; ++c) {
+    const double* row = rows_of_L + (j + c) * m + j;
+    for (int q = 0; q < 4; ++q) {
+      for (int before = 0; before < c; ++before) sum[c][q] -= row[before] * sum[before][q];
+      sum[c][q] *= row[c];
+      store(strip + (j + c) * kRows + 4 * q, sum[c][q]);
+    }
   }
 }
 
-}  // namespace
+void solve_strip(const double* rows_of_L, Index m, double* strip) {
+  Index j = 0;
+  for (; j + 2 <= m; j += 2) solve_columns<2>(rows_of_L, m, j, strip);
+  if (j < m) solve_columns<1>(rows_of_L, m, j, strip);
+}
 
-bool cholesky(double* S, Index ld, Index m) {
+// Right-looking, one column a time.
+bool factor_small(double* S, Index ld, Index m) {
   for (Index j = 0; j < m; ++j) {
     double* column = S + j * ld;
     const double pivot = column[j];
@@ -39,6 +65,30 @@ bool cholesky(double* S, Index ld, Index m) {
       double* target = S + k * ld;
       for (Index i = k; i < m; ++i) target[i] -= factor * column[i];
     }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::size_t cholesky_workspace(Index m) {
+  if (m <= kPanel) return 0;
+  return solve_workspace(kPanel) + static_cast<std::size_t>(kPanel * m) + update_triangle_workspace(m, kPanel);
+}
+
+bool cholesky(double* S, Index ld, Index m, double* workspace) {
+  for (Index j = 0; j < m; j += kPanel) {
+    const Index width = std::min(kPanel, m - j), below = m - j - width;
+    double* diagonal = S + j * ld + j;
+    if (!factor_small(diagonal, ld, width)) return false;
+    if (below == 0) break;
+    double* panel = diagonal + width;
+    double* negative = workspace + solve_workspace(kPanel);
+    solve_right_transposed(diagonal, ld, width, panel, ld, below, workspace);
+    for (Index c = 0; c < width; ++c)
+      for (Index r = 0; r < below; ++r) negative[c * below + r] = -panel[c * ld + r];
+    update_triangle(S + (j + width) * (ld + 1), ld, below, negative, below, panel, ld, width,
+                    negative + kPanel * m);
   }
   return true;
 }
@@ -62,7 +112,8 @@ void solve_lower_transposed(const double* L, Index ld, Index m, double* x) {
 
 std::size_t solve_workspace(Index m) { return static_cast<std::size_t>(m * m + kRows * m); }
 
-void solve_right_transposed(const double* L, Index ld, Index m, double* W, Index ldw, Index n, double* workspace) {
+void solve_right_transposed(const double* L, Index ld, Index m, double* W, Index ldw, Index n, double* workspace,
+                            const RowSums* sums) {
   double* rows_of_L = workspace;
   double* strip = workspace + m * m;
   for (Index j = 0; j < m; ++j) {
@@ -72,12 +123,24 @@ void solve_right_transposed(const double* L, Index ld, Index m, double* W, Index
   for (Index first = 0; first < n; first += kRows) {
     const Index rows = std::min(kRows, n - first);
     for (Index j = 0; j < m; ++j) {
-      for (Index r = 0; r < rows; ++r) strip[j * kRows + r] = W[j * ldw + first + r];
-      for (Index r = rows; r < kRows; ++r) strip[j * kRows + r] = 0.0;
+      const double* from = W + j * ldw + first;
+      double* to = strip + j * kRows;
+      std::fill(std::copy_n(from, rows, to), to + kRows, 0.0);
     }
     solve_strip(rows_of_L, m, strip);
-    for (Index j = 0; j < m; ++j)
-      for (Index r = 0; r < rows; ++r) W[j * ldw + first + r] = strip[j * kRows + r];
+    for (Index j = 0; j < m; ++j) std::copy_n(strip + j * kRows, rows, W + j * ldw + first);
+    if (sums == nullptr) continue;
+    double squares[kRows] = {}, products[kRows] = {};
+    for (Index j = 0; j < m; ++j) {
+      const double* solved = strip + j * kRows;
+      for (Index r = 0; r < kRows; ++r) {
+        squares[r] += solved[r] * solved[r];
+        products[r] += solved[r] * sums->y[j];
+      }
+      for (Index r = 0; r < rows; ++r) sums->negative[j * ldw + first + r] = -solved[r];
+    }
+    std::copy_n(squares, rows, sums->squares + first);
+    std::copy_n(products, rows, sums->products + first);
   }
 }
 

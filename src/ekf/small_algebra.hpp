@@ -11,14 +11,25 @@ using Index = std::ptrdiff_t;
 
 // Lower Cholesky factor of the m x m matrix in place; reads and writes the lower triangle only.
 // False, with the matrix spoilt, where a pivot is not positive or not finite.
-bool cholesky(double* S, Index ld, Index m);
+// `workspace` holds cholesky_workspace(m) doubles: none up to 48.
+bool cholesky(double* S, Index ld, Index m, double* workspace = nullptr);
+std::size_t cholesky_workspace(Index m);
 
 // x <- L^-1 x and x <- L^-T x.
 void solve_lower(const double* L, Index ld, Index m, double* x);
 void solve_lower_transposed(const double* L, Index ld, Index m, double* x);
 
+// What one pass over W gives besides: -W with W's leading dimension, the sums of squares of its rows, and W y.
+struct RowSums {
+  const double* y;
+  double* negative;
+  double* squares;
+  double* products;
+};
+
 // W <- W L^-T for the n x m matrix W. `workspace` holds solve_workspace(m) doubles.
-void solve_right_transposed(const double* L, Index ld, Index m, double* W, Index ldw, Index n, double* workspace);
+void solve_right_transposed(const double* L, Index ld, Index m, double* W, Index ldw, Index n, double* workspace,
+                            const RowSums* sums = nullptr);
 std::size_t solve_workspace(Index m);
 
 // Full symmetric inverse (both triangles) of L L^T into `inverse`, m x m.

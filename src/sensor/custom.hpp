@@ -21,6 +21,7 @@ struct CustomParameters {
   CustomPlace place = nullptr;      // none: the sensor places no landmarks
   void* user = nullptr;
   std::uint32_t angle_mask = 0;     // bit i: value i is an angle
+  bool relative = false;            // pose and landmark enter as R^T (l - p) alone
   Vector3 sigma = Vector3::Ones();  // of each value
 };
 
@@ -30,7 +31,7 @@ class CustomSensor final : public Sensor {
   explicit CustomSensor(const CustomParameters& parameters);
 
   int rows() const override { return parameters_.rows; }
-  bool relative() const override { return false; }
+  bool relative() const override { return parameters_.relative; }
   bool places() const { return parameters_.place != nullptr; }
   const Matrix3& noise() const override { return noise_; }
   bool predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction& out) const override;

@@ -101,7 +101,7 @@ class Filter final : public Landmarks {
   void update_position(const Vector3& position, const Matrix3& covariance, const Vector3& lever_arm);
   void update_attitude(const SO3& attitude, const Matrix3& covariance);
   void update_heading(double heading, double sigma);
-  double* workspace() { return ekf_.scratch(); }  // (3 max_observations)^2 doubles, free between updates
+  double* workspace() { return ekf_.scratch(); }  // m^2 + cholesky_workspace(m) doubles, m = 3 max_observations; free between updates
   const Match* decisions() const { return matches_; }
   const UpdateReport& report() const { return report_; }
 

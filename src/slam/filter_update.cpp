@@ -42,7 +42,7 @@ double Filter::batch_threshold(Index rows) {
   return thresholds_[rows];
 }
 
-// The noise of one observation, that of its own head angles included where they are its own.
+// The noise of one observation's values; that of the mount's angles comes on top.
 Matrix3 Filter::noise_of(const Sensor& sensor, const Observation& observation) const {
   if (!given(observation)) return sensor.noise();
   Matrix3 noise = Matrix3::Zero();
@@ -177,9 +177,10 @@ void Filter::gate_batch(const Sensor& sensor) {
     }
     if (worst < 0) throw_not_definite();
     ekf_.leave_out(worst * rows, rows, residual_);
-    nis -= largest;
     Match& match = next_matches_[candidates_[worst].observation];
     match.reason = Reason::batch_gate;
+    match.distance = nis;
+    nis -= largest;
     match.threshold = batch_threshold(left * rows);
     candidates_[worst].slot = -1;
     --left;
