@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -233,14 +234,15 @@ TEST_CASE("stereo camera: Jacobians") {
     const StereoCamera camera(p);
     test::Random random(33);
     for (const SE3& T : test::awkward_poses(34)) {
-      const double left = random.uniform(0, 640), disparity = random.uniform(3, 80);
+      const double left = random.uniform(0, 640), disparity = random.uniform(4, 80);
       check_sensor(camera, T, Vector3(left, left - disparity, random.uniform(0, 480)), kNoMount);
     }
     // Close to the limits: near depth, where the disparity is large, and least disparity.
     const SE3 T(SO3::exp(Vector3(0.3, -0.2, 1)), Vector3(1, 2, 3));
     const double largest = p.fu * p.baseline / (p.near_depth + 1e-3);
     check_sensor(camera, T, Vector3(800, 800 - largest, 300), kNoMount);
-    check_sensor(camera, T, Vector3(300, 300 - p.min_disparity - 1e-3, 200), kNoMount);
+    const double least = std::max(p.min_disparity, p.min_disparity_sigmas * std::sqrt(2));
+    check_sensor(camera, T, Vector3(300, 300 - least - 1e-3, 200), kNoMount);
   }
 }
 
@@ -250,10 +252,16 @@ TEST_CASE("stereo camera: refusals") {
   CHECK_FALSE(sees(camera, Vector3(0.1 - 1e-9, 0, 0)));
   CHECK_FALSE(sees(camera, Vector3(0, 1, 1)));
   CHECK_FALSE(sees(camera, Vector3(-5, 0, 0)));
-  CHECK(places(camera, Vector3(300, 299, 200)));
-  CHECK_FALSE(places(camera, Vector3(300, 299.001, 200)));
+  // Least disparity: 2.5 of its deviations, here of sqrt(2) pixels, or min_disparity where that is more.
+  const double least = 2.5 * std::sqrt(2);
+  CHECK(places(camera, Vector3(300, 300 - least - 1e-9, 200)));
+  CHECK_FALSE(places(camera, Vector3(300, 300 - least + 1e-9, 200)));
   CHECK_FALSE(places(camera, Vector3(300, 300, 200)));
   CHECK_FALSE(places(camera, Vector3(300, 310, 200)));
+  StereoCameraParameters sharp;
+  sharp.sigma << 0.1, 0.1, 5;
+  CHECK(places(StereoCamera(sharp), Vector3(300, 299, 200)));
+  CHECK_FALSE(places(StereoCamera(sharp), Vector3(300, 299.001, 200)));
   CHECK_FALSE(places(camera, Vector3(3000, 1900, 200)));  // 0.09 m away, nearer than the camera images
   check_never_nan(camera);
 }
