@@ -34,7 +34,7 @@ bool CustomSensor::predict(const SE3& T_map_body, const Vector3& p_map, const Ve
   double z[3] = {kUnset, kUnset, kUnset}, J_pose[18] = {}, J_landmark[9] = {};
   if (parameters_.predict(parameters_.user, pose.data(), p_map.data(), z, J_pose, J_landmark) != 0) return false;
   out = Prediction();
-  out.z.head(n) = Eigen::Map<const Vector3>(z).head(n);
+  std::copy_n(z, n, out.z.data());
   out.J_z_pose.topRows(n) = Packed(J_pose, n, 6);
   out.J_z_landmark.topRows(n) = Packed(J_landmark, n, 3);
   return out.z.allFinite() && out.J_z_pose.allFinite() && out.J_z_landmark.allFinite();
