@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* After its creation a filter takes no memory, and cairn_filter_required_bytes says beforehand what it takes. This
+ * program puts itself before the C library's allocator (glibc) and counts. */
+#include <errno.h>
+#include <malloc.h>
+
+#include "support.h"
+
+extern void *__libc_malloc(size_t size);
+extern void *__libc_calloc(size_t count, size_t size);
+extern void *__libc_realloc(void *block, size_t size);
+extern void *__libc_memalign(size_t alignment, size_t size);
+extern void __libc_free(void *block);
+
+#define VISIBLE __attribute__((visibility("default"), noinline))
+
+static struct {
+  bool armed;
+  size_t calls;      /* that asked for memory or gave it back */
+  size_t fail_at;    /* number of the call that gets none; 0: all get what they ask for */
+  size_t live, peak; /* bytes asked for and not given back */
+  size_t count;
+  struct {
+    void *block;
+    size_t size;
+  } blocks[4096];
+} counter;
+
+static void arm(void) {
+  memset(&counter, 0, sizeof counter);
+  counter.armed = true;
+}
+
+static void *taken(void *block, size_t size) {
+  if (!counter.armed || block == NULL) return block;
+  ++counter.calls;
+  if (counter.count == LENGTH(counter.blocks)) abort();
+  counter.blocks[counter.count].block = block, counter.blocks[counter.count++].size = size;
+  counter.live += size;
+  if (counter.live > counter.peak) counter.peak = counter.live;
+  return block;
+}
+
+static void given(void *block) {
+  if (!counter.armed || block == NULL) return;
+  ++counter.calls;
+  for (size_t i = 0; i < counter.count; ++i)
+    if (counter.blocks[i].block == block) {
+      counter.live -= counter.blocks[i].size;
+      counter.blocks[i] = counter.blocks[--counter.count];
+      return;
+    }
+}
+
+static bool refused(void) { return counter.armed && counter.fail_at != 0 && counter.fail_at-- == 1; }
+
+VISIBLE void *malloc(size_t size) { return refused() ? NULL : taken(__libc_malloc(size), size); }
+VISIBLE void *calloc(size_t count, size_t size) {
+  return refused() ? NULL : taken(__libc_calloc(count, size), count * size);
+}
+VISIBLE void *realloc(void *block, size_t size) {
+  if (refused()) return NULL;
+  given(block);
+  return taken(__libc_realloc(block, size), size);
+}
+VISIBLE void *memalign(size_t alignment, size_t size) {
+  return refused() ? NULL : taken(__libc_memalign(alignment, size), size);
+}
+VISIBLE void *aligned_alloc(size_t alignment, size_t size) { return memalign(alignment, size); }
+VISIBLE int posix_memalign(void **block, size_t alignment, size_t size) {
+  *block = memalign(alignment, size);
+  return *block == NULL ? ENOMEM : 0;
+}
+VISIBLE void free(void *block) {
+  given(block);
+  __libc_free(block);
+}
+
+static void the_counter_counts(void **state) {
+  (void)state;
+  arm();
+  void *volatile a = malloc(100), *volatile b = calloc(3, 50), *volatile c = NULL;
+  a = realloc(a, 300);
+  assert_int_equal(posix_memalign((void **)&c, 64, 1000), 0);
+  counter.armed = false;
+  assert_int_equal(counter.calls, 5);
+  assert_int_equal(counter.live, 300 + 150 + 1000);
+  free(a), free(b), free(c);
+}
+
+/* Landmarks on a spiral about the origin, as many as wanted; a noisy look at any of them by any sensor. */
+static void spot(size_t i, double point[3]) {
+  const double angle = 0.7 * (double)i, radius = 6 + 0.05 * (double)i;
+  point[0] = radius * cos(angle), point[1] = radius * sin(angle), point[2] = 0.01 * (double)(i % 100) - 0.5;
+}
+
+static size_t look(world *w, int sensor, size_t first, size_t landmarks, size_t most, cairn_observation *out) {
+  size_t count = 0;
+  memset(out, 0, most * sizeof *out);
+  for (size_t k = 0; k < landmarks && count < most; ++k) {
+    double point[3];
+    const size_t i = (first + k) % landmarks;
+    spot(i, point);
+    if (!world_see(w, sensor, 0.1, 0.05, point, out[count].z)) continue;
+    for (int n = 0; n < 3; ++n) out[count].z[n] += random_normal(&w->random, sensor == CAMERA ? 1 : 0.01);
+    out[count++].id = i + 1;
+  }
+  return count;
+}
+
+typedef struct scale {
+  uint32_t landmarks, observations;
+  int steps;
+  int32_t error;
+} scale;
+
+/* Everything a filter does in its life, `steps` times, under the counter. */
+static void live(const scale *s) {
+  cairn_filter_options options = test_options();
+  cairn_observation *o = calloc(s->observations, sizeof *o);
+  cairn_match *m = calloc(s->observations, sizeof *m);
+  const size_t rows = 3 * s->observations;
+  double *residual = calloc(rows, sizeof *residual), *noise = calloc(rows * rows, sizeof *noise);
+  double *jp = calloc(rows * 6, sizeof *jp), *jl = calloc(rows * rows, sizeof *jl);
+  uint64_t *ids = calloc(s->observations, sizeof *ids);
+  rig r;
+  world w;
+  size_t result[4] = {0}, reasons[5] = {0}, most = 0, failed = 0;
+  double covariance[36], small[9], pivot;
+  cairn_pose pose;
+  cairn_match one;
+  assert_true(o != NULL && m != NULL && residual != NULL && noise != NULL && jp != NULL && jl != NULL && ids != NULL);
+  options.max_landmarks = s->landmarks, options.max_observations = s->observations;
+  options.iterations = 5, options.iteration_tolerance = 1e-9, options.error = s->error;
+  world_init(&w, 31);
+  w.truth = options.initial_pose = pose_at(0.5, 0.3, 0.2, 0.02, 0.03, 0.1);
+  rig_open(&r, &options);
+  cairn_filter *f = r.filter;
+  const cairn_map *map = cairn_filter_map(f);
+  size_t n = look(&w, CARTESIAN, 0, s->landmarks, s->observations, o);
+  assert_ok(cairn_filter_update(f, r.sensors[CARTESIAN], o, n, m));
+  diagonal(covariance, 6, 1e-8), diagonal(small, 3, 1e-2), diagonal(noise, (int)rows, 1e-2);
+  const double still[3] = {0, 0, 0};
+  const cairn_pose stay = {{0, 0, 0}, {1, 0, 0, 0}};
+  const double centre[3] = {0, 0, 0};
+
+  arm();
+  for (int step = 0; step < s->steps; ++step) {
+    const int sensor = step < (int)(2 * s->landmarks / s->observations) ? CARTESIAN : step % SENSORS;
+    if (step % 3 == 0) failed += cairn_filter_predict_wheels(f, 0.001, 0, 0) != CAIRN_OK;
+    if (step % 3 == 1) failed += cairn_filter_predict_twist(f, 0.001, still, still) != CAIRN_OK;
+    if (step % 3 == 2) failed += cairn_filter_predict_increment(f, &stay, covariance) != CAIRN_OK;
+    failed += cairn_filter_point_head(f, r.sensors[HEAD], 0.1, 0.05) != CAIRN_OK;
+    n = look(&w, sensor, (size_t)step * s->observations / 2, s->landmarks, s->observations, o);
+    if (step % 4 == 3 && n > 2) o[1].z[0] += 30; /* an outlier, or a point behind the lens */
+    failed += cairn_filter_update(f, r.sensors[sensor], o, n, m) != CAIRN_OK;
+    for (size_t i = 0; i < n; ++i) ++result[m[i].result], ++reasons[m[i].reason];
+    if (n > most) most = n;
+    failed += cairn_filter_update_position(f, w.truth.position, small, step % 2 ? NULL : centre, &one) != CAIRN_OK;
+    failed += cairn_filter_update_attitude(f, w.truth.quaternion, small, &one) != CAIRN_OK;
+    failed += cairn_filter_update_heading(f, 0.1, 0.1, NULL) != CAIRN_OK;
+    size_t known = 0, needed;
+    for (size_t i = 0; i < n; ++i) {
+      if (m[i].result == CAIRN_REJECTED) continue;
+      for (int k = 0; k < 3; ++k) jl[(3 * known + (size_t)k) * rows + 3 * known + (size_t)k] = 1;
+      ids[known++] = o[i].id;
+    }
+    if (known == s->observations)
+      failed += cairn_filter_update_linear(f, residual, rows, noise, jp, ids, known, jl, &one) != CAIRN_OK;
+    failed += cairn_filter_update_linear(f, residual, 3, small, jp, NULL, 0, NULL, &one) != CAIRN_OK;
+    if (step % 2 && known > 0) failed += cairn_filter_remove_landmark(f, ids[known / 2]) != CAIRN_OK;
+    failed += cairn_filter_pose(f, &pose, covariance) != CAIRN_OK;
+    diagonal(covariance, 6, 1e-8);
+    if (step % 16 == 0) failed += cairn_filter_audit(f, &pivot) != CAIRN_OK;
+    failed += cairn_map_size(map, &needed) != CAIRN_OK;
+  }
+  counter.armed = false;
+  if (failed != 0) fail_msg("%zu calls failed; last message: %s", failed, cairn_last_message());
+  if (counter.calls != 0) fail_msg("%zu allocations at %u landmarks", counter.calls, s->landmarks);
+  assert_true(most == s->observations);
+  assert_true(result[CAIRN_MATCHED] > 0 && result[CAIRN_NEW] > 0);
+  assert_true(reasons[CAIRN_REASON_GATE] + reasons[CAIRN_REASON_NO_IMAGE] > 0);
+  rig_close(&r);
+  free(o), free(m), free(residual), free(noise), free(jp), free(jl), free(ids);
+}
+
+static void a_small_filter_takes_nothing(void **state) {
+  (void)state;
+  live(&(scale){WORLD_LANDMARKS, 6, 300, CAIRN_ERROR_INVARIANT});
+  live(&(scale){WORLD_LANDMARKS, 6, 300, CAIRN_ERROR_STANDARD});
+}
+
+static void a_large_filter_takes_nothing(void **state) {
+  (void)state;
+  live(&(scale){300, 60, 40, CAIRN_ERROR_INVARIANT});
+  live(&(scale){300, 60, 25, CAIRN_ERROR_STANDARD});
+}
+
+static void the_bytes_are_foretold(void **state) {
+  static const struct {
+    uint32_t landmarks, observations, sensors;
+  } cases[] = {{1, 1, 1}, {12, 12, 5}, {100, 64, 8}, {1000, 64, 8}, {300, 300, 16}, {50, 1000, 2}, {2000, 10, 256}};
+  (void)state;
+  for (size_t k = 0; k < LENGTH(cases); ++k) {
+    cairn_filter_options options = test_options();
+    cairn_filter *f = NULL;
+    size_t foretold = 0;
+    const cairn_stereo_head head = test_head();
+    const cairn_custom point = test_point();
+    const cairn_stereo_camera camera = test_camera();
+    options.max_landmarks = cases[k].landmarks, options.max_observations = cases[k].observations;
+    options.max_sensors = cases[k].sensors;
+    assert_ok(cairn_filter_required_bytes(&options, &foretold));
+    arm();
+    const cairn_status created = cairn_filter_create(&options, &f);
+    const size_t at_creation = counter.live, peak_at_creation = counter.peak;
+    size_t failed = 0;
+    for (uint32_t i = 0; i < cases[k].sensors; ++i) {
+      int32_t sensor;
+      if (i % 3 == 0) failed += cairn_filter_add_stereo_head(f, &head, &sensor) != CAIRN_OK;
+      if (i % 3 == 1) failed += cairn_filter_add_custom(f, &point, &sensor) != CAIRN_OK;
+      if (i % 3 == 2) failed += cairn_filter_add_stereo_camera(f, &camera, &sensor) != CAIRN_OK;
+    }
+    const size_t peak = counter.peak;
+    cairn_filter_destroy(f);
+    counter.armed = false;
+    assert_ok(created);
+    assert_int_equal(failed, 0);
+    assert_true(at_creation > 0); /* the counter does stand before the library's allocator */
+    assert_int_equal(counter.live, 0);
+    if (at_creation > foretold + 4096 || peak_at_creation > foretold + 4096 || peak > foretold + 4096 ||
+        (double)at_creation < 0.9 * (double)foretold - 4096)
+      fail_msg("%u landmarks: foretold %zu, at creation %zu (peak %zu), with sensors %zu", cases[k].landmarks, foretold,
+               at_creation, peak_at_creation, peak);
+  }
+}
+
+/* Each allocation of a creation fails once: a status, nothing written, nothing lost. */
+static void want_of_memory_is_a_status(void **state) {
+  const cairn_filter_options options = test_options();
+  size_t failures = 0;
+  (void)state;
+  for (size_t at = 1;; ++at) {
+    cairn_filter *f = NULL;
+    arm();
+    counter.fail_at = at;
+    const cairn_status status = cairn_filter_create(&options, &f);
+    const size_t live = counter.live;
+    counter.armed = false;
+    if (status == CAIRN_OK) {
+      cairn_filter_destroy(f);
+      break;
+    }
+    assert_status(status, CAIRN_ERROR_MEMORY);
+    assert_null(f);
+    assert_int_equal(live, 0);
+    ++failures;
+  }
+  assert_true(failures > 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_counter_counts),           cmocka_unit_test(a_small_filter_takes_nothing),
+      cmocka_unit_test(a_large_filter_takes_nothing), cmocka_unit_test(the_bytes_are_foretold),
+      cmocka_unit_test(want_of_memory_is_a_status),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
