@@ -1,0 +1,382 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Calls every function of the library with good and bad arguments mixed, as a seed says, and holds what has to hold
+ * after any call: a status of the pinned set, a line for each failure, a failed call that changes nothing, and a state
+ * of finite numbers whose variances are not negative.
+ *
+ *   api_fuzz SEED CALLS [LIMIT [loose]]
+ *
+ * Buffers are exactly as long as the library is told, so that a sanitizer sees each byte too far. Half of the filters
+ * are "sane": numbers of everyday size and arguments that are wrong in kind (NaN, negative noise, unknown ids), after
+ * which the covariance has to stay positive definite to rounding; the others are given numbers of any size, or of sizes
+ * up to LIMIT and down to 1 / LIMIT. `loose` asks nothing of the numbers of those others: all else has to hold for them
+ * too. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fuzz.h"
+
+typedef struct slot {
+  cairn_filter *filter;
+  bool wild;
+  uint32_t max_landmarks, max_observations;
+  int32_t sensors;
+  uint32_t rows[64]; /* of an observation, by sensor */
+} slot;
+
+static slot slots[3];
+static slot *now;
+static const char *operation = "";
+static unsigned long long call_number, counts[9], refused_by_audit;
+static uint64_t the_seed;
+
+static void report_and_exit(const char *what, double value) {
+  fprintf(stderr, "api_fuzz: seed %llu, call %llu, %s: %s (%g)\n  last message: %s\n", (unsigned long long)the_seed,
+          call_number, operation, what, value, cairn_last_message());
+  exit(1);
+}
+#define HOLDS(condition, value)                                     \
+  do {                                                              \
+    if (!(condition)) report_and_exit(#condition, (double)(value)); \
+  } while (0)
+static bool loose;
+#define HOLDS_OF_NUMBERS(s, condition, value)              \
+  do {                                                     \
+    if (!loose || !(s)->wild) HOLDS((condition), (value)); \
+  } while (0)
+
+static void check_numbers(const slot *s, const double *values, size_t count) {
+  for (size_t i = 0; i < count; ++i) HOLDS_OF_NUMBERS(s, isfinite(values[i]), values[i]);
+}
+
+/* What may be said of a filter after any call. */
+static void check_state(const slot *s, bool whole) {
+  cairn_pose pose;
+  double covariance[36], length = 0, pivot = NAN;
+  size_t n = 0, needed = 0;
+  HOLDS(cairn_filter_pose(s->filter, &pose, covariance) == CAIRN_OK, 0);
+  check_numbers(s, pose.position, 3);
+  check_numbers(s, pose.quaternion, 4);
+  for (int i = 0; i < 4; ++i) length += pose.quaternion[i] * pose.quaternion[i];
+  HOLDS_OF_NUMBERS(s, fabs(length - 1) < 1e-9, length);
+  check_numbers(s, covariance, 36);
+  for (int i = 0; i < 6; ++i) HOLDS_OF_NUMBERS(s, covariance[7 * i] >= 0, covariance[7 * i]);
+  for (int i = 0; i < 36; ++i) HOLDS_OF_NUMBERS(s, covariance[i] == covariance[6 * (i % 6) + i / 6], covariance[i]);
+  const cairn_map *map = cairn_filter_map(s->filter);
+  HOLDS(map != NULL && cairn_map_size(map, &n) == CAIRN_OK && n <= s->max_landmarks, n);
+  if (!whole) return;
+  cairn_landmark *all = calloc(n + 1, sizeof *all);
+  HOLDS(cairn_map_landmarks(map, all, n, &needed) == CAIRN_OK && needed == n, needed);
+  for (size_t i = 0; i < n; ++i) {
+    check_numbers(s, all[i].position, 3);
+    check_numbers(s, all[i].covariance, 9);
+    for (int k = 0; k < 3; ++k) HOLDS_OF_NUMBERS(s, all[i].covariance[4 * k] >= 0, all[i].covariance[4 * k]);
+    HOLDS(all[i].id != CAIRN_ID_NONE && all[i].observations > 0, all[i].observations);
+    if (i > 0) HOLDS(all[i - 1].id < all[i].id, all[i].id);
+  }
+  free(all);
+  HOLDS(cairn_filter_audit(s->filter, &pivot) == CAIRN_OK, pivot);
+  HOLDS_OF_NUMBERS(s, !isnan(pivot), pivot);
+  if (!s->wild) HOLDS(pivot > -1e-9, pivot);
+  refused_by_audit += !(pivot > 0);
+}
+
+static void check_status(cairn_status status) {
+  HOLDS(status <= 0 && status >= CAIRN_ERROR_STATE, status); /* CAIRN_ERROR_INTERNAL is a defect by its definition */
+  ++counts[-status];
+  if (status == CAIRN_OK) return;
+  const char *line = cairn_last_message();
+  HOLDS(line != NULL && line[0] != '\0' && strchr(line, '\n') == NULL, status);
+}
+
+static uint64_t id(void) { return fuzz_one_in(60) ? fuzz_id() : fuzz_below(now->max_landmarks + 3u); }
+static int32_t sensor(void) { return fuzz_one_in(40) ? fuzz_int() : (int32_t)fuzz_below((uint64_t)now->sensors + 1); }
+
+static void hear(void *payload, const char *line) { *(size_t *)payload += strlen(line); }
+static size_t heard;
+
+/* --- operations --- */
+
+static void create(slot *s) {
+  cairn_filter_options o;
+  cairn_filter *filter = NULL;
+  size_t bytes = 0;
+  operation = "create";
+  fuzz_wild = true;
+  check_status(cairn_filter_options_init(&o, sizeof o));
+  slot fresh = {
+      NULL, fuzz_one_in(2), 1 + (uint32_t)fuzz_below(fuzz_one_in(10) ? 120 : 25), 1 + (uint32_t)fuzz_below(12), 0, {0}};
+  o.error = fuzz_one_in(3);
+  o.max_landmarks = fresh.max_landmarks, o.max_observations = fresh.max_observations;
+  o.max_sensors = 1 + (uint32_t)fuzz_below(10);
+  o.iterations = 1 + (uint32_t)fuzz_below(6);
+  if (fuzz_one_in(3)) o.gate_probability = fuzz_uniform(0.1, 1.02);
+  if (fuzz_one_in(3)) o.batch_gate_probability = fuzz_one_in(2) ? 1 : fuzz_uniform(0.1, 1);
+  if (fuzz_one_in(8)) o.iteration_tolerance = fuzz_garbage();
+  if (fuzz_one_in(12)) o.error = fuzz_int();
+  now = &fresh;
+  fuzz_wild = fresh.wild;
+  if (fuzz_one_in(2)) fuzz_covariance(o.initial_covariance, 6, 0.01);
+  if (fuzz_one_in(2)) fuzz_pose(&o.initial_pose);
+  void *given = fuzz_one_in(4) ? fuzz_resized(&o, sizeof o) : NULL;
+  uint32_t stated;
+  if (given != NULL) memcpy(&stated, given, sizeof stated);
+  if (given == NULL || stated < offsetof(cairn_filter_options, iterations)) { /* the old caller's default is large */
+    free(given);
+    given = malloc(sizeof o);
+    memcpy(given, &o, sizeof o);
+  }
+  const cairn_status sized = cairn_filter_required_bytes(fuzz_maybe(given), fuzz_maybe_out(&bytes));
+  check_status(sized);
+  const cairn_status status = cairn_filter_create(fuzz_maybe(given), fuzz_one_in(50) ? NULL : &filter);
+  check_status(status);
+  HOLDS((filter != NULL) == (status == CAIRN_OK), status);
+  free(given);
+  if (filter == NULL) return;
+  cairn_filter_destroy(s->filter);
+  *s = fresh;
+  s->filter = filter;
+  if (fuzz_one_in(2)) check_status(cairn_filter_set_log(filter, hear, &heard));
+  now = s;
+}
+
+static void add_sensor(slot *s) {
+  int32_t added = -77, *out = fuzz_maybe_out(&added);
+  cairn_status status = CAIRN_OK;
+  void *given = NULL;
+  uint32_t rows = 3;
+  const int kind = (int)fuzz_below(5);
+  if (kind == 0) {
+    cairn_stereo_head h;
+    check_status(cairn_stereo_head_init(&h, sizeof h));
+    h.encoder_mode = fuzz_one_in(30) ? fuzz_int() : (int32_t)fuzz_below(2);
+    fuzz_numbers(h.platform, 3, 1), fuzz_numbers(h.stick, 3, 1);
+    if (fuzz_one_in(2)) fuzz_numbers(h.camera_quaternion, 4, 1);
+    h.range_sigma = fuzz_positive(1), h.azimuth_sigma = fuzz_positive(0.1), h.elevation_sigma = fuzz_positive(0.1);
+    h.pan_sigma = fuzz_positive(0.02), h.stick_sigma = fuzz_one_in(3) ? 0 : fuzz_positive(0.02);
+    if (fuzz_one_in(4)) h.max_elevation = fuzz_positive(1.5);
+    given = fuzz_one_in(4) ? fuzz_resized(&h, sizeof h) : memcpy(malloc(sizeof h), &h, sizeof h);
+    status = cairn_filter_add_stereo_head(s->filter, fuzz_maybe(given), out);
+  } else if (kind == 1) {
+    cairn_stereo_camera c;
+    check_status(cairn_stereo_camera_init(&c, sizeof c));
+    c.fu = fuzz_positive(500), c.fv = fuzz_positive(500), c.baseline = fuzz_positive(1), c.cu = fuzz_number(500);
+    if (fuzz_one_in(3)) fuzz_pose(&c.T_body_camera);
+    c.sigma[fuzz_below(3)] = fuzz_positive(2);
+    given = fuzz_one_in(4) ? fuzz_resized(&c, sizeof c) : memcpy(malloc(sizeof c), &c, sizeof c);
+    status = cairn_filter_add_stereo_camera(s->filter, fuzz_maybe(given), out);
+  } else if (kind == 2) {
+    cairn_cartesian c;
+    check_status(cairn_cartesian_init(&c, sizeof c));
+    if (fuzz_one_in(2)) fuzz_pose(&c.T_body_sensor);
+    c.sigma[fuzz_below(3)] = fuzz_positive(1);
+    given = fuzz_one_in(4) ? fuzz_resized(&c, sizeof c) : memcpy(malloc(sizeof c), &c, sizeof c);
+    status = cairn_filter_add_cartesian(s->filter, fuzz_maybe(given), out);
+  } else {
+    cairn_custom c;
+    double worst, landmark[3];
+    cairn_pose T;
+    check_status(cairn_custom_init(&c, sizeof c));
+    c.predict = kind == 3 ? fuzz_custom_predict : fuzz_range_predict;
+    c.place = kind == 3 && !fuzz_one_in(4) ? fuzz_custom_place : NULL;
+    c.rows = rows = kind == 3 ? 3 : 1;
+    if (fuzz_one_in(30)) c.rows = fuzz_one_in(2) ? 0 : 4 + (uint32_t)fuzz_below(5);
+    if (fuzz_one_in(30)) c.predict = NULL;
+    c.angle_mask = (uint32_t)fuzz_below(8);
+    c.sigma[0] = fuzz_positive(1);
+    fuzz_pose(&T), fuzz_numbers(landmark, 3, 5);
+    check_status(cairn_custom_check(fuzz_maybe(&c), fuzz_maybe(&T), fuzz_maybe(landmark), fuzz_maybe_out(&worst)));
+    given = memcpy(malloc(sizeof c), &c, sizeof c);
+    status = cairn_filter_add_custom(s->filter, fuzz_maybe(given), out);
+  }
+  free(given);
+  check_status(status);
+  HOLDS((status == CAIRN_OK) == (added != -77), added);
+  if (status != CAIRN_OK) return;
+  HOLDS(added == s->sensors, added);
+  s->rows[s->sensors++] = rows;
+}
+
+static void motion(slot *s) {
+  cairn_filter *f = fuzz_one_in(100) ? NULL : s->filter;
+  double v[3], w[3], c[36];
+  cairn_pose T;
+  const double dt = fuzz_bad() ? fuzz_garbage() : fuzz_uniform(0.01, 0.5);
+  const int kind = (int)fuzz_below(5);
+  if (kind == 0) check_status(cairn_filter_predict_wheels(f, dt, fuzz_number(5), fuzz_number(5)));
+  fuzz_numbers(v, 3, 1), fuzz_numbers(w, 3, 1);
+  if (kind == 1) check_status(cairn_filter_predict_twist(f, dt, fuzz_maybe(v), fuzz_maybe(w)));
+  fuzz_pose(&T), fuzz_covariance(c, 6, 1e-4);
+  if (kind == 2) check_status(cairn_filter_predict_increment(f, fuzz_maybe(&T), fuzz_maybe(c)));
+  if (kind == 3) {
+    cairn_wheels wheels;
+    check_status(cairn_wheels_init(&wheels, sizeof wheels));
+    wheels.radius = fuzz_positive(0.5), wheels.track = fuzz_positive(1), wheels.slip_sigma = fuzz_positive(0.1);
+    void *given = fuzz_resized(&wheels, sizeof wheels);
+    check_status(cairn_filter_set_wheels(f, fuzz_maybe(given)));
+    free(given);
+  }
+  if (kind == 4) {
+    cairn_twist_noise noise;
+    check_status(cairn_twist_noise_init(&noise, sizeof noise));
+    noise.velocity_sigma[fuzz_below(3)] = fuzz_positive(0.1), noise.rate_sigma[fuzz_below(3)] = fuzz_positive(0.1);
+    void *given = fuzz_resized(&noise, sizeof noise);
+    check_status(cairn_filter_set_twist_noise(f, fuzz_maybe(given)));
+    free(given);
+  }
+}
+
+static void observe(slot *s) {
+  const size_t count = fuzz_one_in(40) ? fuzz_below(30) : fuzz_below(s->max_observations + 1u);
+  cairn_observation *o = malloc(count * sizeof *o + 1); /* + 1: never NULL */
+  cairn_match *m = malloc(count * sizeof *m + 1);
+  memset(m, 0x5a, count * sizeof *m);
+  const int32_t by = sensor();
+  const uint64_t first = id();
+  for (size_t i = 0; i < count; ++i) {
+    memset(&o[i], 0, sizeof o[i]);
+    o[i].id = fuzz_one_in(40) ? id() : (first + i) % (s->max_landmarks + 2u);
+    fuzz_numbers(o[i].z, 3, 10);
+    if (fuzz_one_in(2)) o[i].z[0] = fuzz_uniform(0, 400), o[i].z[1] = o[i].z[0] - fuzz_uniform(0, 30);
+    if (fuzz_one_in(10)) fuzz_covariance(o[i].covariance, 3, 1);
+  }
+  const bool asked = !fuzz_one_in(5);
+  const cairn_status status = cairn_filter_update(s->filter, by, fuzz_maybe(o), count, asked ? m : NULL);
+  check_status(status);
+  for (size_t i = 0; i < count; ++i) {
+    if (status != CAIRN_OK) {
+      HOLDS(m[i].result == 0x5a5a5a5a && m[i].reason == 0x5a5a5a5a, i);
+    } else if (asked) {
+      HOLDS(m[i].result >= CAIRN_MATCHED && m[i].result <= CAIRN_REJECTED, m[i].result);
+      HOLDS((m[i].reason != CAIRN_REASON_NONE) == (m[i].result == CAIRN_REJECTED), m[i].reason);
+      HOLDS_OF_NUMBERS(s, m[i].distance >= 0 && !isnan(m[i].threshold), m[i].distance);
+    }
+  }
+  if (by >= 0 && by < s->sensors) check_status(cairn_filter_point_head(s->filter, by, fuzz_number(1), fuzz_number(1)));
+  free(o), free(m);
+}
+
+static void absolute(slot *s) {
+  double z[3], c[9], lever[3], q[4];
+  cairn_match m, *out = fuzz_one_in(3) ? NULL : &m;
+  fuzz_numbers(z, 3, 5), fuzz_covariance(c, 3, 0.1), fuzz_numbers(lever, 3, 1), fuzz_numbers(q, 4, 1);
+  const int kind = (int)fuzz_below(3);
+  if (kind == 0)
+    check_status(
+        cairn_filter_update_position(s->filter, fuzz_maybe(z), fuzz_maybe(c), fuzz_one_in(2) ? NULL : lever, out));
+  if (kind == 1) check_status(cairn_filter_update_attitude(s->filter, fuzz_maybe(q), fuzz_maybe(c), out));
+  if (kind == 2) check_status(cairn_filter_update_heading(s->filter, fuzz_number(4), fuzz_positive(0.2), out));
+}
+
+static void linear(slot *s) {
+  const size_t rows = fuzz_one_in(30) ? fuzz_below(60) : 1 + fuzz_below(6),
+               count = fuzz_below(fuzz_one_in(30) ? 20 : 4);
+  double *r = malloc(rows * sizeof *r + 1), *c = malloc(rows * rows * sizeof *c + 1);
+  double *jp = malloc(6 * rows * sizeof *jp + 1), *jl = malloc(3 * count * rows * sizeof *jl + 1);
+  uint64_t *ids = malloc(count * sizeof *ids + 1);
+  cairn_match m;
+  fuzz_numbers(r, rows, 0.3), fuzz_numbers(jp, 6 * rows, 1), fuzz_numbers(jl, 3 * count * rows, 1);
+  if (rows > 0) fuzz_covariance(c, rows, 0.1);
+  const uint64_t first = id();
+  for (size_t i = 0; i < count; ++i) ids[i] = fuzz_one_in(10) ? id() : first + i;
+  check_status(cairn_filter_update_linear(s->filter, fuzz_maybe(r), rows, fuzz_maybe(c), fuzz_one_in(4) ? NULL : jp,
+                                          fuzz_maybe(ids), count, fuzz_maybe(jl), fuzz_one_in(3) ? NULL : &m));
+  free(r), free(c), free(jp), free(jl), free(ids);
+}
+
+static void ask(slot *s) {
+  const cairn_map *map = fuzz_one_in(60) ? NULL : cairn_filter_map(s->filter);
+  const size_t capacity = fuzz_below(30), count = fuzz_below(6);
+  cairn_landmark *out = malloc(capacity * sizeof *out + 1), one;
+  double *matrix = malloc(capacity * 12 * sizeof *matrix + 1), a[3], b[3], nees;
+  uint64_t ids[6];
+  cairn_pose truth;
+  size_t needed;
+  fuzz_numbers(a, 3, 10), fuzz_numbers(b, 3, 10), fuzz_pose(&truth);
+  for (int i = 0; i < 3 && fuzz_one_in(2); ++i) b[i] = a[i] + fabs(b[i]);
+  for (size_t i = 0; i < count; ++i) ids[i] = id();
+  switch (fuzz_below(9)) {
+    case 0: check_status(cairn_map_landmark(map, id(), fuzz_maybe_out(&one))); break;
+    case 1: check_status(cairn_map_landmarks(map, fuzz_maybe_out(out), capacity, fuzz_maybe_out(&needed))); break;
+    case 2:
+      check_status(cairn_map_within(map, fuzz_maybe(a), fuzz_positive(10), out, capacity, fuzz_maybe_out(&needed)));
+      break;
+    case 3:
+      check_status(cairn_map_nearest(map, fuzz_maybe(a), fuzz_one_in(9) ? SIZE_MAX : count, out, capacity, &needed));
+      break;
+    case 4:
+      check_status(cairn_map_in_box(map, fuzz_maybe(a), fuzz_maybe(b), out, capacity, fuzz_maybe_out(&needed)));
+      break;
+    case 5:
+      check_status(cairn_map_joint_covariance(map, fuzz_maybe(ids), count, matrix, capacity * 12, &needed));
+      break;
+    case 6:
+      check_status(cairn_filter_joint_covariance(s->filter, fuzz_maybe(ids), count, matrix, capacity * 12, &needed));
+      break;
+    case 7: check_status(cairn_filter_pose_nees(s->filter, fuzz_maybe(&truth), fuzz_maybe_out(&nees))); break;
+    default: {
+      cairn_update_report report;
+      memset(&report, 0, sizeof report);
+      void *given = fuzz_resized(&report, sizeof report);
+      check_status(cairn_filter_last_update(s->filter, fuzz_maybe_out(given)));
+      free(given);
+    }
+  }
+  free(out), free(matrix);
+}
+
+static void call_one(void) {
+  static const char *const names[] = {"add_sensor", "motion", "observe", "absolute",
+                                      "linear",     "ask",    "remove",  "helpers"};
+  static const unsigned char weights[] = {3, 22, 40, 10, 8, 10, 4, 3};
+  slot *s = &slots[fuzz_below(3)];
+  uint64_t pick = fuzz_below(100);
+  size_t kind = 0;
+  if (s->filter == NULL || fuzz_one_in(400)) create(s);
+  if (s->filter == NULL) return;
+  now = s;
+  fuzz_wild = s->wild;
+  while (pick >= weights[kind]) pick -= weights[kind++];
+  if (s->sensors == 0) kind = 0;
+  operation = names[kind];
+  fuzz_shadow before, after;
+  fuzz_fickle = fuzz_one_in(10);
+  const unsigned long long failures = counts[0];
+  fuzz_shadow_take(&before, s->filter);
+  switch (kind) {
+    case 0: add_sensor(s); break;
+    case 1: motion(s); break;
+    case 2: observe(s); break;
+    case 3: absolute(s); break;
+    case 4: linear(s); break;
+    case 5: ask(s); break;
+    case 6: check_status(cairn_filter_remove_landmark(s->filter, id())); break;
+    default: fuzz_helpers(check_status); break;
+  }
+  fuzz_shadow_take(&after, s->filter);
+  if (counts[0] == failures || kind == 5) /* all of its calls failed, or it only asked */
+    HOLDS(memcmp(&before, &after, sizeof before) == 0, 0);
+  check_state(s, fuzz_one_in(16));
+}
+
+int main(int argc, char **argv) {
+  if (argc < 3 || argc > 5 || (argc == 5 && strcmp(argv[4], "loose") != 0)) {
+    fprintf(stderr, "usage: api_fuzz SEED CALLS [LIMIT [loose]]\n");
+    return 2;
+  }
+  the_seed = strtoull(argv[1], NULL, 10);
+  const unsigned long long calls = strtoull(argv[2], NULL, 10);
+  loose = argc == 5;
+  fuzz_seed(the_seed, argc > 3 ? strtod(argv[3], NULL) : INFINITY);
+  for (call_number = 1; call_number <= calls; ++call_number) call_one();
+  for (size_t i = 0; i < sizeof slots / sizeof slots[0]; ++i) {
+    if (slots[i].filter != NULL) check_state(&slots[i], true);
+    cairn_filter_destroy(slots[i].filter);
+  }
+  printf("seed %llu: %llu calls", (unsigned long long)the_seed, calls);
+  for (int i = 0; i < 9; ++i) printf(", %s %llu", cairn_status_name(-i), counts[i]);
+  printf("; %llu wild states without a positive pivot\n", refused_by_audit);
+  /* A run that never gets anywhere proves nothing. */
+  return calls >= 1000 && counts[0] < calls / 4;
+}

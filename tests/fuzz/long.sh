@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Runs tests/fuzz/api_fuzz over one seed after the other until the time is up. Ends at the first failure, whose line
+# names the seed and the call: the same arguments bring it back.
+#
+#   tests/fuzz/long.sh API_FUZZ SECONDS [FIRST_SEED [CALLS [LIMIT [loose]]]]
+set -euo pipefail
+
+if (($# < 2 || $# > 6)); then
+  echo "usage: $0 API_FUZZ SECONDS [FIRST_SEED [CALLS [LIMIT [loose]]]]" >&2
+  exit 2
+fi
+program=$1 seconds=$2 first=${3:-1} calls=${4:-20000}
+numbers=("${@:5}")
+seed=$first
+while ((SECONDS < seconds)); do
+  "$program" "$seed" "$calls" "${numbers[@]}"
+  seed=$((seed + 1))
+done
+echo "$((seed - first)) seeds from $first on, $calls calls each: nothing found"
