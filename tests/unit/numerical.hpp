@@ -2,7 +2,9 @@
 // Derivatives by differences, for every test that checks a Jacobian; and the inputs at which Jacobians go wrong.
 #pragma once
 
+#include <cmath>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 #include "geometry/rigid.hpp"
