@@ -43,11 +43,12 @@ class Batch {
     Index done = 0;  // rows whose columns of Y have been started; blocks come in the order of their rows
     for (Index b = 0; b < jacobian_count_; ++b) {
       const Block& block = jacobian_[b];
-      for (; done < block.row + block.rows; ++done) std::fill_n(Y + done * ldy, n, 0.0);
+      const bool fresh = block.row + block.rows > done;
+      done = block.row + block.rows;
       for (Index r = 0; r < block.rows; ++r)
-        accumulate(P + block.column * ldp, ldp, n, block.value + r, block.rows, block.columns, Y + (block.row + r) * ldy);
+        accumulate(P + block.column * ldp, ldp, n, block.value + r, block.rows, block.columns, fresh,
+                   Y + (block.row + r) * ldy);
     }
-    for (; done < rows_; ++done) std::fill_n(Y + done * ldy, n, 0.0);
   }
 
   // Lower triangle of S = H T + R, for T = P H^T.
@@ -104,14 +105,22 @@ class Batch {
     return value;
   }
 
-  // y += P(:, 0..columns) j, with the entries of j `stride` apart. Three columns a pass: a landmark, half a pose.
-  static void accumulate(const double* P, Index ldp, Index n, const double* j, Index stride, Index columns, double* y) {
+  // y += P(:, 0..columns) j, with the entries of j `stride` apart; y = it where `fresh`. Three columns a pass: a
+  // landmark, half a pose.
+  static void accumulate(const double* P, Index ldp, Index n, const double* j, Index stride, Index columns, bool fresh,
+                         double* y) {
     Index c = 0;
+    if (fresh && columns >= 3) {
+      const double a = j[0], b = j[stride], d = j[2 * stride];
+      const double *p = P, *q = P + ldp, *r = P + 2 * ldp;
+      for (Index i = 0; i < n; ++i) y[i] = a * p[i] + b * q[i] + d * r[i];
+      c = 3;
+    } else if (fresh) {
+      std::fill_n(y, n, 0.0);
+    }
     for (; c + 3 <= columns; c += 3) {
       const double a = j[c * stride], b = j[(c + 1) * stride], d = j[(c + 2) * stride];
-      const double* p = P + c * ldp;
-      const double* q = p + ldp;
-      const double* r = q + ldp;
+      const double *p = P + c * ldp, *q = p + ldp, *r = q + ldp;
       for (Index i = 0; i < n; ++i) y[i] += a * p[i] + b * q[i] + d * r[i];
     }
     for (; c < columns; ++c) {

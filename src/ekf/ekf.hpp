@@ -144,7 +144,8 @@ class Ekf {
   void to_ordinary(const Index* slots, Index count, double* matrix, Index ld) const;
   void retract(const Tangent& error, Pose& pose) const;
   void pending_pose_columns(double* out) const;  // of P_now, all rows
-  void prepare_pending(Index first);
+  void prepare_pending();
+  void add_noise(const double* columns, const double* weights, Index stride, Index n, double* y) const;
   void gather_columns();  // the window's columns of P_now, all rows
   void write_covariance(Index rank, const double* pose_columns);
   void apply_pending();
@@ -181,11 +182,10 @@ class Ekf {
   double* error_window_;
   double* foreseen_;  // residual that solve() foresees at its own iterate
   double* columns_;   // the window's columns of P_now, a row a state
-  Index noise_rank_ = 0;
-  double* noise_left_ = nullptr;   // U N and U in left_ and right_
-  double* noise_right_ = nullptr;
-  double* left_;      // [-W, U N]; the mount's rows of W behind those of the states
-  double* right_;     // [ W, U  ]
+  Index noise_rank_ = 0;  // columns of U N and U of the motion held back
+  double* noise_left_;
+  double* noise_right_;
+  double* W_;  // P H^T L^-T; the mount's rows of it behind those of the states
   double* error_state_;
   double* shrunk_;  // what an update takes off the diagonal
   double* diagonal_;

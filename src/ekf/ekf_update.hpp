@@ -168,13 +168,11 @@ double Ekf<Pose>::misfit(const double* residual) const {
   return std::sqrt(sum);
 }
 
-// U N and U behind column `first` of left_ and right_, one row a state; the pose's rows are zero, its columns of P are
-// written whole. noise_rank_ tells how many columns there are: none with the standard error.
+// U N and U, one row a state; the pose's rows are zero, its columns of P are written whole. noise_rank_ tells how many
+// columns there are: none with the standard error.
 template <class Pose>
-void Ekf<Pose>::prepare_pending(Index first) {
+void Ekf<Pose>::prepare_pending() {
   noise_rank_ = pending_ && error_ == ErrorKind::invariant ? kTurn : 0;
-  noise_left_ = left_ + first * ld_;
-  noise_right_ = right_ + first * ld_;
   if (noise_rank_ == 0) return;
   const Eigen::Matrix<double, kTurn, kTurn> N = N_.template bottomRightCorner<kTurn, kTurn>();
   for (Index t = 0; t < kTurn; ++t) {
@@ -192,6 +190,19 @@ void Ekf<Pose>::prepare_pending(Index first) {
   }
 }
 
+// y += columns weights over the landmarks' rows, for the columns of prepare_pending(); weights lie `stride` apart.
+template <class Pose>
+void Ekf<Pose>::add_noise(const double* columns, const double* weights, Index stride, Index n, double* y) const {
+  if (noise_rank_ == 0) return;
+  if constexpr (kTurn == 3) {  // one pass
+    const double a = weights[0], b = weights[stride], c = weights[2 * stride];
+    const double *u = columns, *v = columns + ld_, *w = columns + 2 * ld_;
+    for (Index i = kDof; i < n; ++i) y[i] += a * u[i] + b * v[i] + c * w[i];
+  } else {
+    for (Index t = 0; t < kTurn; ++t) add_scaled(weights[t * stride], columns + t * ld_, kDof, n, y);
+  }
+}
+
 // The pose's columns of P_now, all rows: P F^T + U N.
 template <class Pose>
 void Ekf<Pose>::pending_pose_columns(double* out) const {
@@ -206,23 +217,26 @@ void Ekf<Pose>::pending_pose_columns(double* out) const {
       std::fill(to + kDof, to + n, 0.0);
       for (Index k = 0; k < kDof; ++k) add_scaled(F_(c, k), P_ + k * ld_, kDof, n, to);
     }
-    for (Index t = 0; t < noise_rank_; ++t) add_scaled(N_(kDim + t, c), noise_right_ + t * ld_, kDof, n, to);
+    double weights[kTurn];
+    for (Index t = 0; t < kTurn; ++t) weights[t] = N_(kDim + t, c);
+    add_noise(noise_right_, weights, 1, n, to);
   }
 }
 
-// P <- P_now + left right^T over `rank` columns; those of prepare_pending(rank) stand behind them.
+// P <- P_now - W W^T over `rank` columns of W, those of prepare_pending() added in the same pass.
 template <class Pose>
 void Ekf<Pose>::write_covariance(Index rank, const double* pose_columns) {
   const Index n = states();
   for (Index c = 0; c < kDof; ++c) std::copy(pose_columns + c * ld_ + c, pose_columns + c * ld_ + n, P_ + c * ld_ + c);
-  if (rank + noise_rank_ > 0) update_triangle(P_, ld_, n, left_, ld_, right_, ld_, rank + noise_rank_, scratch_);
+  const TriangleTerm terms[] = {{W_, ld_, W_, ld_, rank, -1.0}, {noise_left_, ld_, noise_right_, ld_, noise_rank_, 1.0}};
+  if (rank + noise_rank_ > 0) update_triangle(P_, ld_, n, terms, 2, scratch_);
   clear_pending();
 }
 
 template <class Pose>
 void Ekf<Pose>::apply_pending() {
   if (!pending_) return;
-  prepare_pending(0);
+  prepare_pending();
   pending_pose_columns(columns_);
   write_covariance(0, columns_);
 }
@@ -231,7 +245,7 @@ template <class Pose>
 void Ekf<Pose>::gather_columns() {
   constexpr Index kAhead = 4;  // columns
   const Index n = states();
-  prepare_pending(batch_.rows());
+  prepare_pending();
   pending_pose_columns(columns_);
   for (Index i = 0; i < mount_; ++i) std::fill_n(columns_ + (kDof + i) * ld_, n, 0.0);
   // What stands left of a landmark's diagonal block lies along rows of P: a cache line a column. All landmarks of one
@@ -256,8 +270,7 @@ void Ekf<Pose>::gather_columns() {
     for (Index d = 0; d < kDim; ++d)
       std::copy_n(&P_[(from + d) * ld_ + from + kDim], n - from - kDim, to + d * ld_ + from + kDim);
     for (Index d = 0; d < kDim; ++d)  // + U N U_a^T
-      for (Index t = 0; t < noise_rank_; ++t)
-        add_scaled(noise_right_[t * ld_ + from + d], noise_left_ + t * ld_, kDof, n, to + d * ld_);
+      add_noise(noise_left_, noise_right_ + from + d, ld_, n, to + d * ld_);
   }
 }
 
@@ -265,13 +278,13 @@ template <class Pose>
 bool Ekf<Pose>::commit() {
   const Index n = states(), m = batch_.rows();
   gather_columns();
-  batch_.times_transposed(columns_, ld_, n, right_, ld_);
+  batch_.times_transposed(columns_, ld_, n, W_, ld_);
   for (Index j = 0; j < m; ++j)  // the mount's rows stand behind the states
-    for (Index i = 0; i < mount_; ++i) right_[j * ld_ + n + i] = T_[j * window_ + kDof + i];
+    for (Index i = 0; i < mount_; ++i) W_[j * ld_ + n + i] = T_[j * window_ + kDof + i];
   // W = P H^T L^-T, the error xi = W L^-1 r, and what P_new = P - W W^T (Mars paper, eq. 13) takes off the diagonal,
   // before anything is changed.
-  const RowSums sums{innovation_, left_, shrunk_, error_state_};
-  solve_right_transposed(S_, m, m, right_, ld_, n + mount_, scratch_, &sums);
+  const RowSums sums{innovation_, shrunk_, error_state_};
+  solve_right_transposed(S_, m, m, W_, ld_, n + mount_, scratch_, &sums);
 
   for (Index i = 0; i < n; ++i) diagonal_[i] = i < kDof ? columns_[i * ld_ + i] : P(i, i);
   for (Index t = 0; t < noise_rank_; ++t)
@@ -285,7 +298,7 @@ bool Ekf<Pose>::commit() {
   if (mount_ != 0) {
     for (Index c = 0; c < kMount; ++c) std::fill_n(mount_cross_ + c * ld_, n, 0.0);
     for (Index j = 0; j < m; ++j) {
-      const double* W = right_ + j * ld_;
+      const double* W = W_ + j * ld_;
       for (Index c = 0; c < kMount; ++c) {
         for (Index i = 0; i < n; ++i) mount_cross_[c * ld_ + i] -= W[i] * W[n + c];
         for (Index r = 0; r < kMount; ++r) mount_covariance_(r, c) -= W[n + r] * W[n + c];

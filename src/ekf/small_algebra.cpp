@@ -73,7 +73,7 @@ bool factor_small(double* S, Index ld, Index m) {
 
 std::size_t cholesky_workspace(Index m) {
   if (m <= kPanel) return 0;
-  return solve_workspace(kPanel) + static_cast<std::size_t>(kPanel * m) + update_triangle_workspace(m, kPanel);
+  return std::max(solve_workspace(kPanel), update_triangle_workspace(m, kPanel));
 }
 
 bool cholesky(double* S, Index ld, Index m, double* workspace) {
@@ -83,12 +83,9 @@ bool cholesky(double* S, Index ld, Index m, double* workspace) {
     if (!factor_small(diagonal, ld, width)) return false;
     if (below == 0) break;
     double* panel = diagonal + width;
-    double* negative = workspace + solve_workspace(kPanel);
     solve_right_transposed(diagonal, ld, width, panel, ld, below, workspace);
-    for (Index c = 0; c < width; ++c)
-      for (Index r = 0; r < below; ++r) negative[c * below + r] = -panel[c * ld + r];
-    update_triangle(S + (j + width) * (ld + 1), ld, below, negative, below, panel, ld, width,
-                    negative + kPanel * m);
+    const TriangleTerm downdate{panel, ld, panel, ld, width, -1.0};
+    update_triangle(S + (j + width) * (ld + 1), ld, below, &downdate, 1, workspace);
   }
   return true;
 }
@@ -137,7 +134,6 @@ void solve_right_transposed(const double* L, Index ld, Index m, double* W, Index
         squares[r] += solved[r] * solved[r];
         products[r] += solved[r] * sums->y[j];
       }
-      for (Index r = 0; r < rows; ++r) sums->negative[j * ldw + first + r] = -solved[r];
     }
     std::copy_n(squares, rows, sums->squares + first);
     std::copy_n(products, rows, sums->products + first);

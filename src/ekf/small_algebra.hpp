@@ -19,10 +19,9 @@ std::size_t cholesky_workspace(Index m);
 void solve_lower(const double* L, Index ld, Index m, double* x);
 void solve_lower_transposed(const double* L, Index ld, Index m, double* x);
 
-// What one pass over W gives besides: -W with W's leading dimension, the sums of squares of its rows, and W y.
+// What the pass over W gives besides: the sums of squares of its rows, and W y.
 struct RowSums {
   const double* y;
-  double* negative;
   double* squares;
   double* products;
 };

@@ -55,25 +55,31 @@ CAIRN_INLINE void store(double* to, Vector v) { std::memcpy(to, &v, sizeof v); }
 
 constexpr Index round_up(Index value, Index step) { return (value + step - 1) / step * step; }
 
-// Rows `row` to `row + kHeight` of a matrix of n rows, zeros beyond the last.
+// A column of A or of B, from its first row, and the factor that it is packed with.
+struct Column {
+  const double* value;
+  double factor;
+};
+
+// Rows `row` to `row + kHeight` of k columns of n rows, zeros beyond the last.
 template <Index kHeight>
-void pack_panel(const double* matrix, Index ld, Index n, Index k, Index row, double* panel) {
-  const double* column = matrix + row;
-  if (row + kHeight <= n) {
-    for (Index p = 0; p < k; ++p, column += ld, panel += kHeight) {
-      for (Index i = 0; i < kHeight; i += kLanes) store(panel + i, load(column + i));
+void pack_panel(const Column* columns, Index n, Index k, Index row, double* panel) {
+  for (Index p = 0; p < k; ++p, panel += kHeight) {
+    const double* column = columns[p].value + row;
+    const double factor = columns[p].factor;
+    if (row + kHeight <= n) {
+      for (Index i = 0; i < kHeight; i += kLanes) store(panel + i, factor * load(column + i));
+    } else {
+      for (Index i = 0; i < kHeight; ++i) panel[i] = row + i < n ? factor * column[i] : 0.0;
     }
-    return;
-  }
-  for (Index p = 0; p < k; ++p, column += ld, panel += kHeight) {
-    for (Index i = 0; i < kHeight; ++i) panel[i] = row + i < n ? column[i] : 0.0;
   }
 }
 
+// Rows `first` to `last`.
 template <Index kHeight>
-void pack(const double* matrix, Index ld, Index n, Index k, double* panels) {
-  for (Index row = 0; row < n; row += kHeight, panels += kHeight * k) {
-    pack_panel<kHeight>(matrix, ld, n, k, row, panels);
+void pack(const Column* columns, Index first, Index last, Index k, double* panels) {
+  for (Index row = first; row < last; row += kHeight, panels += kHeight * k) {
+    pack_panel<kHeight>(columns, last, k, row, panels);
   }
 }
 
@@ -170,6 +176,22 @@ double* aligned(double* pointer) {
   return reinterpret_cast<double*>((reinterpret_cast<std::uintptr_t>(pointer) + kMask) & ~kMask);
 }
 
+// lower(C) += A B^T over one slice of columns.
+void update_slice(double* C, Index ldc, Index n, const Column* a, const Column* b, Index depth, double* panels_b) {
+  const Index height = kBlock / depth / kRows * kRows;
+  const Index values_b = round_up(n, kColumns) * depth;
+  double* const panels_a = panels_b + round_up(values_b * kSpread, kAlign);
+  pack<kColumns>(b, 0, n, depth, panels_b);
+  spread(panels_b, values_b);
+  for (Index first = 0; first < n; first += height) {
+    const Index last = std::min(n, first + height);
+    pack<kRows>(a, first, last, depth, panels_a);
+    for (Index j = 0; j < last; j += kColumns) {
+      add_column(panels_a, first, last, panels_b + j * depth * kSpread, depth, C, ldc, j, std::min(kColumns, n - j));
+    }
+  }
+}
+
 }  // namespace
 
 std::size_t update_triangle_workspace(std::ptrdiff_t n_max, std::ptrdiff_t k_max) {
@@ -177,25 +199,28 @@ std::size_t update_triangle_workspace(std::ptrdiff_t n_max, std::ptrdiff_t k_max
   return static_cast<std::size_t>(round_up(panels_b, kAlign) + kBlock + kAlign);
 }
 
-void update_triangle(double* C, std::ptrdiff_t ldc, std::ptrdiff_t n, const double* A, std::ptrdiff_t lda,
-                     const double* B, std::ptrdiff_t ldb, std::ptrdiff_t k, double* workspace) {
+void update_triangle(double* C, std::ptrdiff_t ldc, std::ptrdiff_t n, const TriangleTerm* terms, std::ptrdiff_t count,
+                     double* workspace) {
   double* const panels_b = aligned(workspace);
-  for (Index p = 0; p < k; p += kDepth) {
-    const Index depth = std::min(kDepth, k - p);
-    const Index height = kBlock / depth / kRows * kRows;
-    const Index values_b = round_up(n, kColumns) * depth;
-    double* const panels_a = panels_b + round_up(values_b * kSpread, kAlign);
-    pack<kColumns>(B + p * ldb, ldb, n, depth, panels_b);
-    spread(panels_b, values_b);
-    for (Index first = 0; first < n; first += height) {
-      const Index last = std::min(n, first + height);
-      pack<kRows>(A + first + p * lda, lda, last - first, depth, panels_a);
-      for (Index j = 0; j < last; j += kColumns) {
-        const double* b = panels_b + j * depth * kSpread;
-        add_column(panels_a, first, last, b, depth, C, ldc, j, std::min(kColumns, n - j));
+  Column a[kDepth], b[kDepth];
+  Index depth = 0;
+  for (const TriangleTerm* term = terms; term != terms + count; ++term) {
+    for (Index p = 0; p < term->k; ++p) {
+      a[depth] = {term->A + p * term->lda, term->factor};
+      b[depth] = {term->B + p * term->ldb, 1.0};
+      if (++depth == kDepth) {
+        update_slice(C, ldc, n, a, b, depth, panels_b);
+        depth = 0;
       }
     }
   }
+  if (depth > 0) update_slice(C, ldc, n, a, b, depth, panels_b);
+}
+
+void update_triangle(double* C, std::ptrdiff_t ldc, std::ptrdiff_t n, const double* A, std::ptrdiff_t lda,
+                     const double* B, std::ptrdiff_t ldb, std::ptrdiff_t k, double* workspace) {
+  const TriangleTerm term{A, lda, B, ldb, k, 1.0};
+  update_triangle(C, ldc, n, &term, 1, workspace);
 }
 
 }  // namespace cairn

@@ -11,6 +11,20 @@ namespace cairn {
 // Doubles of workspace that `update_triangle` needs for matrices of up to `n_max` rows and ranks up to `k_max`.
 std::size_t update_triangle_workspace(std::ptrdiff_t n_max, std::ptrdiff_t k_max);
 
+// A sum's term factor A B^T: A and B are n x k, column-major with their leading dimensions.
+struct TriangleTerm {
+  const double* A;
+  std::ptrdiff_t lda;
+  const double* B;
+  std::ptrdiff_t ldb;
+  std::ptrdiff_t k;
+  double factor;
+};
+
+// lower(C) += the sum of the terms, in one pass over C: the columns of all terms make up the rank.
+void update_triangle(double* C, std::ptrdiff_t ldc, std::ptrdiff_t n, const TriangleTerm* terms, std::ptrdiff_t count,
+                     double* workspace);
+
 // lower(C) += A B^T. C is n x n, A and B are n x k, all column-major with their leading dimensions; the caller sees to
 // it that A B^T is symmetric (a downdate: A = -B). Nothing above the diagonal of C is read or written.
 // A and B may be one matrix; C overlaps neither. The workspace needs no alignment. Same inputs, same build, same bits.
