@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A random drive among landmarks that takes the library's filter and the reference through the same motions and
+// observations, and holds them against each other after each.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <vector>
+
+#include "numerical.hpp"
+#include "reference_filter.hpp"
+#include "slam/filter.hpp"
+
+namespace cairn::test {
+
+// What differs, each relative: positions to 1 m and their own size, covariances to the standard deviations.
+struct Difference {
+  double state = 0, covariance = 0;
+};
+
+class Pair {
+ public:
+  Pair(const FilterOptions& options);
+
+  Filter& filter() { return *filter_; }
+  ReferenceFilter& reference() { return reference_; }
+  int add(const Sensor& sensor);
+
+  void predict_twist(const Vector3& v, const Vector3& w, double dt);
+  void predict_wheels(double left, double right, double dt);
+  void predict_increment(const SE3& T, const Matrix6& covariance);
+  void set_noise(const TwistNoise& twist, const Wheels& wheels);
+  // False where a decision, a distance, the NIS or the number of linearisations differs.
+  bool update(int sensor, const std::vector<Seen>& frame);
+  void remove(std::uint64_t id);
+  Difference difference();
+
+ private:
+  std::unique_ptr<Arena> arena_;
+  std::unique_ptr<Filter> filter_;
+  ReferenceFilter reference_;
+  std::vector<const Sensor*> sensors_;
+  TwistNoise twist_noise_;
+  Wheels wheels_;
+};
+
+// Sensors with a mount that is not the body's own axes.
+StereoHead mounted_head(double encoder_sigma, bool per_frame);
+StereoCamera mounted_camera();
+Cartesian mounted_cartesian();
+// Sees landmarks along the map's own axes, as with a compass: it depends on more than the body point.
+CustomSensor compass_sensor();
+
+// Options with a random start, uncertain by centimetres to metres and by some degrees, gates open.
+FilterOptions random_options(ErrorKind error, Random& random);
+Matrix6 random_covariance(Random& random, double metres, double radians);
+
+class Drive {
+ public:
+  Drive(unsigned seed, const FilterOptions& options, int landmarks = 16);
+
+  // One to four motions, not necessarily of one kind.
+  void move(Pair& pair);
+  // One motion; returns its increment without noise.
+  SE3 advance(const Vector6& tau);
+  // What the sensor sees of up to `most` landmarks between 2 m and 25 m, with noise `scale` times what it claims. A
+  // head's true mount angles are off by `mount`.
+  std::vector<Seen> look(const Sensor& sensor, std::size_t most, double scale = 1,
+                         const Vector2& mount = Vector2::Zero());
+  const SE3& truth() const { return truth_; }
+  Random& random() { return random_; }
+
+ private:
+  Random random_;
+  SE3 truth_;
+  std::vector<Vector3> landmarks_;
+};
+
+}  // namespace cairn::test
