@@ -10,18 +10,18 @@ typedef union description {
   cairn_custom custom;
 } description;
 
-static cairn_status init(int kind, description *d, size_t size) {
-  if (kind == HEAD) return cairn_stereo_head_init(&d->head, size);
-  if (kind == CAMERA) return cairn_stereo_camera_init(&d->camera, size);
-  if (kind == CARTESIAN) return cairn_cartesian_init(&d->cartesian, size);
-  return cairn_custom_init(&d->custom, size);
+static cairn_status init(int kind, void *d, size_t size) {
+  if (kind == HEAD) return cairn_stereo_head_init(d, size);
+  if (kind == CAMERA) return cairn_stereo_camera_init(d, size);
+  if (kind == CARTESIAN) return cairn_cartesian_init(d, size);
+  return cairn_custom_init(d, size);
 }
 
-static cairn_status add(cairn_filter *filter, int kind, const description *d, int32_t *sensor) {
-  if (kind == HEAD) return cairn_filter_add_stereo_head(filter, d == NULL ? NULL : &d->head, sensor);
-  if (kind == CAMERA) return cairn_filter_add_stereo_camera(filter, d == NULL ? NULL : &d->camera, sensor);
-  if (kind == CARTESIAN) return cairn_filter_add_cartesian(filter, d == NULL ? NULL : &d->cartesian, sensor);
-  return cairn_filter_add_custom(filter, d == NULL ? NULL : &d->custom, sensor);
+static cairn_status add(cairn_filter *filter, int kind, const void *d, int32_t *sensor) {
+  if (kind == HEAD) return cairn_filter_add_stereo_head(filter, d, sensor);
+  if (kind == CAMERA) return cairn_filter_add_stereo_camera(filter, d, sensor);
+  if (kind == CARTESIAN) return cairn_filter_add_cartesian(filter, d, sensor);
+  return cairn_filter_add_custom(filter, d, sensor);
 }
 
 enum { KINDS = POINT + 1 };
@@ -197,8 +197,8 @@ static void sizes_that_hold_nothing_are_refused(void **state) {
   }
 }
 
-/* Every size from the first field to far beyond the last: _init writes no byte more than it was told, and what it
- * writes is the beginning of the defaults. */
+/* Every size from the first fields to beyond the last: _init writes no byte more than it was told, and what it writes
+ * begins with the defaults. */
 static void init_fills_at_most_what_it_is_given(void **state) {
   (void)state;
   for (int kind = 0; kind < KINDS; ++kind) {
@@ -207,14 +207,17 @@ static void init_fills_at_most_what_it_is_given(void **state) {
     memset(&whole, 0, sizeof whole);
     assert_ok(init(kind, &whole, sizes[kind]));
     memcpy(expected, &whole, sizes[kind]);
-    for (size_t size = 8; size < sizes[kind]; ++size) {
-      description part;
-      unsigned char bytes[sizeof(description)];
-      memset(&part, 0x5a, sizeof part);
-      assert_ok(init(kind, &part, size));
-      memcpy(bytes, &part, sizeof bytes);
-      assert_int_equal(part.struct_size, size);
-      assert_memory_equal(bytes + 4, expected + 4, size - 4);
+    for (size_t size = 8; size < sizes[kind] + 24; ++size) {
+      struct {
+        description known;
+        unsigned char later[32];
+      } given;
+      unsigned char bytes[sizeof given];
+      memset(&given, 0x5a, sizeof given);
+      assert_ok(init(kind, &given.known, size));
+      memcpy(bytes, &given, sizeof bytes);
+      assert_int_equal(given.known.struct_size, size);
+      assert_memory_equal(bytes + 4, expected + 4, (size < sizes[kind] ? size : sizes[kind]) - 4);
       for (size_t i = size; i < sizeof bytes; ++i) assert_int_equal(bytes[i], 0x5a);
     }
   }
