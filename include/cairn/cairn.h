@@ -14,7 +14,11 @@
  *    calls that take a const handle may run side by side as long as none that changes it runs.
  *  - **Matrices** are row-major `double`.
  *  - **Same inputs, same build, same bits out**: nothing reads a clock, the environment or global state.
- *  - **Options** start with their `struct_size`. Callers and libraries of different age agree on the smaller size. */
+ *  - **Memory** is taken when a filter is created. After it, predictions and updates that succeed allocate nothing;
+ *    a failure allocates its exception, and queries of arrays their indices.
+ *  - **Options** start with their `struct_size`, 8 to 65536. Callers and libraries of different age agree on the smaller
+ *    size: what an older caller leaves out has its default, what a newer one adds is ignored (and zeroed by `_init`).
+ *    Fields named `reserved` are not read. */
 #ifndef CAIRN_CAIRN_H
 #define CAIRN_CAIRN_H
 

@@ -86,7 +86,8 @@ CAIRN_API cairn_status cairn_cartesian_init(cairn_cartesian *cartesian, size_t s
  *  \param z                out, `rows` values
  *  \param jacobian_pose    out, rows x 6, row-major: dz / [dp; dtheta] (the error of \ref cairn_pose)
  *  \param jacobian_landmark out, rows x 3, row-major: dz / dlandmark
- *  \return 0, or anything else where the landmark can't be seen from there: the observation is refused */
+ *  \return 0, or anything else where the landmark can't be seen from there: the observation is refused, as it is where
+ *          a value written is not finite. For the same arguments it must answer the same */
 typedef int32_t (*cairn_custom_predict)(void *user, const cairn_pose *pose, const double landmark[3], double *z,
                                         double *jacobian_pose, double *jacobian_landmark);
 
@@ -98,7 +99,8 @@ typedef int32_t (*cairn_custom_predict)(void *user, const cairn_pose *pose, cons
  *  \param landmark         out, point in the map, m
  *  \param jacobian_pose    out, 3 x 6, row-major: dlandmark / [dp; dtheta]
  *  \param jacobian_z       out, 3 x rows, row-major: dlandmark / dz
- *  \return 0, or anything else where `z` places no landmark: the observation is refused */
+ *  \return 0, or anything else where `z` places no landmark: the observation is refused, as it is where a value
+ *          written is not finite */
 typedef int32_t (*cairn_custom_place)(void *user, const cairn_pose *pose, const double *z, double landmark[3],
                                       double *jacobian_pose, double *jacobian_z);
 
@@ -158,7 +160,7 @@ typedef struct cairn_match {
   int32_t reason;    /**< one of the CAIRN_REASON_ constants */
   double distance;   /**< squared Mahalanobis distance of the innovation (CAIRN_REASON_BATCH_GATE: of the whole batch
                           when this observation was taken out); 0 where there is none */
-  double threshold;  /**< chi-square bound that it was held against; 0 where there is none */
+  double threshold;  /**< chi-square bound that it was held against (infinity at a gate probability of 1); 0 where there is none */
 } cairn_match;
 
 #ifdef __cplusplus

@@ -9,14 +9,26 @@ using namespace cairn::capi;
 namespace cairn {
 namespace capi {
 
+namespace {
+
+[[noreturn]] void throw_unknown_id(const std::uint64_t* ids, std::size_t i) {
+  throw Error(ErrorCode::not_found, "ids[%zu]: the map has no landmark %llu", i, static_cast<unsigned long long>(ids[i]));
+}
+
+}  // namespace
+
 std::vector<std::size_t> read_ids(const Landmarks& map, const std::uint64_t* ids, std::size_t count) {
   if (count > 0) check_pointer(ids, "ids");
+  // More ids than landmarks hold an unknown one or one twice: found without the room that they would take.
+  const std::size_t most = map.size();
+  std::size_t index = 0;
+  for (std::size_t i = 0; count > most && i <= most; ++i)
+    if (!map.find(ids[i], index)) throw_unknown_id(ids, i);
+  if (count > most) throw Error(ErrorCode::argument, "ids: %zu of them, and the map holds %zu landmarks", count, most);
   std::vector<std::size_t> indices(count);
   std::set<std::uint64_t> seen;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!map.find(ids[i], indices[i]))
-      throw Error(ErrorCode::not_found, "ids[%zu]: the map has no landmark %llu", i,
-                  static_cast<unsigned long long>(ids[i]));
+    if (!map.find(ids[i], indices[i])) throw_unknown_id(ids, i);
     if (!seen.insert(ids[i]).second)
       throw Error(ErrorCode::argument, "ids[%zu]: landmark %llu comes twice", i, static_cast<unsigned long long>(ids[i]));
   }

@@ -49,10 +49,10 @@ class Ekf {
   void start(const Pose& pose, const Square& ordinary_covariance);
 
   // --- estimates ---
-  const Pose& pose() const { return pose_; }
+  Pose pose() const { return Pose(pose_.rotation(), pose_.translation() + origin_); }
   Index size() const { return size_; }
   Index states() const { return kDof + kDim * size_; }
-  Point landmark(Index slot) const { return Eigen::Map<const Point>(landmarks_ + kDim * slot); }
+  Point landmark(Index slot) const { return local(slot) + origin_; }
 
   // --- propagate --- O(1). False, with nothing changed, where a result is not finite.
   bool propagate(const Increment<Pose>& increment);
@@ -75,8 +75,8 @@ class Ekf {
   // The window: the pose, the mount's angles, the chosen landmarks; its iterate starts at the estimate.
   void open(const Index* slots, Index count, const Eigen::Matrix<double, kMount, kMount>* mount_noise);
   Batch& batch() { return batch_; }
-  const Pose& iterate_pose() const { return iterate_pose_; }
-  Point iterate_landmark(Index a) const { return Eigen::Map<const Point>(iterate_landmarks_ + kDim * a); }
+  Pose iterate_pose() const { return Pose(iterate_pose_.rotation(), iterate_pose_.translation() + origin_); }
+  Point iterate_landmark(Index a) const { return local_iterate(a) + origin_; }
   Eigen::Matrix<double, kMount, 1> iterate_mount() const { return iterate_mount_; }
   Index landmark_column(Index a) const { return kDof + mount_ + kDim * a; }
 
@@ -112,12 +112,14 @@ class Ekf {
   // --- augment and remove ---
   // Appends a landmark that depends on the pose (ordinary Jacobian), on the mount of the window last committed, and on
   // noise of its own. False, with nothing changed, where a result is not finite. The caller minds the capacity.
-  bool augment(const Point& landmark, const PointByPose& J_pose, const PointByMount* J_mount, const PointSquare& noise,
+  bool augment(const Point& position, const PointByPose& J_pose, const PointByMount* J_mount, const PointSquare& noise,
                bool relative);
   // Takes a landmark out; the last one moves into its slot.
   void remove(Index slot);
 
  private:
+  Point local(Index slot) const { return Eigen::Map<const Point>(landmarks_ + kDim * slot); }
+  Point local_iterate(Index a) const { return Eigen::Map<const Point>(iterate_landmarks_ + kDim * a); }
   double& P(Index row, Index column) { return P_[column * ld_ + row]; }
   double P(Index row, Index column) const { return P_[column * ld_ + row]; }
   double symmetric(Index row, Index column) const { return row >= column ? P(row, column) : P(column, row); }
@@ -155,6 +157,9 @@ class Ekf {
   Capacity capacity_;
   Index ld_;  // of P and of everything with a row a state
 
+  // Everything below counts from the position at the start. The arms G(x) of the invariant error reach from the origin
+  // to x: from an origin far away they would drown the covariance's digits in their length.
+  Point origin_ = Point::Zero();
   Pose pose_;
   Index size_ = 0;
   double* landmarks_;
@@ -213,7 +218,7 @@ void Ekf<Pose>::add_landmark_block(Index row, Index rows, const JLandmark& J_lan
   double* block = batch_.add_jacobian(row, rows, landmark_column(a), kDim);
   for (Index c = 0; c < kDim; ++c)
     for (Index r = 0; r < rows; ++r) block[c * rows + r] = J_landmark(r, c);
-  if (pose.turns) add_turn(rows, J_landmark, iterate_landmark(a), pose.value);
+  if (pose.turns) add_turn(rows, J_landmark, local_iterate(a), pose.value);
 }
 
 template <class Pose>

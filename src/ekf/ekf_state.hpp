@@ -56,11 +56,10 @@ void Ekf<Pose>::clear_pending() {
 
 template <class Pose>
 void Ekf<Pose>::start(const Pose& pose, const Square& ordinary_covariance) {
-  pose_ = pose;
+  origin_ = pose.translation();
+  pose_ = Pose(pose.rotation(), Point::Zero());
   size_ = 0;
-  Square A = Square::Identity();  // xi = A e: xi_p = e_p - G(p) e_R
-  if (error_ == ErrorKind::invariant) A.template topRightCorner<kDim, kTurn>() = -Rotation::turn(pose.translation());
-  const Square covariance = A * ordinary_covariance * A.transpose();
+  const Square& covariance = ordinary_covariance;  // xi_p = e_p - G(p) e_R, and p is zero
   for (Index c = 0; c < kDof; ++c)
     for (Index r = c; r < kDof; ++r) P(r, c) = covariance(r, c);
   clear_pending();
@@ -119,7 +118,7 @@ void Ekf<Pose>::gather(const Index* slots, Index count, double* out, Index ld) c
       for (Index r = 0; r < kDim; ++r) cross(r, c) = P(row + r, c);
     Turn U = Turn::Zero();
     if (noisy) {
-      U = -Rotation::turn(landmark(slots[a]));
+      U = -Rotation::turn(local(slots[a]));
       cross += U * N_turn;
     } else if (pending_) {
       cross = (cross * F_.transpose()).eval();
@@ -132,7 +131,7 @@ void Ekf<Pose>::gather(const Index* slots, Index count, double* out, Index ld) c
       PointSquare block;
       for (Index c = 0; c < kDim; ++c)
         for (Index r = 0; r < kDim; ++r) block(r, c) = symmetric(row + r, state(slots[b]) + c);
-      if (noisy) block -= UN * Rotation::turn(landmark(slots[b])).transpose();
+      if (noisy) block -= UN * Rotation::turn(local(slots[b])).transpose();
       for (Index c = 0; c < kDim; ++c)
         for (Index r = 0; r < kDim; ++r) {
           out[(kDof + kDim * b + c) * ld + at + r] = block(r, c);
@@ -149,7 +148,7 @@ void Ekf<Pose>::to_ordinary(const Index* slots, Index count, double* matrix, Ind
   const Index size = kDof + kDim * count;
   for (Index x = -1; x < count; ++x) {
     const Index at = x < 0 ? 0 : kDof + kDim * x;
-    const typename Rotation::Turn G = Rotation::turn(x < 0 ? pose_.translation() : landmark(slots[x]));
+    const typename Rotation::Turn G = Rotation::turn(x < 0 ? pose_.translation() : local(slots[x]));
     for (Index c = 0; c < size; ++c)
       for (Index r = 0; r < kDim; ++r)
         for (Index t = 0; t < kTurn; ++t) matrix[c * ld + at + r] += G(r, t) * matrix[c * ld + kDim + t];
@@ -183,8 +182,9 @@ typename Ekf<Pose>::PointSquare Ekf<Pose>::landmark_covariance(Index slot) const
 
 template <class Pose>
 double Ekf<Pose>::pose_nees(const Pose& truth) const {
-  Tangent error = (truth * pose_.inverse()).log();
-  if (error_ == ErrorKind::standard) error.template head<kDim>() = truth.translation() - pose_.translation();
+  const Pose local_truth(truth.rotation(), truth.translation() - origin_);
+  Tangent error = (local_truth * pose_.inverse()).log();
+  if (error_ == ErrorKind::standard) error.template head<kDim>() = local_truth.translation() - pose_.translation();
   Square L = pose_block();
   // Scaled to unit diagonal first: metres and radians must not decide what counts as singular.
   for (Index i = 0; i < kDof; ++i)
@@ -234,8 +234,9 @@ double Ekf<Pose>::smallest_pivot() {
 }
 
 template <class Pose>
-bool Ekf<Pose>::augment(const Point& landmark, const PointByPose& J_pose, const PointByMount* J_mount,
+bool Ekf<Pose>::augment(const Point& position, const PointByPose& J_pose, const PointByMount* J_mount,
                         const PointSquare& noise, bool relative) {
+  const Point landmark = position - origin_;
   // By the filter's own errors: xi_l = e_l - G(l) xi_R, and e_p = xi_p + G(p) xi_R.
   PointByPose J = J_pose;
   if (error_ == ErrorKind::invariant) {

@@ -25,7 +25,7 @@ void Ekf<Pose>::open(const Index* slots, Index count, const Eigen::Matrix<double
   iterate_mount_.setZero();
   for (Index a = 0; a < count; ++a) {
     slots_[a] = slots[a];
-    Eigen::Map<Point>(iterate_landmarks_ + kDim * a) = landmark(slots[a]);
+    Eigen::Map<Point>(iterate_landmarks_ + kDim * a) = local(slots[a]);
   }
   // The mount's angles are states for as long as the frame lasts, independent of all others before it.
   gather(slots, count, P_window_, window_);
@@ -155,7 +155,7 @@ void Ekf<Pose>::step() {
   const Mover mover(error_, error.template tail<kTurn>());
   for (Index a = 0; a < slot_count_; ++a)
     Eigen::Map<Point>(iterate_landmarks_ + kDim * a) =
-        mover(landmark(slots_[a]), Eigen::Map<const Point>(error_window_ + landmark_column(a)));
+        mover(local(slots_[a]), Eigen::Map<const Point>(error_window_ + landmark_column(a)));
 }
 
 template <class Pose>
@@ -180,7 +180,7 @@ void Ekf<Pose>::prepare_pending() {
     std::fill_n(noise_right_ + t * ld_, kDof, 0.0);
   }
   for (Index slot = 0; slot < size_; ++slot) {
-    const typename Rotation::Turn U = -Rotation::turn(landmark(slot));
+    const typename Rotation::Turn U = -Rotation::turn(local(slot));
     const typename Rotation::Turn UN = U * N;
     for (Index t = 0; t < kTurn; ++t)
       for (Index r = 0; r < kDim; ++r) {
@@ -276,6 +276,7 @@ void Ekf<Pose>::gather_columns() {
 
 template <class Pose>
 bool Ekf<Pose>::commit() {
+  constexpr double kLeast = 1e-14;
   const Index n = states(), m = batch_.rows();
   gather_columns();
   batch_.times_transposed(columns_, ld_, n, W_, ld_);
@@ -291,8 +292,8 @@ bool Ekf<Pose>::commit() {
     for (Index i = kDof; i < n; ++i) diagonal_[i] += noise_left_[t * ld_ + i] * noise_right_[t * ld_ + i];
   for (Index i = 0; i < n; ++i) {
     if (!std::isfinite(error_state_[i])) return false;
-    const double left = diagonal_[i] - shrunk_[i];
-    if (!(diagonal_[i] > 0.0 ? left > 0.0 : left >= 0.0)) return false;
+    // What is left of a variance must stand above the rounding of what it was; one that was zero stays so.
+    if (!(diagonal_[i] - shrunk_[i] >= kLeast * diagonal_[i] && diagonal_[i] >= 0.0)) return false;
   }
 
   if (mount_ != 0) {
@@ -311,7 +312,7 @@ bool Ekf<Pose>::commit() {
   const Mover mover(error_, error.template tail<kTurn>());
   for (Index slot = 0; slot < size_; ++slot)
     Eigen::Map<Point>(landmarks_ + kDim * slot) =
-        mover(landmark(slot), Eigen::Map<const Point>(error_state_ + state(slot)));
+        mover(local(slot), Eigen::Map<const Point>(error_state_ + state(slot)));
   retract(error, pose_);
   return true;
 }

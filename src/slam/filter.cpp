@@ -70,6 +70,10 @@ void Filter::point_head(int sensor, double pan, double stick) {
 }
 
 void Filter::propagate(const Increment<SE3>& increment) {
+  constexpr double kTurnSquared = 39.478417604357432;  // (2 pi)^2
+  if (!(increment.covariance.diagonal().tail<3>().maxCoeff() <= kTurnSquared))
+    throw Error(ErrorCode::numerical,
+                "prediction: the attitude's noise of this step exceeds a whole turn; nothing was changed");
   if (!ekf_.propagate(increment))
     throw Error(ErrorCode::numerical, "prediction: the pose or its covariance would not be finite; nothing was changed");
 }

@@ -108,7 +108,7 @@ class Filter final : public Landmarks {
   void remove_landmark(std::uint64_t id);
 
   // --- queries ---
-  const SE3& pose() const { return ekf_.pose(); }
+  SE3 pose() const { return ekf_.pose(); }
   Matrix6 pose_covariance() const { return ekf_.pose_covariance(); }
   double pose_nees(const SE3& truth) const { return ekf_.pose_nees(truth); }
   double smallest_pivot() { return ekf_.smallest_pivot(); }
@@ -144,7 +144,9 @@ class Filter final : public Landmarks {
   void gate_each();
   void gate_batch(const Sensor& sensor);
   template <class Linearise>
-  void iterate(int iterations, Linearise&& linearise);
+  void fill(Linearise&& linearise);
+  template <class Linearise>
+  void iterate(int iterations, bool relative, Linearise&& linearise);
   void place_new(const Sensor& sensor);
   template <class JPose>
   void add_pose_rows(Index rows, const JPose& J_pose, const double* covariance);
@@ -153,6 +155,7 @@ class Filter final : public Landmarks {
   void start_report(Index count);
   void finish_report(Index count);
   double batch_threshold(Index rows);
+  [[noreturn]] void throw_not_definite() const;
   void say(const char* format, ...) const __attribute__((format(printf, 2, 3)));
 
   FilterOptions options_;

@@ -11,11 +11,6 @@
 namespace cairn {
 namespace {
 
-[[noreturn]] void throw_not_definite() {
-  throw Error(ErrorCode::numerical,
-              "update: the covariance would not stay positive definite; nothing was changed. Is the noise realistic?");
-}
-
 bool given(const Observation& observation) {
   return std::any_of(observation.covariance, observation.covariance + 9, [](double v) { return v != 0.0; });
 }
@@ -35,6 +30,13 @@ double squared_distance(const double* residual, const double* covariance, Index 
 }
 
 }  // namespace
+
+void Filter::throw_not_definite() const {
+  constexpr const char* kText =
+      "update: the covariance would not stay positive definite; nothing was changed. Is the noise realistic?";
+  say("%s", kText);
+  throw Error(ErrorCode::numerical, "%s", kText);
+}
 
 double Filter::batch_threshold(Index rows) {
   if (thresholds_[rows] == 0.0)
@@ -191,9 +193,23 @@ void Filter::gate_batch(const Sensor& sensor) {
                                     [](const Candidate& c) { return c.slot < 0; }) - candidates_;
 }
 
-// Gauss-Newton on the batch (iterated EKF), which stands factored at the prediction.
+// Linearises the batch at the iterate and forms S. Every row has been foreseen by the time it is asked for; a sensor of
+// the caller's that refuses it now would leave the batch torn.
 template <class Linearise>
-void Filter::iterate(int iterations, Linearise&& linearise) {
+void Filter::fill(Linearise&& linearise) {
+  if (!linearise(nullptr)) {
+    say("update: a sensor refused a landmark that it had seen a moment before");
+    throw Error(ErrorCode::numerical,
+                "sensor: it refused a landmark that it had seen a moment before; nothing was changed");
+  }
+  ekf_.compute_innovation();
+}
+
+// Gauss-Newton on the batch (iterated EKF), which stands factored at the prediction. It ends where the linearisation
+// foresaw the residual; but rows that are not relative have Jacobians that turn with the position, of which a residual
+// tells nothing: they are linearised once more in any case.
+template <class Linearise>
+void Filter::iterate(int iterations, bool relative, Linearise&& linearise) {
   next_report_.nis = ekf_.nis();
   for (int i = 1;; ++i) {
     ekf_.solve();
@@ -201,9 +217,9 @@ void Filter::iterate(int iterations, Linearise&& linearise) {
     if (i >= iterations) break;
     ekf_.step();
     // A landmark may lose its image on the way: what was linearised last stands.
-    if (!linearise(residual_) || !(ekf_.misfit(residual_) > options_.iteration_tolerance)) break;
-    linearise(nullptr);
-    ekf_.compute_innovation();
+    if (!linearise(residual_)) break;
+    if ((relative || i > 1) && !(ekf_.misfit(residual_) > options_.iteration_tolerance)) break;
+    fill(linearise);
     if (!ekf_.factor()) throw_not_definite();
   }
   next_report_.rows = ekf_.batch().rows();
@@ -243,23 +259,20 @@ void Filter::update(int sensor_number, Index count) {
 
   open_candidates(sensor);
   const Index seen = candidate_count_;
-  linearise(sensor, nullptr);
-  ekf_.compute_innovation();
+  fill(relinearise);
   gate_each();
   if (candidate_count_ < seen) {
     open_candidates(sensor);
-    linearise(sensor, nullptr);
-    ekf_.compute_innovation();
+    fill(relinearise);
   }
   const Index passed = candidate_count_;
   gate_batch(sensor);
   if (candidate_count_ < passed) {
     open_candidates(sensor);
-    linearise(sensor, nullptr);
-    ekf_.compute_innovation();
+    fill(relinearise);
     if (!ekf_.factor()) throw_not_definite();
   }
-  if (candidate_count_ > 0) iterate(options_.iterations, relinearise);
+  if (candidate_count_ > 0) iterate(options_.iterations, sensor.relative(), relinearise);
   for (Index a = 0; a < candidate_count_; ++a) {
     next_matches_[candidates_[a].observation].decision = Decision::matched;
     ++counts_[candidates_[a].slot];
@@ -271,8 +284,7 @@ void Filter::update(int sensor_number, Index count) {
 // A batch that touches no landmark, or such as the caller linearised: gated as a whole.
 template <class Linearise>
 void Filter::update_alone(Index rows, int iterations, std::uint64_t landmark, Linearise&& linearise) {
-  linearise(nullptr);
-  ekf_.compute_innovation();
+  fill(linearise);
   Match& match = next_matches_[0];
   match.landmark = landmark;
   match.threshold = rows <= 6 ? gate_thresholds_[rows]
@@ -281,8 +293,9 @@ void Filter::update_alone(Index rows, int iterations, std::uint64_t landmark, Li
   match.distance = ekf_.nis();
   if (!(match.distance <= match.threshold)) {
     match.reason = Reason::gate;
+    say("update: the gate refused a batch of %td rows, distance %g over %g", rows, match.distance, match.threshold);
   } else {
-    iterate(iterations, linearise);
+    iterate(iterations, false, linearise);
     match.decision = Decision::matched;
   }
   finish_report(1);
@@ -325,6 +338,7 @@ void Filter::update_heading(double heading, double sigma) {
   ekf_.open(nullptr, 0, nullptr);
   if (level() < kMinimumLevel) {
     next_matches_[0].reason = Reason::no_image;
+    say("update: no heading, the body's x axis stands too steep");
     return finish_report(1);
   }
   const double variance = sigma * sigma;

@@ -78,7 +78,7 @@ FilterOptions options_for(ErrorKind error, unsigned seed) {
 // A drive of `frames` frames; the filter only hears of the motion's noise where it is told of any.
 double gauge_gain(ErrorKind error, unsigned seed, int frames, const Matrix6& motion_noise) {
   const FilterOptions options = options_for(error, seed);
-  const StereoHead head = mounted_head(0.02, seed % 2 == 0);
+  const StereoHead head = scenario_head(0.02, seed % 2 == 0);
   Run run(options, head);
   Drive drive(seed, options);
   const Matrix6 start = run.gauge_information();
@@ -97,8 +97,8 @@ TEST_CASE("ekf: turning and shifting the start turns and shifts everything, and 
   for (ErrorKind error : {ErrorKind::invariant, ErrorKind::standard}) {
     for (unsigned seed : {1, 2, 3}) {
       CAPTURE(seed);
-      const StereoHead head = mounted_head(0.02, true);
-      const StereoCamera camera = mounted_camera();
+      const StereoHead head = scenario_head(0.02, true);
+      const StereoCamera camera = scenario_camera();
       const Sensor& sensor = seed == 3 ? static_cast<const Sensor&>(camera) : head;
       FilterOptions options = options_for(error, seed), moved_options = options;
       Random random(seed);
@@ -153,7 +153,7 @@ TEST_CASE("ekf: landmarks teach the invariant filter nothing of the gauge, and t
 TEST_CASE("ekf: a vehicle that stands and looks learns nothing of its own pose") {
   for (ErrorKind error : {ErrorKind::invariant, ErrorKind::standard}) {
     const FilterOptions options = options_for(error, 5);
-    const StereoHead head = mounted_head(0, false);
+    const StereoHead head = scenario_head(0, false);
     Run run(options, head);
     Drive drive(5, options);
     for (int i = 0; i < 50; ++i) run.take(drive.look(head, 8));

@@ -134,7 +134,7 @@ TEST_CASE("ekf: the covariance stays positive definite over a long drive") {
     const FilterOptions options = random_options(error, random);
     Arena arena(Filter::required_bytes(options));
     Filter filter(arena, options);
-    const StereoHead head = mounted_head(0.01, true);
+    const StereoHead head = scenario_head(0.01, true);
     const int number = filter.add(head);
     SE3 truth = options.initial_pose;
     for (int step = 0; step < 3000; ++step) {

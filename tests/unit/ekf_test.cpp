@@ -50,39 +50,39 @@ void drive_with(const Sensor& sensor, ErrorKind error, unsigned seed, double noi
 
 TEST_CASE("ekf: a stereo head whose encoders err in each observation") {
   for (ErrorKind error : kBoth)
-    for (unsigned seed : {1, 2, 3}) drive_with(mounted_head(0.01, false), error, seed);
+    for (unsigned seed : {1, 2, 3}) drive_with(scenario_head(0.01, false), error, seed);
 }
 
 TEST_CASE("ekf: a stereo head whose encoders err once a frame") {
   for (ErrorKind error : kBoth)
-    for (unsigned seed : {11, 12, 13}) drive_with(mounted_head(0.03, true), error, seed);
+    for (unsigned seed : {11, 12, 13}) drive_with(scenario_head(0.03, true), error, seed);
 }
 
 TEST_CASE("ekf: a stereo head with perfect encoders, so noisy that updates iterate") {
   for (ErrorKind error : kBoth)
-    for (unsigned seed : {21, 22}) drive_with(mounted_head(0, false), error, seed, 3);
+    for (unsigned seed : {21, 22}) drive_with(scenario_head(0, false), error, seed, 3);
 }
 
 TEST_CASE("ekf: a stereo camera") {
   for (ErrorKind error : kBoth)
-    for (unsigned seed : {31, 32}) drive_with(mounted_camera(), error, seed);
+    for (unsigned seed : {31, 32}) drive_with(scenario_camera(), error, seed);
 }
 
 TEST_CASE("ekf: points in the sensor's frame") {
   for (ErrorKind error : kBoth)
-    for (unsigned seed : {41, 42}) drive_with(mounted_cartesian(), error, seed);
+    for (unsigned seed : {41, 42}) drive_with(scenario_points(), error, seed);
 }
 
 TEST_CASE("ekf: a custom sensor that depends on more than the body point") {
   for (ErrorKind error : kBoth)
-    for (unsigned seed : {51, 52}) drive_with(compass_sensor(), error, seed);
+    for (unsigned seed : {51, 52}) drive_with(scenario_compass(), error, seed);
 }
 
 TEST_CASE("ekf: all sensors, absolute measurements and linear updates in turn") {
-  const StereoHead per_frame = mounted_head(0.02, true), per_observation = mounted_head(0.01, false);
-  const StereoCamera camera = mounted_camera();
-  const Cartesian points = mounted_cartesian();
-  const CustomSensor compass = compass_sensor();
+  const StereoHead per_frame = scenario_head(0.02, true), per_observation = scenario_head(0.01, false);
+  const StereoCamera camera = scenario_camera();
+  const Cartesian points = scenario_points();
+  const CustomSensor compass = scenario_compass();
   const Sensor* sensors[] = {&per_frame, &camera, &points, &per_observation, &compass};
   for (ErrorKind error : kBoth) {
     CAPTURE(static_cast<int>(error));
@@ -153,7 +153,7 @@ TEST_CASE("ekf: a start that is exactly known") {
     options.initial_covariance.setZero();
     Pair pair(options);
     Drive drive(80, options);
-    const Cartesian points = mounted_cartesian();
+    const Cartesian points = scenario_points();
     pair.add(points);
     CHECK(pair.update(0, drive.look(points, 4)));
     CHECK(pair.update(0, drive.look(points, 8)));
@@ -170,7 +170,7 @@ TEST_CASE("ekf: frames of many rows in a larger map") {
     Random random(15);
     FilterOptions options = random_options(error, random);
     options.max_landmarks = options.max_observations = 45;
-    const StereoHead head = mounted_head(0.02, true);
+    const StereoHead head = scenario_head(0.02, true);
     Pair pair(options);
     Drive drive(15, options, 45);
     pair.add(head);
@@ -192,7 +192,7 @@ TEST_CASE("ekf: gates refuse what trying everything refuses") {
       FilterOptions options = random_options(error, random);
       options.gate_probability = seed % 2 == 0 ? 1 : 0.99;
       options.batch_gate_probability = 0.9;
-      const StereoHead head = mounted_head(0.02, seed % 3 == 0);
+      const StereoHead head = scenario_head(0.02, seed % 3 == 0);
       Pair pair(options);
       Drive drive(seed, options);
       pair.add(head);

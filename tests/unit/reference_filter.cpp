@@ -167,7 +167,8 @@ void ReferenceFilter::predict_increment(const SE3& T_before_after, const Matrix6
 }
 
 // Gauss-Newton with the prior's coordinates kept for P: xi <- P H^T S^-1 (r + H xi), H by the error about the iterate.
-FrameResult ReferenceFilter::update(const Residual& residual, const Noise& noise, int iterations) {
+FrameResult ReferenceFilter::update(const Residual& residual, const Noise& noise, int least,
+                                    int iterations) {
   FrameResult result;
   const Eigen::Index n = state_.size();
   State iterate = state_;
@@ -193,7 +194,7 @@ FrameResult ReferenceFilter::update(const Residual& residual, const Noise& noise
     const State next = retract(state_, xi);
     if (!residual(next, r_next)) break;
     const DynamicVector foreseen = y - H * xi;
-    if ((r_next - foreseen).cwiseQuotient(DynamicVector(R.diagonal().cwiseSqrt())).norm() <= options_.tolerance) break;
+    if (i >= least && (r_next - foreseen).cwiseQuotient(DynamicVector(R.diagonal().cwiseSqrt())).norm() <= options_.tolerance) break;
     iterate = next;
     r = r_next;
   }
@@ -207,7 +208,7 @@ FrameResult ReferenceFilter::update_position(const Vector3& position, const Matr
                                              const Vector3& lever_arm) {
   const auto residual = [&](const State& x, DynamicVector& out) { return out = position - x.pose * lever_arm, true; };
   return update(
-      residual, [&](const State&) { return covariance; }, options_.iterations);
+      residual, [&](const State&) { return covariance; }, 2, options_.iterations);
 }
 
 FrameResult ReferenceFilter::update_attitude(const SO3& attitude, const Matrix3& covariance) {
@@ -215,7 +216,7 @@ FrameResult ReferenceFilter::update_attitude(const SO3& attitude, const Matrix3&
     return out = (attitude * x.pose.rotation().inverse()).log(), true;
   };
   return update(
-      residual, [&](const State&) { return covariance; }, options_.iterations);
+      residual, [&](const State&) { return covariance; }, 2, options_.iterations);
 }
 
 FrameResult ReferenceFilter::update_heading(double heading, double sigma) {
@@ -226,7 +227,7 @@ FrameResult ReferenceFilter::update_heading(double heading, double sigma) {
            true;
   };
   return update(
-      residual, [&](const State&) { return Dynamic::Constant(1, 1, sigma * sigma); }, options_.iterations);
+      residual, [&](const State&) { return Dynamic::Constant(1, 1, sigma * sigma); }, 2, options_.iterations);
 }
 
 FrameResult ReferenceFilter::update_linear(const DynamicVector& residual, const Dynamic& covariance,
@@ -240,7 +241,7 @@ FrameResult ReferenceFilter::update_linear(const DynamicVector& residual, const 
   const State prior = state_;
   const auto linear = [&](const State& x, DynamicVector& out) { return out = residual - H * local(prior, x), true; };
   return update(
-      linear, [&](const State&) { return covariance; }, 1);
+      linear, [&](const State&) { return covariance; }, 1, 1);
 }
 
 void ReferenceFilter::remove(std::uint64_t id) {

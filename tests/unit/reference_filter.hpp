@@ -64,7 +64,8 @@ class ReferenceFilter {
   // --- updates --- a residual z - h(state), false where there is none; its noise may depend on the state
   using Residual = std::function<bool(const State&, DynamicVector& out)>;
   using Noise = std::function<Dynamic(const State&)>;
-  FrameResult update(const Residual& residual, const Noise& noise, int iterations);
+  // `least`: linearisations before the residual may end it, as far as `iterations` allow.
+  FrameResult update(const Residual& residual, const Noise& noise, int least, int iterations);
   FrameResult update_frame(const Sensor& sensor, const std::vector<Seen>& frame);
   FrameResult update_position(const Vector3& position, const Matrix3& covariance, const Vector3& lever_arm);
   FrameResult update_attitude(const SO3& attitude, const Matrix3& covariance);

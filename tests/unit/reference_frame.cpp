@@ -177,7 +177,7 @@ FrameResult ReferenceFilter::update_frame(const Sensor& sensor, const std::vecto
   if (!taken.empty())
     result = update(
         frame_residual(sensor, taken), [&](const State& x) { return frame_noise(sensor, taken, x); },
-        options_.iterations);
+        sensor.relative() ? 1 : 2, options_.iterations);
   result.distance.assign(frame.size(), -1);
   result.taken.assign(frame.size(), false);
   for (std::size_t i = 0; i < known.size(); ++i) result.distance[number[i]] = distance[i];

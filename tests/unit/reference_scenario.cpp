@@ -125,7 +125,7 @@ Difference Pair::difference() {
   return worst;
 }
 
-StereoHead mounted_head(double encoder_sigma, bool per_frame) {
+StereoHead scenario_head(double encoder_sigma, bool per_frame) {
   StereoHeadParameters p;
   p.platform << 0.3, -0.1, 1.2;
   p.stick << 0.15, 0.05, 0.2;
@@ -140,21 +140,21 @@ StereoHead mounted_head(double encoder_sigma, bool per_frame) {
   return head;
 }
 
-StereoCamera mounted_camera() {
+StereoCamera scenario_camera() {
   StereoCameraParameters p;
   p.baseline = 0.4;
   p.T_body_camera = SE3(p.T_body_camera.rotation() * SO3::exp(Vector3(0.1, -0.3, 0.05)), Vector3(0.4, 0.1, 1.1));
   return StereoCamera(p);
 }
 
-Cartesian mounted_cartesian() {
+Cartesian scenario_points() {
   CartesianParameters p;
   p.T_body_sensor = SE3(SO3::exp(Vector3(0.3, -0.5, 1.0)), Vector3(-0.2, 0.3, 0.8));
   p.sigma << 0.1, 0.2, 0.15;
   return Cartesian(p);
 }
 
-CustomSensor compass_sensor() {
+CustomSensor scenario_compass() {
   CustomParameters p;
   p.predict = compass_predict;
   p.place = compass_place;

@@ -46,11 +46,11 @@ class Pair {
 };
 
 // Sensors with a mount that is not the body's own axes.
-StereoHead mounted_head(double encoder_sigma, bool per_frame);
-StereoCamera mounted_camera();
-Cartesian mounted_cartesian();
+StereoHead scenario_head(double encoder_sigma, bool per_frame);
+StereoCamera scenario_camera();
+Cartesian scenario_points();
 // Sees landmarks along the map's own axes, as with a compass: it depends on more than the body point.
-CustomSensor compass_sensor();
+CustomSensor scenario_compass();
 
 // Options with a random start, uncertain by centimetres to metres and by some degrees, gates open.
 FilterOptions random_options(ErrorKind error, Random& random);
