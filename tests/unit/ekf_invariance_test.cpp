@@ -103,7 +103,7 @@ TEST_CASE("ekf: turning and shifting the start turns and shifts everything, and 
       FilterOptions options = options_for(error, seed), moved_options = options;
       Random random(seed);
       options.initial_covariance = random_covariance(random, 0.5, 0.1);
-      const SE3 G(SO3::exp(2 * random.normal_vector<3>()), 30 * random.normal_vector<3>());
+      const SE3 G{SO3::exp(2 * random.normal_vector<3>()), 30 * random.normal_vector<3>()};
       const Matrix3 R = G.rotation().matrix();
       Matrix6 turn = Matrix6::Zero();
       turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = R;
@@ -171,8 +171,8 @@ TEST_CASE("ekf: a vehicle that stands and looks learns nothing of its own pose")
 }
 
 // A position says nothing of the attitude of a vehicle that stands. Seen from the invariant error it does: the fix's
-// Jacobian G(p) changes with the estimate, as the standard filter's does with landmarks, so what the invariant error
-// wins on landmarks it pays back on absolute positions. The test is here so that an improvement gets noticed.
+// Jacobian G(p) changes with the estimate, as the standard filter's does with landmarks, so some of what the invariant
+// error wins on landmarks it pays back on absolute positions. The test is here so that an improvement gets noticed.
 TEST_CASE("ekf: a vehicle that stands and gets position fixes learns nothing of its attitude" *
           doctest::description("known limit of the invariant error") * doctest::should_fail()) {
   FilterOptions options;

@@ -142,7 +142,8 @@ TEST_CASE("ekf: the covariance stays positive definite over a long drive") {
       const Vector3 v(1, 0, 0), w(0, 0, 0.25);
       for (int i = 0; i < 2; ++i) {
         truth = truth * SE3::exp((Vector6() << 0.2 * v, 0.2 * w).finished());
-        filter.predict_twist(0.2, v + 0.05 * random.normal_vector<3>(), w + 0.005 * random.normal_vector<3>());
+        const Vector3 measured = v + 0.05 * random.normal_vector<3>();
+        filter.predict_twist(0.2, measured, w + 0.005 * random.normal_vector<3>());
       }
       Index count = 0;
       for (std::uint64_t id = 0; id < 20 && count < 8; ++id) {

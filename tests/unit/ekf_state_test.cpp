@@ -89,7 +89,7 @@ Increment<SE3> random_step(Random& random) {
 }
 
 SE3 random_pose(Random& random) {
-  return SE3(SO3::exp(random.normal_vector<3>()), 10 * random.normal_vector<3>());
+  return SE3{SO3::exp(random.normal_vector<3>()), 10 * random.normal_vector<3>()};
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ TEST_CASE("ekf: motion that is held back equals motion applied at every step") {
   for (ErrorKind error : kBoth) {
     CAPTURE(static_cast<int>(error));
     Random random(1);
-    Bare bare(error, random_pose(random), random_covariance(random, 0.5, 0.1));
+    Bare bare{error, random_pose(random), random_covariance(random, 0.5, 0.1)};
     for (int i = 0; i < 40; ++i) {
       CAPTURE(i);
       REQUIRE(bare.move(random_step(random)));
@@ -121,7 +121,7 @@ TEST_CASE("ekf: motion that is held back equals motion applied at every step") {
 TEST_CASE("ekf: marginals are blocks of the whole, in any order") {
   for (ErrorKind error : kBoth) {
     Random random(2);
-    Bare bare(error, random_pose(random), random_covariance(random, 0.5, 0.1));
+    Bare bare{error, random_pose(random), random_covariance(random, 0.5, 0.1)};
     for (int i = 0; i < 6; ++i) {
       bare.place(5 * random.normal_vector<3>());
       bare.move(random_step(random));
@@ -173,7 +173,7 @@ TEST_CASE("ekf: NEES of the pose in the filter's own coordinates") {
 TEST_CASE("ekf: the smallest pivot is that of the scaled covariance, and looking at it changes nothing") {
   for (ErrorKind error : kBoth) {
     Random random(4);
-    Bare bare(error, random_pose(random), random_covariance(random, 0.5, 0.1));
+    Bare bare{error, random_pose(random), random_covariance(random, 0.5, 0.1)};
     for (int i = 0; i < 5; ++i) {
       bare.move(random_step(random));
       bare.place(5 * random.normal_vector<3>());
@@ -198,7 +198,7 @@ TEST_CASE("ekf: the smallest pivot is that of the scaled covariance, and looking
 TEST_CASE("ekf: what is not finite is refused, with nothing changed") {
   for (ErrorKind error : kBoth) {
     Random random(5);
-    Bare bare(error, random_pose(random), random_covariance(random, 0.5, 0.1));
+    Bare bare{error, random_pose(random), random_covariance(random, 0.5, 0.1)};
     bare.place(Vector3(3, 1, -2));
     bare.move(random_step(random));
     const Dynamic before = bare.covariance();

@@ -167,8 +167,7 @@ void ReferenceFilter::predict_increment(const SE3& T_before_after, const Matrix6
 }
 
 // Gauss-Newton with the prior's coordinates kept for P: xi <- P H^T S^-1 (r + H xi), H by the error about the iterate.
-FrameResult ReferenceFilter::update(const Residual& residual, const Noise& noise, int least,
-                                    int iterations) {
+FrameResult ReferenceFilter::update(const Residual& residual, const Noise& noise, int least, int iterations) {
   FrameResult result;
   const Eigen::Index n = state_.size();
   State iterate = state_;
@@ -194,7 +193,9 @@ FrameResult ReferenceFilter::update(const Residual& residual, const Noise& noise
     const State next = retract(state_, xi);
     if (!residual(next, r_next)) break;
     const DynamicVector foreseen = y - H * xi;
-    if (i >= least && (r_next - foreseen).cwiseQuotient(DynamicVector(R.diagonal().cwiseSqrt())).norm() <= options_.tolerance) break;
+    if (i >= least &&
+        (r_next - foreseen).cwiseQuotient(DynamicVector(R.diagonal().cwiseSqrt())).norm() <= options_.tolerance)
+      break;
     iterate = next;
     r = r_next;
   }

@@ -2,6 +2,7 @@
 // What the reference does with a frame of observations: gates by trying everything, and places new landmarks.
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <stdexcept>
 
 #include "core/chi_square.hpp"
 #include "reference_filter.hpp"
@@ -134,7 +135,7 @@ bool ReferenceFilter::place(const Sensor& sensor, const Seen& seen) {
   if (!placed(state_, DynamicVector::Zero(noises), next)) return false;
   const auto error_of = [&](const State& x, const DynamicVector& noise) {
     State moved;
-    placed(x, noise, moved);
+    if (!placed(x, noise, moved)) throw std::runtime_error("no place beside the placement");
     return local(next, moved);
   };
   const Dynamic F = differentiate(

@@ -177,14 +177,15 @@ FilterOptions random_options(ErrorKind error, Random& random) {
   options.max_landmarks = 20;
   options.max_observations = 10;
   options.gate_probability = options.batch_gate_probability = 1;
-  options.initial_pose = SE3(SO3::exp(random.normal_vector<3>()), 20 * random.normal_vector<3>());
-  options.initial_covariance = random_covariance(random, random.uniform(0.01, 1), random.uniform(0.01, 0.1));
+  options.initial_pose = SE3{SO3::exp(random.normal_vector<3>()), 20 * random.normal_vector<3>()};
+  const double metres = random.uniform(0.01, 1), radians = random.uniform(0.01, 0.1);
+  options.initial_covariance = random_covariance(random, metres, radians);
   return options;
 }
 
 Drive::Drive(unsigned seed, const FilterOptions& options, int landmarks) : random_(seed), truth_(options.initial_pose) {
   for (int i = 0; i < landmarks; ++i)
-    landmarks_.push_back(truth_ * Vector3(random_.uniform(-5, 25), random_.uniform(-15, 15), random_.uniform(-4, 4)));
+    landmarks_.push_back(truth_ * Vector3{random_.uniform(-5, 25), random_.uniform(-15, 15), random_.uniform(-4, 4)});
 }
 
 void Drive::move(Pair& pair) {
@@ -198,8 +199,8 @@ void Drive::move(Pair& pair) {
     Vector6 tau;
     tau << dt * random_.uniform(-1, 2), 0.1 * dt * random_.normal_vector<2>(), 0.2 * dt * random_.normal_vector<3>();
     if (kind < 1) {
-      pair.predict_twist(noisy(random_, tau.head<3>() / dt, twist.velocity_sigma),
-                         noisy(random_, tau.tail<3>() / dt, twist.rate_sigma), dt);
+      const Vector3 v = noisy(random_, tau.head<3>() / dt, twist.velocity_sigma);
+      pair.predict_twist(v, noisy(random_, tau.tail<3>() / dt, twist.rate_sigma), dt);
     } else if (kind < 2) {  // no slip: left and right wheels that give this forward velocity and yaw rate
       const double forward = tau[0] / dt / wheels.radius;
       const double turn = (wheels.yaw_left_minus_right ? -0.5 : 0.5) * tau[5] / dt * wheels.track / wheels.radius;
@@ -208,9 +209,8 @@ void Drive::move(Pair& pair) {
     } else {
       const Matrix6 covariance = random_covariance(random_, 0.03, 0.01);
       const SE3 T = SE3::exp(tau);
-      pair.predict_increment(SE3(SO3::exp(0.01 * random_.normal_vector<3>()) * T.rotation(),
-                                 noisy(random_, T.translation(), Vector3::Constant(0.03))),
-                             covariance);
+      const SO3 R = SO3::exp(0.01 * random_.normal_vector<3>()) * T.rotation();
+      pair.predict_increment(SE3(R, noisy(random_, T.translation(), Vector3::Constant(0.03))), covariance);
     }
     truth_ = truth_ * SE3::exp(tau);
   }
@@ -233,7 +233,9 @@ std::vector<Seen> Drive::look(const Sensor& sensor, std::size_t most, double sca
     Seen one{i + 100, seen.z, sensor.noise()};
     one.z = noisy(random_, seen.z, scale * Vector3(sensor.noise().diagonal().cwiseSqrt()));
     if (!sensor.place(truth_, one.z, mount, placed)) continue;  // a camera's point too far to be of use
+    // Nor what lies so near an image's edge or the zenith that the differences' steps lead beyond.
     if (dynamic_cast<const StereoCamera*>(&sensor) != nullptr && (seen.z[0] < 0 || seen.z[0] > 640)) continue;
+    if (dynamic_cast<const StereoHead*>(&sensor) != nullptr && std::abs(seen.z[2]) > 1.2) continue;
     if (random_.uniform(0, 1) < 0.2) {  // noise of its own, correlated, in place of the sensor's
       Matrix3 A = Matrix3::Identity();
       A(0, 1) = 0.3, A(2, 0) = -0.2;
