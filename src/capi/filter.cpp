@@ -90,7 +90,9 @@ cairn_status cairn_filter_create(const cairn_filter_options* options, cairn_filt
   });
 }
 
-void cairn_filter_destroy(cairn_filter* filter) { delete filter; }
+void cairn_filter_destroy(cairn_filter* filter) {
+  delete filter;
+}
 
 cairn_status cairn_filter_set_log(cairn_filter* filter, cairn_log log, void* payload) {
   return guard([&] { read_filter(filter).set_log(log, payload); });
@@ -201,7 +203,9 @@ cairn_status cairn_filter_joint_covariance(const cairn_filter* filter, const uin
   });
 }
 
-const cairn_map* cairn_filter_map(const cairn_filter* filter) { return filter != nullptr ? &filter->map : nullptr; }
+const cairn_map* cairn_filter_map(const cairn_filter* filter) {
+  return filter != nullptr ? &filter->map : nullptr;
+}
 
 cairn_status cairn_filter_pose_nees(const cairn_filter* filter, const cairn_pose* truth, double* nees) {
   return guard([&] {

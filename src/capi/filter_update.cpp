@@ -16,11 +16,21 @@ void write_match(const Match& match, cairn_match* out) {
                 : match.decision == Decision::placed ? CAIRN_NEW
                                                      : CAIRN_REJECTED;
   switch (match.reason) {
-    case Reason::none: out->reason = CAIRN_REASON_NONE; break;
-    case Reason::gate: out->reason = CAIRN_REASON_GATE; break;
-    case Reason::batch_gate: out->reason = CAIRN_REASON_BATCH_GATE; break;
-    case Reason::no_image: out->reason = CAIRN_REASON_NO_IMAGE; break;
-    case Reason::no_place: out->reason = CAIRN_REASON_NO_PLACE; break;
+    case Reason::none:
+      out->reason = CAIRN_REASON_NONE;
+      break;
+    case Reason::gate:
+      out->reason = CAIRN_REASON_GATE;
+      break;
+    case Reason::batch_gate:
+      out->reason = CAIRN_REASON_BATCH_GATE;
+      break;
+    case Reason::no_image:
+      out->reason = CAIRN_REASON_NO_IMAGE;
+      break;
+    case Reason::no_place:
+      out->reason = CAIRN_REASON_NO_PLACE;
+      break;
   }
   out->distance = match.distance;
   out->threshold = match.threshold;
@@ -79,8 +89,7 @@ cairn_status cairn_filter_update_linear(cairn_filter* filter, const double* resi
     check_pointer(residual, "residual");
     const std::size_t most = static_cast<std::size_t>(f.options().max_observations);
     if (rows == 0) throw Error(ErrorCode::argument, "rows is 0; an update has at least one");
-    if (rows > 3 * most)
-      throw Error(ErrorCode::capacity, "rows: %zu, and 3 max_observations is %zu", rows, 3 * most);
+    if (rows > 3 * most) throw Error(ErrorCode::capacity, "rows: %zu, and 3 max_observations is %zu", rows, 3 * most);
     if (count > most)
       throw Error(ErrorCode::capacity, "count: %zu landmarks, and max_observations is %zu", count, most);
     check_finite(residual, rows, "residual");

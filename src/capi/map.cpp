@@ -12,7 +12,8 @@ namespace capi {
 namespace {
 
 [[noreturn]] void throw_unknown_id(const std::uint64_t* ids, std::size_t i) {
-  throw Error(ErrorCode::not_found, "ids[%zu]: the map has no landmark %llu", i, static_cast<unsigned long long>(ids[i]));
+  throw Error(ErrorCode::not_found, "ids[%zu]: the map has no landmark %llu", i,
+              static_cast<unsigned long long>(ids[i]));
 }
 
 }  // namespace
@@ -30,7 +31,8 @@ std::vector<std::size_t> read_ids(const Landmarks& map, const std::uint64_t* ids
   for (std::size_t i = 0; i < count; ++i) {
     if (!map.find(ids[i], indices[i])) throw_unknown_id(ids, i);
     if (!seen.insert(ids[i]).second)
-      throw Error(ErrorCode::argument, "ids[%zu]: landmark %llu comes twice", i, static_cast<unsigned long long>(ids[i]));
+      throw Error(ErrorCode::argument, "ids[%zu]: landmark %llu comes twice", i,
+                  static_cast<unsigned long long>(ids[i]));
   }
   return indices;
 }

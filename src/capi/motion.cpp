@@ -47,9 +47,15 @@ Wheels read_wheels(const cairn_wheels* user) {
   check_not_negative(w.vertical_sigma, "wheels.vertical_sigma");
   check_not_negative(w.roll_rate_sigma, "wheels.roll_rate_sigma");
   check_not_negative(w.pitch_rate_sigma, "wheels.pitch_rate_sigma");
-  return {w.yaw_sign == CAIRN_YAW_LEFT_MINUS_RIGHT, w.radius,        w.track,
-          w.rate_sigma,                             w.slip_sigma,    w.lateral_sigma,
-          w.vertical_sigma,                         w.roll_rate_sigma, w.pitch_rate_sigma};
+  return {w.yaw_sign == CAIRN_YAW_LEFT_MINUS_RIGHT,
+          w.radius,
+          w.track,
+          w.rate_sigma,
+          w.slip_sigma,
+          w.lateral_sigma,
+          w.vertical_sigma,
+          w.roll_rate_sigma,
+          w.pitch_rate_sigma};
 }
 
 TwistNoise read_twist_noise(const cairn_twist_noise* user) {

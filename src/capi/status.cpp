@@ -27,16 +27,24 @@ bool definite(const double* matrix, std::size_t size, double slack, double* L) {
 
 }  // namespace
 
-void set_message(const char* text) noexcept { std::snprintf(message, sizeof message, "%s", text); }
+void set_message(const char* text) noexcept {
+  std::snprintf(message, sizeof message, "%s", text);
+}
 
 cairn_status status_of(ErrorCode code) noexcept {
   switch (code) {
-    case ErrorCode::argument: return CAIRN_ERROR_ARGUMENT;
-    case ErrorCode::buffer: return CAIRN_ERROR_BUFFER;
-    case ErrorCode::capacity: return CAIRN_ERROR_CAPACITY;
-    case ErrorCode::not_found: return CAIRN_ERROR_NOT_FOUND;
-    case ErrorCode::numerical: return CAIRN_ERROR_NUMERICAL;
-    case ErrorCode::state: return CAIRN_ERROR_STATE;
+    case ErrorCode::argument:
+      return CAIRN_ERROR_ARGUMENT;
+    case ErrorCode::buffer:
+      return CAIRN_ERROR_BUFFER;
+    case ErrorCode::capacity:
+      return CAIRN_ERROR_CAPACITY;
+    case ErrorCode::not_found:
+      return CAIRN_ERROR_NOT_FOUND;
+    case ErrorCode::numerical:
+      return CAIRN_ERROR_NUMERICAL;
+    case ErrorCode::state:
+      return CAIRN_ERROR_STATE;
   }
   return CAIRN_ERROR_INTERNAL;
 }
@@ -102,7 +110,8 @@ void check_covariance(const double* matrix, std::size_t size, bool semi, const c
       if (std::abs(a - b) > 1e-9 * scale)
         throw Error(ErrorCode::argument, "%s is not symmetric at [%zu][%zu]: %g and %g", name, r, c, a, b);
       if (std::abs(a) > scale * (1.0 + 1e-9))
-        throw Error(ErrorCode::argument, "%s is not positive %sdefinite: see [%zu][%zu]", name, semi ? "semi" : "", r, c);
+        throw Error(ErrorCode::argument, "%s is not positive %sdefinite: see [%zu][%zu]", name, semi ? "semi" : "", r,
+                    c);
     }
   // A semidefinite matrix may miss by rounding: 1e-9 of each variance.
   double fixed[36];
@@ -141,7 +150,8 @@ void write_pose(const SE3& pose, cairn_pose* out) {
 
 void check_struct_size(std::size_t size, const char* name) {
   if (size < kSmallestStruct || size > kLargestStruct)
-    throw Error(ErrorCode::argument, "%s: a struct_size of %zu is no size of this struct; set it to sizeof it", name, size);
+    throw Error(ErrorCode::argument, "%s: a struct_size of %zu is no size of this struct; set it to sizeof it", name,
+                size);
 }
 
 bool check_room(const void* buffer, std::size_t capacity, std::size_t count, std::size_t* needed, const char* name) {
@@ -163,20 +173,32 @@ extern "C" {
 
 const char* cairn_status_name(cairn_status status) {
   switch (status) {
-    case CAIRN_OK: return "CAIRN_OK";
-    case CAIRN_ERROR_ARGUMENT: return "CAIRN_ERROR_ARGUMENT";
-    case CAIRN_ERROR_BUFFER: return "CAIRN_ERROR_BUFFER";
-    case CAIRN_ERROR_CAPACITY: return "CAIRN_ERROR_CAPACITY";
-    case CAIRN_ERROR_NOT_FOUND: return "CAIRN_ERROR_NOT_FOUND";
-    case CAIRN_ERROR_NUMERICAL: return "CAIRN_ERROR_NUMERICAL";
-    case CAIRN_ERROR_MEMORY: return "CAIRN_ERROR_MEMORY";
-    case CAIRN_ERROR_STATE: return "CAIRN_ERROR_STATE";
-    case CAIRN_ERROR_INTERNAL: return "CAIRN_ERROR_INTERNAL";
-    default: return "unknown status";
+    case CAIRN_OK:
+      return "CAIRN_OK";
+    case CAIRN_ERROR_ARGUMENT:
+      return "CAIRN_ERROR_ARGUMENT";
+    case CAIRN_ERROR_BUFFER:
+      return "CAIRN_ERROR_BUFFER";
+    case CAIRN_ERROR_CAPACITY:
+      return "CAIRN_ERROR_CAPACITY";
+    case CAIRN_ERROR_NOT_FOUND:
+      return "CAIRN_ERROR_NOT_FOUND";
+    case CAIRN_ERROR_NUMERICAL:
+      return "CAIRN_ERROR_NUMERICAL";
+    case CAIRN_ERROR_MEMORY:
+      return "CAIRN_ERROR_MEMORY";
+    case CAIRN_ERROR_STATE:
+      return "CAIRN_ERROR_STATE";
+    case CAIRN_ERROR_INTERNAL:
+      return "CAIRN_ERROR_INTERNAL";
+    default:
+      return "unknown status";
   }
 }
 
-const char* cairn_last_message(void) { return cairn::capi::message; }
+const char* cairn_last_message(void) {
+  return cairn::capi::message;
+}
 
 const char* cairn_version(void) {
   return CAIRN_TEXT(CAIRN_VERSION_MAJOR) "." CAIRN_TEXT(CAIRN_VERSION_MINOR) "." CAIRN_TEXT(CAIRN_VERSION_PATCH);

@@ -20,7 +20,8 @@ double log_gamma(double a) {
   return shift + (a - 0.5) * std::log(a) - a + 0.91893853320467274178 + series;
 }
 
-// Regularised lower incomplete gamma function P(a, x) by its power series (Abramowitz and Stegun 6.5.29), for x < a + 1.
+// Regularised lower incomplete gamma function P(a, x) by its power series (Abramowitz and Stegun 6.5.29), for x < a
+// + 1.
 double gamma_series(double a, double x) {
   double term = 1.0 / a;
   double sum = term;
@@ -63,7 +64,9 @@ double excess(double dof, double x, double probability) {
 
 }  // namespace
 
-double chi_square_cdf(double dof, double x) { return x <= 0.0 ? 0.0 : std::min(1.0, excess(dof, x, 0.0)); }
+double chi_square_cdf(double dof, double x) {
+  return x <= 0.0 ? 0.0 : std::min(1.0, excess(dof, x, 0.0));
+}
 
 double chi_square_quantile(double dof, double probability) {
   if (probability <= 0.0) return 0.0;

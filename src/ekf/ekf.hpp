@@ -2,7 +2,8 @@
 // Extended Kalman filter of one pose and many landmarks: the one owner of their covariance.
 //
 // The error of the state is one of two (docs/invariant_error.md):
-//   invariant  X = Exp(xi) X_hat on SE_{K+1}: R = Exp(xi_R) R_hat, x = Exp(xi_R) x_hat + J_l(xi_R) xi_x for the position
+//   invariant  X = Exp(xi) X_hat on SE_{K+1}: R = Exp(xi_R) R_hat, x = Exp(xi_R) x_hat + J_l(xi_R) xi_x for the
+//   position
 //              and every landmark x. Propagation is the identity (theory of the right-invariant EKF).
 //   standard   the ordinary one: R = Exp(theta) R_hat, x = x_hat + e_x.
 // To first order e_x = xi_x + G(x_hat) xi_R with G = Rotation::turn: what F, U and the retraction below follow from.
@@ -81,8 +82,9 @@ class Ekf {
   Index landmark_column(Index a) const { return kDof + mount_ + kDim * a; }
 
   // Add blocks given Jacobians by ordinary errors, of rows that the batch has: first the pose's, then those of the
-  // landmarks (numbers in the window) that the rows depend on, each handed what the pose's gave. `relative`: the rows see
-  // points R^T (l - p) alone, so that the attitude's column of the invariant error is zero exactly, not but for rounding.
+  // landmarks (numbers in the window) that the rows depend on, each handed what the pose's gave. `relative`: the rows
+  // see points R^T (l - p) alone, so that the attitude's column of the invariant error is zero exactly, not but for
+  // rounding.
   struct PoseBlock {
     double* value;
     bool turns;  // it has columns for the attitude
@@ -93,18 +95,19 @@ class Ekf {
   void add_landmark_block(Index row, Index rows, const JLandmark& J_landmark, Index a, const PoseBlock& pose);
   void add_mount_block(Index row, Index rows, const PointByMount& J_mount);
 
-  void compute_innovation();                        // S of the batch
-  const double* innovation() const { return S_; }   // column-major, lower triangle, leading dimension rows()
+  void compute_innovation();                       // S of the batch
+  const double* innovation() const { return S_; }  // column-major, lower triangle, leading dimension rows()
   // Full S^-1, column-major, or null where S is not positive definite; only before factor().
   const double* inverse_innovation();
   // After it: u = S^-1 r and r^T u; then rows can be left out of both, one by one.
   double distance_by_inverse(double* u) const;
   void leave_out(Index row, Index rows, double* u);
-  bool factor();                                    // S = L L^T; false where S is not positive definite
-  double nis() const { return nis_; }               // r^T S^-1 r of the last factor()
-  void solve();                                     // the iterate's error against the estimate
-  void step();                                      // iterate <- Exp(error) estimate
-  double misfit(const double* residual) const;      // how far residuals at the iterate are from what solve() foresaw, sigmas
+  bool factor();                       // S = L L^T; false where S is not positive definite
+  double nis() const { return nis_; }  // r^T S^-1 r of the last factor()
+  void solve();                        // the iterate's error against the estimate
+  void step();                         // iterate <- Exp(error) estimate
+  double misfit(
+      const double* residual) const;  // how far residuals at the iterate are from what solve() foresaw, sigmas
   // Takes in the batch: W, P, state. False, with nothing changed, where a variance of P would not stay positive or a
   // value not finite: what tells, at the cost of O(n m), that P would lose definiteness. smallest_pivot() tells surely.
   bool commit();
@@ -178,15 +181,15 @@ class Ekf {
   Eigen::Matrix<double, kMount, 1> iterate_mount_ = Eigen::Matrix<double, kMount, 1>::Zero();
   double* iterate_landmarks_;
   Batch batch_;
-  double* P_window_;   // window x window, both triangles
-  double* T_;          // P_window H^T
-  double* S_;          // innovation covariance, then its factor
+  double* P_window_;  // window x window, both triangles
+  double* T_;         // P_window H^T
+  double* S_;         // innovation covariance, then its factor
   double* S_inverse_;
   double* innovation_;  // r + H xi at the last linearisation, then L^-1 of it
   double* weights_;     // S^-1 (r + H xi)
   double* error_window_;
-  double* foreseen_;  // residual that solve() foresees at its own iterate
-  double* columns_;   // the window's columns of P_now, a row a state
+  double* foreseen_;      // residual that solve() foresees at its own iterate
+  double* columns_;       // the window's columns of P_now, a row a state
   Index noise_rank_ = 0;  // columns of U N and U of the motion held back
   double* noise_left_;
   double* noise_right_;

@@ -201,7 +201,8 @@ double Ekf<Pose>::pose_nees(const Pose& truth) const {
 
 template <class Pose>
 double Ekf<Pose>::smallest_pivot() {
-  // R^T R = D P D with R in the strict upper triangle of P's own storage, its diagonal and D apart: no memory is needed.
+  // R^T R = D P D with R in the strict upper triangle of P's own storage, its diagonal and D apart: no memory is
+  // needed.
   apply_pending();
   const Index n = states();
   double smallest = 1.0;

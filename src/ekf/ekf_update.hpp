@@ -228,7 +228,8 @@ template <class Pose>
 void Ekf<Pose>::write_covariance(Index rank, const double* pose_columns) {
   const Index n = states();
   for (Index c = 0; c < kDof; ++c) std::copy(pose_columns + c * ld_ + c, pose_columns + c * ld_ + n, P_ + c * ld_ + c);
-  const TriangleTerm terms[] = {{W_, ld_, W_, ld_, rank, -1.0}, {noise_left_, ld_, noise_right_, ld_, noise_rank_, 1.0}};
+  const TriangleTerm terms[] = {{W_, ld_, W_, ld_, rank, -1.0},
+                                {noise_left_, ld_, noise_right_, ld_, noise_rank_, 1.0}};
   if (rank + noise_rank_ > 0) update_triangle(P_, ld_, n, terms, 2, scratch_);
   clear_pending();
 }

@@ -12,11 +12,15 @@ namespace {
 // Four doubles: one AVX2 register, two of SSE2. GCC's vectors keep the sums of a strip in registers, where a loop over
 // an array of them went through memory.
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
-constexpr Index kRows = 16;    // rows that the right solve takes at once, four registers
-constexpr Index kPanel = 48;   // columns of a blocked Cholesky factor
+constexpr Index kRows = 16;   // rows that the right solve takes at once, four registers
+constexpr Index kPanel = 48;  // columns of a blocked Cholesky factor
 
-Four load(const double* p) { return *reinterpret_cast<const Four*>(p); }
-void store(double* p, Four value) { *reinterpret_cast<Four*>(p) = value; }
+Four load(const double* p) {
+  return *reinterpret_cast<const Four*>(p);
+}
+void store(double* p, Four value) {
+  *reinterpret_cast<Four*>(p) = value;
+}
 
 // Columns j to j + count - 1 of one strip of W: minus the solved columns before them. `strip` is kRows x m, packed;
 // `rows_of_L` is L by rows with the reciprocal of the diagonal.
@@ -107,7 +111,9 @@ void solve_lower_transposed(const double* L, Index ld, Index m, double* x) {
   }
 }
 
-std::size_t solve_workspace(Index m) { return static_cast<std::size_t>(m * m + kRows * m); }
+std::size_t solve_workspace(Index m) {
+  return static_cast<std::size_t>(m * m + kRows * m);
+}
 
 void solve_right_transposed(const double* L, Index ld, Index m, double* W, Index ldw, Index n, double* workspace,
                             const RowSums* sums) {

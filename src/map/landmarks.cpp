@@ -57,7 +57,8 @@ std::vector<std::size_t> in_box(const Landmarks& map, const Vector3& lower, cons
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < map.size(); ++i) {
     const Vector3 p = map.position(i);
-    if ((p.array() >= lower.array()).all() && (p.array() <= upper.array()).all()) entries.push_back({0.0, map.id(i), i});
+    if ((p.array() >= lower.array()).all() && (p.array() <= upper.array()).all())
+      entries.push_back({0.0, map.id(i), i});
   }
   std::sort(entries.begin(), entries.end());
   return indices_of(entries);

@@ -75,7 +75,8 @@ void Filter::propagate(const Increment<SE3>& increment) {
     throw Error(ErrorCode::numerical,
                 "prediction: the attitude's noise of this step exceeds a whole turn; nothing was changed");
   if (!ekf_.propagate(increment))
-    throw Error(ErrorCode::numerical, "prediction: the pose or its covariance would not be finite; nothing was changed");
+    throw Error(ErrorCode::numerical,
+                "prediction: the pose or its covariance would not be finite; nothing was changed");
 }
 
 void Filter::remove_landmark(std::uint64_t id) {

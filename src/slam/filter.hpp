@@ -87,21 +87,23 @@ class Filter final : public Landmarks {
 
   // --- observations --- each throws with nothing changed; decisions() holds one a observation after it
   Observation* staging() { return observations_; }  // room for max_observations
-  void update(int sensor, Index count);              // of staging()
+  void update(int sensor, Index count);             // of staging()
   struct Linear {
     const double* residual;
     Index rows;
-    const double* covariance;          // rows x rows
-    const double* J_pose;              // rows x 6 row-major, or null
+    const double* covariance;  // rows x rows
+    const double* J_pose;      // rows x 6 row-major, or null
     const std::uint64_t* landmarks;
     Index count;
-    const double* J_landmarks;         // rows x 3 count row-major
+    const double* J_landmarks;  // rows x 3 count row-major
   };
   void update_linear(const Linear& linear);
   void update_position(const Vector3& position, const Matrix3& covariance, const Vector3& lever_arm);
   void update_attitude(const SO3& attitude, const Matrix3& covariance);
   void update_heading(double heading, double sigma);
-  double* workspace() { return ekf_.scratch(); }  // m^2 + cholesky_workspace(m) doubles, m = 3 max_observations; free between updates
+  double* workspace() {
+    return ekf_.scratch();
+  }  // m^2 + cholesky_workspace(m) doubles, m = 3 max_observations; free between updates
   const Match* decisions() const { return matches_; }
   const UpdateReport& report() const { return report_; }
 
