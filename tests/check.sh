@@ -17,14 +17,14 @@ begin() {
   step_start=$SECONDS
   say "$step"
 }
+all_done=false
 summary() {
-  local status=$?
   finish_step
   say "Summary"
   printf '%s\n' "${steps[@]}"
-  if ((status == 0)); then
+  if $all_done; then
     echo "All checks passed in $SECONDS s."
-  else
+  else  # by a failure or by a signal, which leaves no status to go by
     echo "FAILED: $step"
   fi
 }
@@ -59,3 +59,4 @@ cmake --build "$root/build/sanitize" --parallel "$jobs"
 
 begin "Tests under sanitizers"
 ctest --test-dir "$root/build/sanitize" --output-on-failure -j "$jobs"
+all_done=true
