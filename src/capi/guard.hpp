@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C boundary: every call runs inside guard(), every argument passes a check that names it.
+// What the files behind the library's headers share: its handles, and the boundary that every call passes.
 #pragma once
 
 #include <cairn/cairn.h>
 
-#include <algorithm>
-#include <cstring>
-#include <new>
-
+#include "capi/boundary.hpp"
 #include "core/arena.hpp"
-#include "core/error.hpp"
-#include "geometry/se3.hpp"
 #include "slam/filter.hpp"
 
 struct cairn_map {
@@ -28,81 +23,9 @@ struct cairn_filter {
 namespace cairn {
 namespace capi {
 
-void set_message(const char* text) noexcept;
-cairn_status status_of(ErrorCode code) noexcept;
-
-template <class Function>
-cairn_status guard(Function&& function) noexcept {
-  try {
-    function();
-    return CAIRN_OK;
-  } catch (const Error& error) {
-    set_message(error.what());
-    return status_of(error.code());
-  } catch (const std::bad_alloc&) {
-    set_message("memory could not be had; create with smaller capacities");
-    return CAIRN_ERROR_MEMORY;
-  } catch (const std::exception& error) {
-    set_message(error.what());
-    return CAIRN_ERROR_INTERNAL;
-  } catch (...) {
-    set_message("a defect of the library: an exception of no known type");
-    return CAIRN_ERROR_INTERNAL;
-  }
-}
-
-// --- checks --- each throws an Error that names the argument.
-void check_pointer(const void* pointer, const char* name);
-void check_finite(double value, const char* name);
-void check_finite(const double* values, std::size_t count, const char* name);
-void check_positive(double value, const char* name);
-void check_positive(const double* values, std::size_t count, const char* name);
-void check_not_negative(double value, const char* name);
-void check_not_negative(const double* values, std::size_t count, const char* name);
-void check_range(double value, double lower, double upper, const char* name);  // closed
-void check_probability(double value, const char* name);                        // (0, 1]
 // Finite, symmetric, positive definite (`semi`: semidefinite); `size` on a side, row-major. Beyond 6 it takes a
 // workspace of size^2 + cholesky_workspace(size) doubles.
 void check_covariance(const double* matrix, std::size_t size, bool semi, const char* name, double* workspace = nullptr);
-
-// --- conversions --- with their checks
-SO3 read_quaternion(const double* quaternion, const char* name);
-SE3 read_pose(const cairn_pose* pose, const char* name);
-void write_pose(const SE3& pose, cairn_pose* out);
-void write_quaternion(const SO3& rotation, double* out);
-template <int n>
-void write_square(const Eigen::Matrix<double, n, n>& symmetric, double* out) {
-  std::copy_n(symmetric.data(), n * n, out);
-}
-
-// --- options --- of callers older and newer than the library
-constexpr std::size_t kSmallestStruct = 8, kLargestStruct = 1 << 16;
-void check_struct_size(std::size_t size, const char* name);
-
-// Fills in defaults, at most struct_size bytes; what a newer caller has beyond them is zeroed.
-template <class Options>
-void init_options(Options* options, std::size_t struct_size, const Options& defaults, const char* name) {
-  check_pointer(options, name);
-  check_struct_size(struct_size, "struct_size");
-  std::memset(static_cast<void*>(options), 0, struct_size);
-  std::memcpy(static_cast<void*>(options), &defaults, std::min(struct_size, sizeof(Options)));
-  options->struct_size = static_cast<std::uint32_t>(struct_size);
-}
-
-// The caller's options over the defaults, the smaller of both sizes of them.
-template <class Options>
-Options read_options(const Options* options, const Options& defaults, const char* name) {
-  check_pointer(options, name);
-  std::uint32_t size = 0;
-  std::memcpy(&size, options, sizeof size);  // a caller's older struct may be shorter than ours
-  check_struct_size(size, name);
-  Options merged = defaults;
-  std::memcpy(static_cast<void*>(&merged), options, std::min<std::size_t>(size, sizeof(Options)));
-  return merged;
-}
-
-// --- arrays --- the rule of short buffers; true where there is room to fill in.
-bool check_room(const void* buffer, std::size_t capacity, std::size_t count, std::size_t* needed, const char* name);
 
 }  // namespace capi
 }  // namespace cairn

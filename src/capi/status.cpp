@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <cstdio>
 
 #include "capi/guard.hpp"
 
@@ -10,8 +9,6 @@
 namespace cairn {
 namespace capi {
 namespace {
-
-thread_local char message[320] = "";
 
 // Lower Cholesky of a matrix scaled to unit diagonal; `slack` is added to that diagonal.
 bool definite(const double* matrix, std::size_t size, double slack, double* L) {
@@ -26,74 +23,6 @@ bool definite(const double* matrix, std::size_t size, double slack, double* L) {
 }
 
 }  // namespace
-
-void set_message(const char* text) noexcept {
-  std::snprintf(message, sizeof message, "%s", text);
-}
-
-cairn_status status_of(ErrorCode code) noexcept {
-  switch (code) {
-    case ErrorCode::argument:
-      return CAIRN_ERROR_ARGUMENT;
-    case ErrorCode::buffer:
-      return CAIRN_ERROR_BUFFER;
-    case ErrorCode::capacity:
-      return CAIRN_ERROR_CAPACITY;
-    case ErrorCode::not_found:
-      return CAIRN_ERROR_NOT_FOUND;
-    case ErrorCode::numerical:
-      return CAIRN_ERROR_NUMERICAL;
-    case ErrorCode::state:
-      return CAIRN_ERROR_STATE;
-  }
-  return CAIRN_ERROR_INTERNAL;
-}
-
-void check_pointer(const void* pointer, const char* name) {
-  if (pointer == nullptr) throw Error(ErrorCode::argument, "%s is NULL; pass a valid pointer", name);
-}
-
-void check_finite(double value, const char* name) {
-  if (!std::isfinite(value)) throw Error(ErrorCode::argument, "%s is not finite (%g)", name, value);
-}
-
-void check_finite(const double* values, std::size_t count, const char* name) {
-  for (std::size_t i = 0; i < count; ++i)
-    if (!std::isfinite(values[i])) throw Error(ErrorCode::argument, "%s[%zu] is not finite (%g)", name, i, values[i]);
-}
-
-void check_positive(double value, const char* name) {
-  check_finite(value, name);
-  if (!(value > 0.0)) throw Error(ErrorCode::argument, "%s must be > 0, and is %g", name, value);
-}
-
-void check_positive(const double* values, std::size_t count, const char* name) {
-  check_finite(values, count, name);
-  for (std::size_t i = 0; i < count; ++i)
-    if (!(values[i] > 0.0)) throw Error(ErrorCode::argument, "%s[%zu] must be > 0, and is %g", name, i, values[i]);
-}
-
-void check_not_negative(double value, const char* name) {
-  check_finite(value, name);
-  if (value < 0.0) throw Error(ErrorCode::argument, "%s must be >= 0, and is %g", name, value);
-}
-
-void check_not_negative(const double* values, std::size_t count, const char* name) {
-  check_finite(values, count, name);
-  for (std::size_t i = 0; i < count; ++i)
-    if (values[i] < 0.0) throw Error(ErrorCode::argument, "%s[%zu] must be >= 0, and is %g", name, i, values[i]);
-}
-
-void check_range(double value, double lower, double upper, const char* name) {
-  check_finite(value, name);
-  if (value < lower || value > upper)
-    throw Error(ErrorCode::argument, "%s must lie in [%g, %g], and is %g", name, lower, upper, value);
-}
-
-void check_probability(double value, const char* name) {
-  check_finite(value, name);
-  if (!(value > 0.0 && value <= 1.0)) throw Error(ErrorCode::argument, "%s must lie in (0, 1], and is %g", name, value);
-}
 
 void check_covariance(const double* matrix, std::size_t size, bool semi, const char* name, double* workspace) {
   check_finite(matrix, size * size, name);
@@ -117,53 +46,6 @@ void check_covariance(const double* matrix, std::size_t size, bool semi, const c
   double fixed[36];
   if (!definite(matrix, size, semi ? 1e-9 : 0.0, size <= 6 ? fixed : workspace))
     throw Error(ErrorCode::argument, "%s is not positive %sdefinite", name, semi ? "semi" : "");
-}
-
-SO3 read_quaternion(const double* quaternion, const char* name) {
-  check_pointer(quaternion, name);
-  check_finite(quaternion, 4, name);
-  double largest = 0.0;
-  for (int i = 0; i < 4; ++i) largest = std::max(largest, std::abs(quaternion[i]));
-  if (!(largest > 1e-100)) throw Error(ErrorCode::argument, "%s is zero; a rotation's quaternion has length 1", name);
-  return SO3::from_quaternion(quaternion[0] / largest, quaternion[1] / largest, quaternion[2] / largest,
-                              quaternion[3] / largest);
-}
-
-SE3 read_pose(const cairn_pose* pose, const char* name) {
-  check_pointer(pose, name);
-  char part[96];
-  std::snprintf(part, sizeof part, "%s.position", name);
-  check_finite(pose->position, 3, part);
-  std::snprintf(part, sizeof part, "%s.quaternion", name);
-  return SE3(read_quaternion(pose->quaternion, part), Vector3(pose->position));
-}
-
-void write_quaternion(const SO3& rotation, double* out) {
-  const Eigen::Quaterniond& q = rotation.quaternion();
-  out[0] = q.w(), out[1] = q.x(), out[2] = q.y(), out[3] = q.z();
-}
-
-void write_pose(const SE3& pose, cairn_pose* out) {
-  for (int i = 0; i < 3; ++i) out->position[i] = pose.translation()(i);
-  write_quaternion(pose.rotation(), out->quaternion);
-}
-
-void check_struct_size(std::size_t size, const char* name) {
-  if (size < kSmallestStruct || size > kLargestStruct)
-    throw Error(ErrorCode::argument, "%s: a struct_size of %zu is no size of this struct; set it to sizeof it", name,
-                size);
-}
-
-bool check_room(const void* buffer, std::size_t capacity, std::size_t count, std::size_t* needed, const char* name) {
-  check_pointer(needed, "needed");
-  if (buffer == nullptr && capacity > 0)
-    throw Error(ErrorCode::argument, "%s is NULL, and its capacity %zu; pass NULL with 0 to ask for the size", name,
-                capacity);
-  *needed = count;
-  if (buffer == nullptr) return false;
-  if (capacity < count)
-    throw Error(ErrorCode::buffer, "%s has room for %zu, and %zu are needed", name, capacity, count);
-  return true;
 }
 
 }  // namespace capi
@@ -197,7 +79,7 @@ const char* cairn_status_name(cairn_status status) {
 }
 
 const char* cairn_last_message(void) {
-  return cairn::capi::message;
+  return cairn::capi::last_message();
 }
 
 const char* cairn_version(void) {
