@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Functions of the caller that the library calls back: custom sensors, the log."""
+import numpy as np
+
+from . import _structs
+from ._library import ffi
+from .pose import Pose
+
+
+def _values(pointer, count):
+    return np.frombuffer(ffi.buffer(pointer, 8 * count), np.float64)
+
+
+class Callbacks:
+    """Keeps the callbacks of one filter alive, and what they raise until the call is over: nothing may pass through C."""
+
+    def __init__(self):
+        self._kept = []
+        self._log = ffi.NULL
+        self._pending = None
+
+    def raise_pending(self):
+        error, self._pending = self._pending, None
+        if error is not None:
+            raise error
+
+    def _guarded(self, answer):
+        """0 once `answer` has written its outputs; 1 where it had none, or raised."""
+        if self._pending is not None:
+            return 1
+        try:
+            return 0 if answer() else 1
+        except BaseException as error:  # also an interrupt from the keyboard
+            self._pending = error
+            return 1
+
+    @staticmethod
+    def _write(result, outputs):
+        """Copies (value, array, ...) to the C arrays [(name, pointer, shape), ...]; False where the result is None."""
+        if result is None:
+            return False
+        if len(result) != len(outputs):
+            raise ValueError(f"{len(outputs)} results are wanted, not {len(result)}")
+        for value, (name, pointer, shape) in zip(result, outputs):
+            _values(pointer, int(np.prod(shape)))[:] = _structs.array(name, value, shape).ravel()
+        return True
+
+    def custom(self, struct, predict, place):
+        """Sets the callbacks of a cairn_custom."""
+        rows = int(struct.rows)
+
+        def predicted(_, pose, landmark, z, jacobian_pose, jacobian_landmark):
+            return self._guarded(lambda: self._write(predict(Pose.of(pose), _values(landmark, 3).copy()), [
+                ("z", z, (rows,)), ("jacobian_pose", jacobian_pose, (rows, 6)),
+                ("jacobian_landmark", jacobian_landmark, (rows, 3))]))
+
+        def placed(_, pose, z, landmark, jacobian_pose, jacobian_z):
+            return self._guarded(lambda: self._write(place(Pose.of(pose), _values(z, rows).copy()), [
+                ("landmark", landmark, (3,)), ("jacobian_pose", jacobian_pose, (3, 6)),
+                ("jacobian_z", jacobian_z, (3, rows))]))
+
+        struct.predict = ffi.callback("cairn_custom_predict", predicted, error=1)
+        self._kept.append(struct.predict)
+        if place is not None:
+            struct.place = ffi.callback("cairn_custom_place", placed, error=1)
+            self._kept.append(struct.place)
+
+    def log(self, function):
+        """The C callback of a log function; the one before it is kept, it may be in use."""
+        if function is None:
+            return ffi.NULL
+
+        def logged(_, line):
+            text = ffi.string(line).decode(errors="replace")
+            self._guarded(lambda: function(text) or True)
+
+        callback = ffi.callback("cairn_log", logged)
+        self._kept.append(callback)
+        return callback

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Loads libcairn, and libcairn_sim where it is asked for.
+
+Environment: CAIRN_LIBRARY is the path of libcairn.so, or of its folder (otherwise the folder that pkg-config told when
+this package was built, otherwise where the loader looks).
+"""
+import os
+
+try:
+    from ._abi import ffi, library_dir
+except ImportError:  # run from the source tree
+    from ._declarations import make_ffi
+    ffi, library_dir = make_ffi(), None
+
+
+_declared = ffi.dlopen(None)  # knows the headers' constants and the names of their functions
+
+
+def _open(stem):
+    """Opens lib`stem`.so, in the folder that was named or where the loader finds it."""
+    soname = f"lib{stem}.so.{_declared.CAIRN_VERSION_MAJOR}"
+    named = os.environ.get("CAIRN_LIBRARY")
+    if named and os.path.isfile(named) and stem == "cairn":
+        paths = [named]
+    elif named:
+        folder = named if os.path.isdir(named) else os.path.dirname(named)
+        paths = [os.path.join(folder, soname), os.path.join(folder, f"lib{stem}.so")]
+    else:
+        paths = [os.path.join(library_dir, soname)] if library_dir else []
+        paths.append(soname)
+    causes = []
+    for path in paths:
+        try:
+            return ffi.dlopen(path)
+        except OSError as error:
+            causes.append(str(error).split(".  Additionally")[0])
+    raise ImportError(f"{soname} can't be loaded ({'; '.join(causes)}): install the library, or name its path in "
+                      "CAIRN_LIBRARY")
+
+
+class Library:
+    """Every function and constant of the C headers by its name: `lib.cairn_version()`, `lib.CAIRN_NEW`."""
+
+    def __init__(self):
+        self._cairn = _open("cairn")
+        built = [_declared.CAIRN_VERSION_MAJOR, _declared.CAIRN_VERSION_MINOR]
+        loaded = ffi.string(self._cairn.cairn_version()).decode()
+        if [int(part) for part in loaded.split(".")[:2]] != built:
+            raise ImportError(f"this package was made from the headers of cairn {built[0]}.{built[1]}, but the library "
+                              f"that was loaded is {loaded}: install both from one version")
+
+    def __getattr__(self, name):
+        if name.startswith("__"):
+            raise AttributeError(name)
+        try:
+            value = getattr(self._cairn, name)
+        except AttributeError:
+            if not name.startswith("cairn_"):
+                raise AttributeError(f"cairn's C headers have no {name}") from None
+            value = self._of_sim(name)
+        setattr(self, name, value)
+        return value
+
+    def _of_sim(self, name):
+        if name not in dir(_declared):
+            raise AttributeError(f"cairn's C headers have no function {name}")
+        try:
+            if "_sim" not in self.__dict__:
+                self._sim = _open("cairn_sim")
+            return getattr(self._sim, name)
+        except (ImportError, AttributeError) as error:
+            raise AttributeError(f"libcairn has no {name}, nor has libcairn_sim: {error}") from None
+
+    def __dir__(self):
+        return dir(_declared)
+
+
+lib = Library()

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""C structs and arrays as Python has them: keyword arguments, dictionaries, numpy. All by the headers' own field names,
+so that a field that is added there needs no line here."""
+import math
+import operator
+
+import numpy as np
+
+from ._library import ffi, lib
+from .error import check
+
+BOOKKEEPING = ("struct_size", "reserved")  # fields that are no business of a Python caller
+_NUMPY_OF = {"double": "f8", "float": "f4", "int32_t": "i4", "uint32_t": "u4", "int64_t": "i8", "uint64_t": "u8",
+             "size_t": "u8", "uint8_t": "u1", "int8_t": "i1"}
+
+
+def shape_of_array(name, length):
+    """Shape that a field of so many values has in numpy: covariances are square, the rest is flat."""
+    side = math.isqrt(length)
+    return (side, side) if "covariance" in name and side * side == length and side > 1 else (length,)
+
+
+def array(name, value, shape=None):
+    """A C-contiguous array of doubles; `shape` may hold None for any length. Its buffer goes to C."""
+    try:
+        result = np.ascontiguousarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise TypeError(f"{name}: numbers are wanted: {error}") from None
+    if np.iscomplexobj(value):
+        raise TypeError(f"{name}: real numbers are wanted")
+    if shape is not None:
+        fits = result.ndim == len(shape) and all(want in (None, has) for want, has in zip(shape, result.shape))
+        if not fits:
+            wanted = " x ".join("n" if want is None else str(want) for want in shape)
+            raise ValueError(f"{name}: shape {wanted} is wanted, not {result.shape}")
+    return result
+
+
+def doubles(values):
+    """What C gets of an array of doubles; the array has to outlive the call."""
+    return ffi.from_buffer("double *", values)
+
+
+def identifiers(name, values):
+    """Landmark ids as an array of uint64: whole numbers from 0 to 2^64 - 1, one dimension."""
+    if isinstance(values, np.ndarray):
+        if values.ndim != 1:
+            raise ValueError(f"{name}: one dimension is wanted, not {values.ndim}")
+        if values.size == 0:
+            return np.zeros(0, np.uint64)
+        if values.dtype.kind not in "iu":
+            raise TypeError(f"{name}: whole numbers are wanted, not {values.dtype}")
+        if values.dtype.kind == "i" and values.min() < 0:
+            raise ValueError(f"{name}: an id is negative")
+        return np.ascontiguousarray(values, dtype=np.uint64)
+    try:
+        numbers = [operator.index(value) for value in values]
+    except TypeError as error:
+        raise TypeError(f"{name}: whole numbers are wanted: {error}") from None
+    if any(number < 0 or number >= 1 << 64 for number in numbers):
+        raise ValueError(f"{name}: an id is not in 0 to 2^64 - 1")
+    return np.fromiter(numbers, dtype=np.uint64, count=len(numbers))
+
+
+def dtype(type_name):
+    """The numpy type that lies in memory as the C struct does; covariances are square."""
+    names, formats, offsets = [], [], []
+    for name, field in ffi.typeof(type_name).fields:
+        kind, shape = field.type, ()
+        if kind.kind == "array":
+            kind, shape = kind.item, shape_of_array(name, kind.length)
+        base = dtype(kind.cname) if kind.kind == "struct" else np.dtype(_NUMPY_OF[kind.cname])
+        names.append(name)
+        formats.append((base, shape) if shape else base)
+        offsets.append(field.offset)
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": ffi.sizeof(type_name)})
+
+
+def constant(field, word):
+    """The value of a constant given as a word: error="standard" is CAIRN_ERROR_STANDARD."""
+    for prefix in (field, field.split("_")[0]):
+        value = getattr(lib, f"CAIRN_{prefix}_{word}".upper(), None)
+        if value is not None:
+            return value
+    raise ValueError(f"{field}: there is no constant CAIRN_{field.split('_')[0].upper()}_{word.upper()}")
+
+
+def set_field(struct, name, kind, value, where):
+    """Sets one field of a struct from what Python has for it."""
+    where = f"{where}{name}"
+    if kind.kind == "array":
+        shape = shape_of_array(name, kind.length)
+        values = np.asarray(value)
+        if values.shape != (kind.length,):  # a flat one always will do
+            values = array(where, value, shape)
+        setattr(struct, name, [float(number) for number in values.ravel()])
+    elif kind.kind == "struct":
+        set_fields(getattr(struct, name), kind, pose_fields(where, value) if kind.cname == "cairn_pose" else value,
+                   where + ".")
+    elif kind.kind == "primitive":
+        if isinstance(value, str):
+            value = constant(name, value)
+        try:
+            setattr(struct, name, value if kind.cname == "double" else operator.index(value))
+        except (TypeError, OverflowError) as error:
+            raise type(error)(f"{where}: {error}") from None
+    else:
+        setattr(struct, name, value)
+
+
+def set_fields(struct, kind, values, where=""):
+    fields = {name: field.type for name, field in kind.fields if not name.startswith(BOOKKEEPING)}
+    for name, value in values.items():
+        if name not in fields:
+            raise TypeError(f"there is no option '{where}{name}': {kind.cname} has {', '.join(fields)}")
+        set_field(struct, name, fields[name], value, where)
+
+
+def pose_fields(name, value):
+    """A pose given as (position, quaternion), as a cairn.Pose, or as a dictionary."""
+    if isinstance(value, dict):
+        return value
+    try:
+        position, quaternion = value
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: a pose is wanted: (position, quaternion w x y z)") from None
+    return {"position": position, "quaternion": quaternion}
+
+
+def new(type_name, values):
+    """A struct with the library's defaults (its _init function's), and the given fields set."""
+    struct = ffi.new(f"{type_name} *")
+    check(getattr(lib, f"{type_name}_init")(struct, ffi.sizeof(type_name)))
+    set_fields(struct, ffi.typeof(type_name), values)
+    return struct
+
+
+def new_pose(name, value):
+    """A cairn_pose of (position, quaternion)."""
+    struct = ffi.new("cairn_pose *")
+    set_fields(struct, ffi.typeof("cairn_pose"), pose_fields(name, value), f"{name}.")
+    return struct
+
+
+def report(type_name, ask):
+    """What a function that fills a struct with a struct_size tells, as a dictionary."""
+    struct = ffi.new(f"{type_name} *")
+    struct.struct_size = ffi.sizeof(type_name)
+    check(ask(struct))
+    return as_dict(struct[0])
+
+
+def as_dict(struct):
+    """A struct's fields: numbers, arrays, and poses as cairn.Pose."""
+    from .pose import Pose
+    result = {}
+    for name, field in ffi.typeof(struct).fields:
+        if name.startswith(BOOKKEEPING):
+            continue
+        value = getattr(struct, name)
+        if field.type.kind == "array":
+            value = np.array(list(value)).reshape(shape_of_array(name, field.type.length))
+        elif field.type.kind == "struct":
+            value = Pose.of(value) if field.type.cname == "cairn_pose" else as_dict(value)
+        result[name] = value
+    return result
+
+
+def filled(type_name, ask):
+    """The array of structs that ask(buffer, capacity, needed) fills; it is asked for the number first."""
+    needed = ffi.new("size_t *")
+    check(ask(ffi.NULL, 0, needed))
+    result = np.zeros(needed[0], dtype(type_name) if type_name in STRUCTS else _NUMPY_OF[type_name])
+    if len(result):
+        check(ask(ffi.from_buffer(f"{type_name} *", result, require_writable=True), len(result), needed))
+    return result[: needed[0]]
+
+
+STRUCTS = frozenset(ffi.list_types()[0])
