@@ -5,7 +5,7 @@ set -euo pipefail
 # shellcheck source=../tests/support/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../tests/support/setup.sh"
 
-need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libmatio-dev
+need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libnanoflann-dev libmatio-dev
 
 build=$root/build/demo
 say "Building the library, the program and the examples in build/demo (a few minutes the first time)"

@@ -31,7 +31,7 @@ summary() {
 trap summary EXIT
 
 begin "Packages"
-need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libmatio-dev \
+need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libnanoflann-dev libmatio-dev \
   libcmocka-dev doctest-dev python3 doxygen=doxygen shellcheck=shellcheck binutils=nm groff-base=groff
 launcher=()
 if command -v ccache >/dev/null; then

@@ -31,7 +31,7 @@ done
 if [[ -z $program ]]; then
   say "Build (build/bench)" >&2
   {
-    need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libmatio-dev \
+    need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libnanoflann-dev libmatio-dev \
       libbenchmark-dev libopenblas-dev
     configure "$root/build/bench" --preset bench
     cmake --build "$root/build/bench" --parallel "$jobs" --target cairn_program
