@@ -1,8 +1,8 @@
-# What `cmake --install` lays down. Three components, for those who package them apart: runtime (the library), development
+# What `cmake --install` lays down. Three components, for those who package them apart: runtime (the libraries), development
 # (headers, pkg-config, CMake package) and program.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS cairn EXPORT cairnTargets
+install(TARGETS cairn cairn_sim EXPORT cairnTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cairn DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.h")
@@ -35,8 +35,10 @@ set(pkgconfig_dir ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
 cairn_path_between(${pkgconfig_dir} ${CMAKE_INSTALL_PREFIX} CAIRN_PC_PREFIX)
 cairn_path_between(${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR} CAIRN_PC_INCLUDEDIR)
 cairn_path_between(${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR} CAIRN_PC_LIBDIR)
-configure_file(${CMAKE_CURRENT_LIST_DIR}/cairn.pc.in ${PROJECT_BINARY_DIR}/cairn.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/cairn.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+foreach(name IN ITEMS cairn cairn-sim)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endforeach()
 
 if(TARGET cairn_program)
   cairn_path_between(${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR} path)

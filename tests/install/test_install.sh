@@ -31,6 +31,7 @@ major=${version%%.*}
 
 # What was laid down.
 for file in "$libdir/libcairn.so.$major" "$libdir/libcairn.so.$version" "$prefix/include/cairn/cairn.h" \
+  "$libdir/libcairn_sim.so" "$libdir/libcairn_sim.so.$major" "$libdir/libcairn_sim.so.$version" \
   "$libdir/cmake/cairn/cairnConfig.cmake" "$libdir/cmake/cairn/cairnConfigVersion.cmake" \
   "$prefix/share/doc/cairn/LICENSE" "$prefix/share/doc/cairn/README.md"; do
   [[ -f $file ]] || fail "missing: ${file#"$prefix/"}"
@@ -72,20 +73,24 @@ pass "the README's lines of C compile"
 
 # The symbols: what the headers promise, what the committed list says, and nothing else.
 symbols() { nm -D --defined-only "$1" | awk '$2 != "A" {print $3}' | LC_ALL=C sort; }
-awk '!/^#/ && NF' "$source_dir/src/capi/symbols.txt" | LC_ALL=C sort >"$work/committed"
+committed() { awk '!/^#/ && NF' "$@" | LC_ALL=C sort; }
+committed "$source_dir/src/capi/symbols.txt" >"$work/committed"
+committed "$source_dir/src/sim/symbols.txt" >"$work/committed_sim"
 for file in "${libraries[@]}"; do
   symbols "$file" >"$work/exported"
   same "$work/committed" "$work/exported" "exported symbols of ${file#"$prefix/"} differ from src/capi/symbols.txt"
 done
+symbols "$libdir/libcairn_sim.so.$version" >"$work/exported"
+same "$work/committed_sim" "$work/exported" "exported symbols of libcairn_sim differ from src/sim/symbols.txt"
 for header in "${headers[@]}"; do
   "$cc" -std=c99 -E -P -I"$prefix/include" "$prefix/include/$header"
 done | grep -o '\<cairn_[a-z0-9_]* *(' | tr -d ' (' | LC_ALL=C sort -u >"$work/declared"
-sed 's/@.*//' "$work/committed" >"$work/names"
-same "$work/declared" "$work/names" "the headers' functions differ from src/capi/symbols.txt"
-pass "$(wc -l <"$work/exported") symbols, as committed and as declared"
+sed 's/@.*//' "$work/committed" "$work/committed_sim" | LC_ALL=C sort >"$work/names"
+same "$work/declared" "$work/names" "the headers' functions differ from src/capi/symbols.txt and src/sim/symbols.txt"
+pass "$(wc -l <"$work/names") symbols, as committed and as declared"
 
-# What the library needs of the machine: the C and C++ runtime.
-for file in "${libraries[@]}"; do
+# What the libraries need of the machine: the C and C++ runtime.
+for file in "${libraries[@]}" "$libdir/libcairn_sim.so.$version"; do
   foreign=$(ldd "$file" | awk '{print $1}' |
     grep -vE '^(linux-(vdso|gate)\.so\.1|lib(stdc\+\+|m|gcc_s|c)\.so\.[0-9]+|.*/ld-linux[^/]*)$' || true)
   [[ -z $foreign ]] || fail "${file#"$prefix/"} needs $foreign"
@@ -108,6 +113,11 @@ build_consumer() {
 build_consumer "$work/by_pkgconfig"
 picked=$(LD_LIBRARY_PATH=$libdir "$work/by_pkgconfig") || fail "the consumer by pkg-config, exit $?"
 pass "C99 consumer by pkg-config: $picked"
+eval "flags=($("$pkg_config" --cflags --libs cairn-sim))"
+"$cc" -std=c99 -O2 -Wall -Wextra -pedantic -Werror "$here/consumer/simulation.c" "${flags[@]}" -o "$work/simulation" ||
+  fail "simulation by pkg-config"
+LD_LIBRARY_PATH=$libdir "$work/simulation" >"$work/drive" || fail "the simulation by pkg-config, exit $?"
+pass "C99 simulation by pkg-config cairn-sim: $(cat "$work/drive")"
 
 # (b) C++17 by find_package.
 by_cmake() {
@@ -118,6 +128,9 @@ by_cmake >"$work/cmake.log" 2>&1 || { cat "$work/cmake.log"; fail "consumer by f
 printed=$("$work/by cmake/consumer") || fail "the consumer by find_package, exit $?"
 [[ $printed == "$picked" ]] || fail "the consumers were given different builds: $picked, $printed"
 pass "C++17 consumer by find_package: $printed"
+printed=$("$work/by cmake/simulation") || fail "the simulation by find_package, exit $?"
+[[ $printed == "$(cat "$work/drive")" ]] || fail "two drives of one seed differ: $printed, $(cat "$work/drive")"
+pass "C++17 simulation by find_package: $printed"
 
 # The loader picks the x86-64-v3 build where it is installed and the machine can, and the baseline where that is masked.
 loader=$(readelf -l "$work/by_pkgconfig" | sed -n 's/.*program interpreter: \(.*\)\]/\1/p')
