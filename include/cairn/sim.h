@@ -145,8 +145,8 @@ CAIRN_API cairn_status cairn_world_options_preset(cairn_world_options *options, 
 
 /** Creates a world before its first step; the caller destroys it with \ref cairn_world_destroy. Options of an older or a
  *  newer header are taken as far as both sides know them. On an error `*world` is not written.
- *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY. Complexity: O(n log n) for n landmarks; memory 40 bytes
- *  a landmark. \since 0.1.0 */
+ *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY, CAIRN_ERROR_NUMERICAL (the ground is too rough for
+ *  four wheels). Complexity: O(n log n) for n landmarks; memory 40 bytes a landmark. \since 0.1.0 */
 CAIRN_API cairn_status cairn_world_create(const cairn_world_options *options, cairn_world **world);
 
 /** Destroys a world. NULL is allowed. Threads: one a handle. \since 0.1.0 */
@@ -183,7 +183,8 @@ typedef struct cairn_world_step {
 } cairn_world_step;
 
 /** Hands out the next step. Set `step->struct_size` first. Nothing is stored: memory does not grow with the drive.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (the last step was handed out).
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (the last step was handed out),
+ *  CAIRN_ERROR_NUMERICAL (the ground is too rough for four wheels).
  *  Complexity: O(motions + landmarks in range). \since 0.1.0 */
 CAIRN_API cairn_status cairn_world_next(cairn_world *world, cairn_world_step *step);
 

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+void check_near(double actual, double expected, double tolerance, const char* what, const char* file, int line) {
+  if (fabs(actual - expected) <= tolerance) return;
+  print_error("%s: %.17g against %.17g, tolerance %g\n", what, actual, expected, tolerance);
+  _fail(file, line);
+}
+
+void check_between(double actual, double lower, double upper, const char* what, const char* file, int line) {
+  if (actual >= lower && actual <= upper) return;
+  print_error("%s: %.17g lies outside [%g, %g]\n", what, actual, lower, upper);
+  _fail(file, line);
+}
+
+void check_status(cairn_status actual, cairn_status expected, const char* word, const char* call, const char* file,
+                  int line) {
+  if (actual == expected && strstr(expected == CAIRN_OK ? "" : cairn_sim_last_message(), word) != NULL) return;
+  print_error("%s: %s, expected %s with '%s': %s\n", call, cairn_status_name(actual), cairn_status_name(expected), word,
+              cairn_sim_last_message());
+  _fail(file, line);
+}
+
+cairn_world_options default_options(void) {
+  cairn_world_options options;
+  assert_ok(cairn_world_options_init(&options, sizeof options));
+  return options;
+}
+
+cairn_world_options preset_options(int32_t preset) {
+  cairn_world_options options = default_options();
+  assert_ok(cairn_world_options_preset(&options, preset, NULL));
+  return options;
+}
+
+cairn_world* open_world(const cairn_world_options* options) {
+  cairn_world* world = NULL;
+  assert_ok(cairn_world_create(options, &world));
+  return world;
+}
+
+size_t steps_of(const cairn_world* world) {
+  size_t steps = 0;
+  assert_ok(cairn_world_steps(world, &steps));
+  return steps;
+}
+
+cairn_world_step next_step(cairn_world* world) {
+  cairn_world_step step;
+  step.struct_size = sizeof step;
+  assert_ok(cairn_world_next(world, &step));
+  return step;
+}
+
+void to_body(const cairn_pose* T_map_body, const double point[3], double out[3]) {
+  cairn_pose inverse;
+  assert_int_equal(cairn_pose_inverse(T_map_body, &inverse), CAIRN_OK);
+  assert_int_equal(cairn_pose_apply(&inverse, point, out), CAIRN_OK);
+}
+
+/* In 64 short steps of second order, to stay apart from the library's exponential. */
+cairn_pose moved(const cairn_pose* pose, const double velocity[3], const double rate[3], double dt) {
+  cairn_pose result = *pose, half, step;
+  double way[3], turn[3];
+  int i, k;
+  for (k = 0; k < 64; ++k) {
+    for (i = 0; i < 3; ++i) way[i] = velocity[i] * dt / 64, turn[i] = rate[i] * dt / 128;
+    memset(half.position, 0, sizeof half.position);
+    assert_int_equal(cairn_quaternion_exp(turn, half.quaternion), CAIRN_OK);
+    memcpy(step.position, way, sizeof way);
+    step.quaternion[0] = 1, step.quaternion[1] = step.quaternion[2] = step.quaternion[3] = 0;
+    assert_int_equal(cairn_pose_compose(&result, &half, &result), CAIRN_OK);
+    assert_int_equal(cairn_pose_compose(&result, &step, &result), CAIRN_OK);
+    assert_int_equal(cairn_pose_compose(&result, &half, &result), CAIRN_OK);
+  }
+  return result;
+}
+
+void tally_add(tally* t, double value) {
+  t->count += 1, t->sum += value, t->square += value * value;
+}
+double tally_mean(const tally* t) {
+  return t->sum / t->count;
+}
+double tally_sigma(const tally* t) {
+  return sqrt(t->square / t->count);
+}

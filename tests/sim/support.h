@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the tests of the simulated worlds share. */
+#ifndef CAIRN_TESTS_SIM_SUPPORT_H
+#define CAIRN_TESTS_SIM_SUPPORT_H
+
+/* What cmocka.h needs comes before it. */
+/* clang-format off */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+/* clang-format on */
+
+#include <cairn/cairn.h>
+#include <cairn/sim.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+#define DEGREE (PI / 180.0)
+#define LENGTH(array) (sizeof(array) / sizeof((array)[0]))
+
+/* Checks that say what they compared. */
+#define assert_near(actual, expected, tolerance) \
+  check_near((actual), (expected), (tolerance), #actual " against " #expected, __FILE__, __LINE__)
+#define assert_between(actual, lower, upper) check_between((actual), (lower), (upper), #actual, __FILE__, __LINE__)
+#define assert_ok(call) check_status((call), CAIRN_OK, "", #call, __FILE__, __LINE__)
+/* A refused call, whose message names `word`. */
+#define assert_refused(call, status, word) check_status((call), (status), (word), #call, __FILE__, __LINE__)
+void check_near(double actual, double expected, double tolerance, const char* what, const char* file, int line);
+void check_between(double actual, double lower, double upper, const char* what, const char* file, int line);
+void check_status(cairn_status actual, cairn_status expected, const char* word, const char* call, const char* file,
+                  int line);
+
+cairn_world_options default_options(void);
+cairn_world_options preset_options(int32_t preset);
+cairn_world* open_world(const cairn_world_options* options);
+size_t steps_of(const cairn_world* world);
+/* The next step, which has to be there. */
+cairn_world_step next_step(cairn_world* world);
+
+/* Point of the map seen from the body, and the body's z axis in the map. */
+void to_body(const cairn_pose* T_map_body, const double point[3], double out[3]);
+/* Moves a pose by a constant twist for a while. */
+cairn_pose moved(const cairn_pose* pose, const double velocity[3], const double rate[3], double dt);
+
+/* Mean and spread of many numbers. */
+typedef struct tally {
+  double count, sum, square;
+} tally;
+void tally_add(tally* t, double value);
+double tally_mean(const tally* t);
+double tally_sigma(const tally* t); /* root mean square */
+
+#endif

@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A world and its queries: the ground, the wheels on it, the drive step by step, and the rules of every call. */
+#include "support.h"
+
+static void refuses_null_and_nonsense(void** state) {
+  const cairn_world_options o = default_options();
+  cairn_world* w = open_world(&o);
+  cairn_world_step step;
+  cairn_stereo_head head;
+  cairn_wheels wheels;
+  cairn_pose pose;
+  double v[12];
+  size_t n;
+  (void)state;
+  step.struct_size = sizeof step, head.struct_size = sizeof head, wheels.struct_size = sizeof wheels;
+  assert_refused(cairn_world_next(NULL, &step), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_next(w, NULL), CAIRN_ERROR_ARGUMENT, "step");
+  assert_refused(cairn_world_rewind(NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_steps(NULL, &n), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_steps(w, NULL), CAIRN_ERROR_ARGUMENT, "steps");
+  assert_refused(cairn_world_most_observations(w, NULL), CAIRN_ERROR_ARGUMENT, "count");
+  assert_refused(cairn_world_most_observations(NULL, &n), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_head(NULL, &head), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_head(w, NULL), CAIRN_ERROR_ARGUMENT, "head");
+  assert_refused(cairn_world_wheels(NULL, &wheels), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_wheels(w, NULL), CAIRN_ERROR_ARGUMENT, "wheels");
+  assert_refused(cairn_world_pose(NULL, 0, &pose), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_pose(w, 0, NULL), CAIRN_ERROR_ARGUMENT, "pose");
+  assert_refused(cairn_world_pose(w, -0.1, &pose), CAIRN_ERROR_ARGUMENT, "time");
+  assert_refused(cairn_world_pose(w, 400.1, &pose), CAIRN_ERROR_ARGUMENT, "time");
+  assert_refused(cairn_world_pose(w, NAN, &pose), CAIRN_ERROR_ARGUMENT, "time");
+  assert_refused(cairn_world_contacts(NULL, 0, v), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_contacts(w, 0, NULL), CAIRN_ERROR_ARGUMENT, "points");
+  assert_refused(cairn_world_contacts(w, 401, v), CAIRN_ERROR_ARGUMENT, "time");
+  assert_refused(cairn_world_height(NULL, 0, 0, v), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_height(w, NAN, 0, v), CAIRN_ERROR_ARGUMENT, "x");
+  assert_refused(cairn_world_height(w, 0, INFINITY, v), CAIRN_ERROR_ARGUMENT, "y");
+  assert_refused(cairn_world_height(w, 0, 0, NULL), CAIRN_ERROR_ARGUMENT, "height");
+  assert_refused(cairn_world_extent(NULL, v, v), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_extent(w, NULL, v), CAIRN_ERROR_ARGUMENT, "lower");
+  assert_refused(cairn_world_extent(w, v, NULL), CAIRN_ERROR_ARGUMENT, "upper");
+  assert_refused(cairn_world_landmark(NULL, 0, v), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_landmark(w, 0, NULL), CAIRN_ERROR_ARGUMENT, "position");
+  assert_refused(cairn_world_landmark(w, 200, v), CAIRN_ERROR_NOT_FOUND, "id 200");
+  assert_refused(cairn_world_landmark(w, CAIRN_ID_NONE, v), CAIRN_ERROR_NOT_FOUND, "id");
+  assert_refused(cairn_world_landmarks(NULL, v, 4, &n), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_landmarks(w, v, 4, NULL), CAIRN_ERROR_ARGUMENT, "needed");
+  n = 0;
+  assert_refused(cairn_world_landmarks(w, v, 4, &n), CAIRN_ERROR_BUFFER, "200");
+  assert_int_equal(n, 200);
+  cairn_world_destroy(w);
+  cairn_world_destroy(NULL);
+}
+
+/* One that fails takes no step; a short struct gets its part alone. */
+static void sizes_of_step(void** state) {
+  const cairn_world_options o = default_options();
+  cairn_world* w = open_world(&o);
+  unsigned char bytes[sizeof(cairn_world_step)];
+  cairn_world_step step;
+  const size_t old = offsetof(cairn_world_step, truth);
+  const uint32_t size = (uint32_t)old, wrong = 4;
+  uint64_t number;
+  size_t i;
+  (void)state;
+  memset(bytes, 0x5a, sizeof bytes);
+  memcpy(&step, bytes, sizeof step);
+  step.struct_size = wrong;
+  assert_refused(cairn_world_next(w, &step), CAIRN_ERROR_ARGUMENT, "step");
+  step.struct_size = size;
+  assert_ok(cairn_world_next(w, &step));
+  assert_int_equal(step.number, 0);
+  memcpy(bytes, &step, sizeof step);
+  for (i = old; i < sizeof bytes; ++i) assert_int_equal(bytes[i], 0x5a);
+  number = next_step(w).number;
+  assert_int_equal(number, 1);
+  cairn_world_destroy(w);
+}
+
+static void the_end_and_back(void** state) {
+  const cairn_world_options o = default_options();
+  cairn_world* w = open_world(&o);
+  const size_t steps = steps_of(w);
+  cairn_world_step step;
+  cairn_observation first[3];
+  double velocity[3];
+  size_t k;
+  (void)state;
+  assert_int_equal(steps, 201);
+  step = next_step(w);
+  assert_int_equal(step.motion_count, 0);
+  assert_int_equal(step.observation_count, 0);
+  step = next_step(w);
+  assert_true(step.observation_count >= 3);
+  memcpy(first, step.observations, sizeof first);
+  memcpy(velocity, step.motions[9].velocity, sizeof velocity);
+  for (k = 2; k < steps; ++k) {
+    step = next_step(w);
+    assert_int_equal(step.number, k);
+    assert_near(step.time, 2.0 * (double)k, 1e-12);
+    assert_int_equal(step.motion_count, 10);
+  }
+  assert_refused(cairn_world_next(w, &step), CAIRN_ERROR_STATE, "201 steps");
+  assert_refused(cairn_world_next(w, &step), CAIRN_ERROR_STATE, "201 steps");
+  assert_ok(cairn_world_rewind(w));
+  next_step(w);
+  step = next_step(w);
+  assert_memory_equal(step.observations, first, sizeof first);
+  assert_memory_equal(step.motions[9].velocity, velocity, sizeof velocity);
+  cairn_world_destroy(w);
+}
+
+/* Two worlds of one seed give the same bytes, others don't. */
+static void deterministic(void** state) {
+  static const int32_t courses[] = {CAIRN_COURSE_CIRCLE, CAIRN_COURSE_LAPS, CAIRN_COURSE_TRAVERSE};
+  size_t c, k, i;
+  (void)state;
+  for (c = 0; c < LENGTH(courses); ++c) {
+    cairn_world_options o = default_options();
+    cairn_world *a, *b, *other;
+    bool differs = false;
+    o.course = courses[c], o.seed = 5;
+    a = open_world(&o), b = open_world(&o);
+    o.seed = 6;
+    other = open_world(&o);
+    for (k = 0; k < steps_of(a); ++k) {
+      const cairn_world_step x = next_step(a), y = next_step(b);
+      assert_memory_equal(&x.truth, &y.truth, sizeof x.truth);
+      assert_int_equal(x.motion_count, y.motion_count);
+      for (i = 0; i < x.motion_count; ++i) assert_memory_equal(&x.motions[i], &y.motions[i], sizeof x.motions[i]);
+      assert_int_equal(x.observation_count, y.observation_count);
+      for (i = 0; i < x.observation_count; ++i)
+        assert_memory_equal(&x.observations[i], &y.observations[i], sizeof x.observations[i]);
+      if (k < 50) {
+        const cairn_world_step z = next_step(other);
+        if (z.motion_count > 0 && z.motions[0].rate[0] != x.motions[0].rate[0]) differs = true;
+      }
+    }
+    assert_true(differs);
+    cairn_world_destroy(a), cairn_world_destroy(b), cairn_world_destroy(other);
+  }
+}
+
+/* The draws themselves are pinned, so that another compiler or machine can't change the worlds unnoticed. Values by a
+ * program of its own (Python: SplitMix64 and the polar method written out). */
+static void draws_are_pinned(void** state) {
+  cairn_world_options o = default_options();
+  cairn_world* w;
+  cairn_world_step step;
+  double position[3];
+  (void)state;
+  o.terrain = CAIRN_TERRAIN_FLAT;
+  o.landmark_height = 1;
+  o.motion_period = o.imu_period;
+  o.rate_sigma = 1;
+  w = open_world(&o);
+  assert_ok(cairn_world_landmark(w, 0, position));
+  assert_near(position[2], 0.7072563490833963, 0);
+  assert_near(hypot(position[0], position[1]), 98.20688325407642, 1e-12);
+  next_step(w);
+  step = next_step(w);
+  assert_near(step.motions[0].rate[0], 1.6390710571589302, 1e-13); /* the ground is flat: nothing but noise */
+  assert_near(step.motions[0].rate[1], -0.2439869727027117, 1e-13);
+  cairn_world_destroy(w);
+}
+
+static double slope_of(const cairn_world* w, double x, double y) {
+  const double h = 1e-4;
+  double a, b, c, d;
+  assert_ok(cairn_world_height(w, x - h, y, &a));
+  assert_ok(cairn_world_height(w, x + h, y, &b));
+  assert_ok(cairn_world_height(w, x, y - h, &c));
+  assert_ok(cairn_world_height(w, x, y + h, &d));
+  return hypot(b - a, d - c) / (2 * h);
+}
+
+static void rolling_ground(void** state) {
+  uint64_t seed;
+  (void)state;
+  for (seed = 1; seed <= 5; ++seed) {
+    cairn_world_options o = default_options();
+    cairn_world* w;
+    double height, steepest = 0;
+    int i;
+    o.seed = seed;
+    w = open_world(&o);
+    assert_ok(cairn_world_height(w, 100, 20, &height));
+    assert_near(height, -0.3174, 1e-12);
+    for (i = 0; i < 20000; ++i) {
+      const double slope = slope_of(w, -300 + 6.1 * (i % 100), -300 + 3.07 * (i / 100));
+      if (slope > steepest) steepest = slope;
+    }
+    assert_between(atan(steepest), 4 * DEGREE, 15 * DEGREE); /* rolling, and never steeper than told */
+    cairn_world_destroy(w);
+  }
+}
+
+static void other_grounds(void** state) {
+  cairn_world_options o = default_options();
+  cairn_world* w;
+  double height;
+  (void)state;
+  o.terrain = CAIRN_TERRAIN_WAVES;
+  w = open_world(&o);
+  assert_ok(cairn_world_height(w, 31, -17, &height));
+  assert_near(height, sin(31.0 / 15) + 0.8 * cos(-17.0 / 12), 1e-15);
+  cairn_world_destroy(w);
+  o.terrain = CAIRN_TERRAIN_FLAT;
+  w = open_world(&o);
+  assert_ok(cairn_world_height(w, 31, -17, &height));
+  assert_near(height, 0, 0);
+  cairn_world_destroy(w);
+}
+
+/* All four wheels touch; in the body they stand at the corners, and give way as rockers with a differential do. */
+static void wheels_touch_the_ground(void** state) {
+  cairn_world_options o = default_options();
+  cairn_world* w;
+  double deepest = 0;
+  int k, i;
+  (void)state;
+  o.wavelength[0] = 6; /* rough enough that it matters */
+  o.track = 1.4, o.wheelbase = 2;
+  w = open_world(&o);
+  for (k = 0; k <= 400; ++k) {
+    double points[12], give[4];
+    cairn_pose pose;
+    assert_ok(cairn_world_contacts(w, k, points));
+    assert_ok(cairn_world_pose(w, k, &pose));
+    for (i = 0; i < 4; ++i) {
+      double height, body[3];
+      assert_ok(cairn_world_height(w, points[3 * i], points[3 * i + 1], &height));
+      assert_near(points[3 * i + 2], height, 1e-9);
+      to_body(&pose, points + 3 * i, body);
+      assert_near(body[0], i < 2 ? 1 : -1, 1e-9);
+      assert_near(body[1], i % 2 == 0 ? 0.7 : -0.7, 1e-9);
+      give[i] = body[2];
+    }
+    assert_near(give[0], -give[1], 1e-9);
+    assert_near(give[0], -give[2], 1e-9);
+    assert_near(give[0], give[3], 1e-9);
+    if (fabs(give[0]) > deepest) deepest = fabs(give[0]);
+  }
+  assert_between(deepest, 1e-3, 0.5);
+  cairn_world_destroy(w);
+}
+
+/* The smaller the rover, the nearer it comes to the one that stands on a point: z the ground's normal. */
+static void small_rover_stands_on_a_point(void** state) {
+  cairn_world_options o = default_options();
+  cairn_world *wheels, *point;
+  double points[12];
+  int k, i;
+  (void)state;
+  o.track = o.wheelbase = 1e-3;
+  wheels = open_world(&o);
+  o.contact = CAIRN_CONTACT_POINT;
+  point = open_world(&o);
+  for (k = 0; k < 400; k += 13) {
+    cairn_pose a, b;
+    double error[6];
+    assert_ok(cairn_world_pose(wheels, k, &a));
+    assert_ok(cairn_world_pose(point, k, &b));
+    assert_int_equal(cairn_pose_error(&a, &b, error), CAIRN_OK);
+    for (i = 0; i < 6; ++i) assert_near(error[i], 0, 1e-6);
+  }
+  assert_refused(cairn_world_contacts(point, 0, points), CAIRN_ERROR_STATE, "CAIRN_CONTACT_POINT");
+  cairn_world_destroy(wheels), cairn_world_destroy(point);
+}
+
+/* Ground as steep as the options allow, of waves hardly longer than the rover. */
+static void rough_ground(void** state) {
+  cairn_world_options o = default_options();
+  cairn_world* w;
+  double deepest = 0;
+  int k, i;
+  (void)state;
+  o.wavelength[0] = 1, o.wavelength[1] = 2;
+  o.max_slope = 45 * DEGREE;
+  w = open_world(&o);
+  for (k = 0; k <= 400; ++k) {
+    double points[12];
+    assert_ok(cairn_world_contacts(w, k, points));
+    for (i = 0; i < 4; ++i) {
+      double height;
+      assert_ok(cairn_world_height(w, points[3 * i], points[3 * i + 1], &height));
+      assert_near(points[3 * i + 2], height, 1e-9);
+      if (fabs(height - points[2]) > deepest) deepest = fabs(height - points[2]);
+    }
+  }
+  assert_true(deepest > 0.1);
+  cairn_world_destroy(w);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(refuses_null_and_nonsense),
+      cmocka_unit_test(sizes_of_step),
+      cmocka_unit_test(the_end_and_back),
+      cmocka_unit_test(deterministic),
+      cmocka_unit_test(draws_are_pinned),
+      cmocka_unit_test(rolling_ground),
+      cmocka_unit_test(other_grounds),
+      cmocka_unit_test(wheels_touch_the_ground),
+      cmocka_unit_test(small_rover_stands_on_a_point),
+      cmocka_unit_test(rough_ground),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
