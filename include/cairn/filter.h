@@ -22,11 +22,20 @@ enum {
   CAIRN_ERROR_STANDARD = 1   /**< position, attitude and landmarks apart: standard EKF-SLAM, to compare with */
 };
 
+/** How a closed submap enters the map (docs/submaps.md). */
+enum {
+  CAIRN_JOIN_AUTO = 0,  /**< dense where max_landmarks is at most 100, sparse above; the default */
+  CAIRN_JOIN_DENSE = 1, /**< a constrained filter over the whole map's covariance: O(n^2) a closing, n states of the map */
+  CAIRN_JOIN_SPARSE = 2 /**< all submaps solved for together on a sparse factor, relinearised: near-linear in all */
+};
+
 /** Options of \ref cairn_filter_create. Set them by \ref cairn_filter_options_init first. */
 typedef struct cairn_filter_options {
   uint32_t struct_size;          /**< sizeof(cairn_filter_options) of the caller */
   int32_t error;                 /**< CAIRN_ERROR_INVARIANT or CAIRN_ERROR_STANDARD */
-  uint32_t max_landmarks;        /**< capacity, 1 to 30000; default 1000. Memory grows with its square */
+  uint32_t max_landmarks;        /**< capacity; default 1000. 1 to 30000 where the map is a single one or joined densely:
+                                      memory grows with its square, and is taken at creation. Up to 10000000 where it
+                                      is joined sparsely: a bound alone, memory is taken as the map grows */
   uint32_t max_observations;     /**< observations of one frame, 1 to 4096; default 64 */
   uint32_t max_sensors;          /**< sensors that can be added, 1 to 256; default 8 */
   uint32_t iterations;           /**< linearisations of an update, 1 (plain EKF) to 50; default 3 */
@@ -36,12 +45,20 @@ typedef struct cairn_filter_options {
   double batch_gate_probability; /**< chi-square gate of a whole batch, in (0, 1]; 1 lets all pass; default 0.9999 */
   cairn_pose initial_pose;       /**< body in the map frame at the start; default identity */
   double initial_covariance[36]; /**< of its error [dp; dtheta], symmetric, positive semidefinite; default 0: it is known */
+  uint32_t submap_landmarks;     /**< work in local submaps, each closed once it holds this many landmarks, up to 4096;
+                                      0, the default: one single map */
+  int32_t join;                  /**< CAIRN_JOIN_AUTO, CAIRN_JOIN_DENSE or CAIRN_JOIN_SPARSE; default CAIRN_JOIN_AUTO */
+  double submap_distance;        /**< ... or once the vehicle has driven this far in it, m; 0, the default: no matter */
+  double submap_extent;          /**< ... or once a landmark stands this far from its origin, m; 0, the default: no matter */
+  double submap_sigma;           /**< ... or once the largest standard deviation of the vehicle's position in it exceeds
+                                      this, m; 0, the default: no matter */
 } cairn_filter_options;
 
 /** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_options_init(cairn_filter_options *options, size_t struct_size);
 
-/** Bytes that \ref cairn_filter_create will take with these options: all that the filter ever takes.
+/** Bytes that \ref cairn_filter_create will take with these options: all that the filter ever takes, but for closings of
+ *  submaps: those take workspace while they last, and with the sparse joining what the map grows by.
  *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_required_bytes(const cairn_filter_options *options, size_t *bytes);
 
@@ -124,7 +141,7 @@ CAIRN_API cairn_status cairn_filter_update(cairn_filter *filter, int32_t sensor,
 
 /** Updates by what the caller linearised itself: `residual = z - h` (rows values), the noise's `covariance`
  *  (rows x rows), `jacobian_pose` = dh/[dp; dtheta] (rows x 6, NULL for zero) and `jacobian_landmarks` = dh/d positions
- *  (rows x 3 count, the columns in the order of `landmarks`); all row-major. Gated as one observation of that many rows (gate_probability); not iterated.
+ *  (rows x 3 count, the columns in the order of `landmarks`); all row-major; with submaps, pose and landmarks are those of the open submap, in its frame. Gated as one observation of that many rows (gate_probability); not iterated.
  *  `match` (or NULL) gets the decision; its landmark is the first one, or CAIRN_ID_NONE. rows is 1 to 3 max_observations,
  *  count at most max_observations.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_CAPACITY,
@@ -154,9 +171,79 @@ CAIRN_API cairn_status cairn_filter_update_attitude(cairn_filter *filter, const 
 CAIRN_API cairn_status cairn_filter_update_heading(cairn_filter *filter, double heading, double sigma,
                                                    cairn_match *match);
 
-/** Forgets a landmark; what it taught about the others stays. Threads: one a handle.
- *  Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND. Complexity: O(n). \since 0.1.0 */
+/** Forgets a landmark, in the map and in the open submap; what it taught about the others stays.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND. Complexity: O(n). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_remove_landmark(cairn_filter *filter, uint64_t id);
+
+/* Submaps (docs/submaps.md). With submap_landmarks > 0 the filter works in a submap that starts where the vehicle stood,
+ * with zero covariance, so that a step's cost does not know how large the map is. A submap that is full is closed: its
+ * landmarks join the map, and the next one starts at the vehicle's pose. cairn_filter_update closes after the frame that
+ * filled it; if that fails (memory, capacity), the update stands all the same, the submap stays open, the report of the
+ * closing says why, and later frames try again. A known pose in the map (position, attitude, heading) closes the open
+ * submap first, whatever it holds. */
+
+/** What made a submap close. */
+enum {
+  CAIRN_CLOSED_BY_NONE = 0,      /**< none was closed yet */
+  CAIRN_CLOSED_BY_CALLER = 1,    /**< \ref cairn_filter_close_submap */
+  CAIRN_CLOSED_BY_LANDMARKS = 2, /**< submap_landmarks */
+  CAIRN_CLOSED_BY_DISTANCE = 3,  /**< submap_distance */
+  CAIRN_CLOSED_BY_EXTENT = 4,    /**< submap_extent */
+  CAIRN_CLOSED_BY_SIGMA = 5,     /**< submap_sigma */
+  CAIRN_CLOSED_BY_FIX = 6        /**< an absolute position, attitude or heading came */
+};
+
+/** What the last attempt to close a submap did. */
+typedef struct cairn_closing_report {
+  uint32_t struct_size;       /**< sizeof(cairn_closing_report) of the caller; set it before the call */
+  int32_t status;             /**< CAIRN_OK, or why the submap was left open */
+  uint32_t submaps;           /**< closed so far */
+  int32_t reason;             /**< CAIRN_CLOSED_BY_... */
+  uint32_t landmarks;         /**< of the submap */
+  uint32_t landmarks_new;     /**< of them, new to the map */
+  uint32_t landmarks_fused;   /**< known to the map, and fused with it */
+  uint32_t landmarks_refused; /**< known to the map, whose estimate there contradicts the submap's: left out */
+  uint32_t relinearised;      /**< submaps linearised anew (sparse) */
+  uint32_t refactored;        /**< blocks of the factor computed anew (sparse) */
+  uint32_t iterations;        /**< linear solutions */
+  uint32_t rows;              /**< degrees of freedom of `distance` */
+  double distance;            /**< squared Mahalanobis distance of the fused landmarks' estimates, jointly */
+  double threshold;           /**< its chi-square bound at batch_gate_probability */
+  double seconds;             /**< what the closing took */
+  double moved_max;           /**< how far the map's older landmarks moved: the largest way, m */
+  double moved_rms;           /**< ... and root mean square, m */
+} cairn_closing_report;
+
+/** Closes the open submap now. Allocates. A call that fails leaves the filter as it was, the submap open.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (a single map, or the submap holds no landmark),
+ *  CAIRN_ERROR_CAPACITY (max_landmarks), CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_MEMORY. Complexity: dense O(n^2) for n states
+ *  of the map; sparse: what the closing affects of the factor. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_close_submap(cairn_filter *filter);
+
+/** Reports on the last attempt to close a submap; zeros before the first. Set `report->struct_size` first.
+ *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_last_closing(const cairn_filter *filter, cairn_closing_report *report);
+
+/** Pose of the body in the open submap, and the covariance of its error [dp; dtheta] (6x6 row-major); each may be NULL.
+ *  With a single map: in the map. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT.
+ *  Complexity: O(1). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_local_pose(const cairn_filter *filter, cairn_pose *pose, double covariance[36]);
+
+/** Pose of the open submap's origin in the map, and the covariance of its error [dp; dtheta] (6x6 row-major); each may be
+ *  NULL. With a single map: identity and zero. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT.
+ *  Complexity: O(1). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_base_pose(const cairn_filter *filter, cairn_pose *pose, double covariance[36]);
+
+/** Number of closed submaps. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1).
+ *  \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_submap_count(const cairn_filter *filter, size_t *count);
+
+/** A closed submap, counted from 0: the pose of its origin in the map, as known now (dense: as known at its closing), and
+ *  the ids of its landmarks in the order of their placing. `base` may be NULL. NULL with capacity 0 asks for their number.
+ *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_BUFFER.
+ *  Complexity: O(landmarks of the submap). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_submap(const cairn_filter *filter, size_t index, cairn_pose *base, uint64_t *ids,
+                                           size_t capacity, size_t *needed);
 
 /** What the last update did. */
 typedef struct cairn_update_report {
@@ -186,7 +273,13 @@ CAIRN_API cairn_status cairn_filter_pose(const cairn_filter *filter, cairn_pose 
 CAIRN_API cairn_status cairn_filter_joint_covariance(const cairn_filter *filter, const uint64_t *ids, size_t count,
                                                      double *matrix, size_t capacity, size_t *needed);
 
-/** The filter's map. It lives as long as the filter and follows it. Never fails but for NULL, which gives NULL.
+/** The landmarks of the open submap, in its frame; with a single map the same as \ref cairn_filter_map.
+ *  It lives as long as the filter and follows it. Never fails but for NULL, which gives NULL.
+ *  Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
+CAIRN_API const cairn_map *cairn_filter_local_map(const cairn_filter *filter);
+
+/** The filter's map; with submaps, that of the closed ones: what the open one holds joins it when it is closed.
+ *  It lives as long as the filter and follows it. Never fails but for NULL, which gives NULL.
  *  Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
 CAIRN_API const cairn_map *cairn_filter_map(const cairn_filter *filter);
 
@@ -195,7 +288,7 @@ CAIRN_API const cairn_map *cairn_filter_map(const cairn_filter *filter);
  *  CAIRN_ERROR_NUMERICAL (the pose's covariance is singular, as at a known start). Complexity: O(1). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_pose_nees(const cairn_filter *filter, const cairn_pose *truth, double *nees);
 
-/** Audits the whole covariance: `min_pivot` gets the smallest pivot of its Cholesky factor after scaling to unit
+/** Audits the whole covariance (with submaps, the open one's): `min_pivot` gets the smallest pivot of its Cholesky factor after scaling to unit
  *  diagonal, 0 or less where it is not positive definite. States that are exactly known (zero variance) are left out.
  *  Threads: one a handle (it uses the filter's workspace). Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(n^3). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_audit(cairn_filter *filter, double *min_pivot);

@@ -87,6 +87,17 @@ Options read_options(const Options* options, const Options& defaults, const char
   return merged;
 }
 
+// A report: the smaller of both sizes; what a newer caller has beyond ours stays.
+template <class Report>
+void write_report(Report& from, Report* to) {
+  check_pointer(to, "report");
+  std::uint32_t size = 0;
+  std::memcpy(&size, to, sizeof size);
+  check_struct_size(size, "report");
+  from.struct_size = size;
+  std::memcpy(static_cast<void*>(to), &from, std::min<std::size_t>(size, sizeof from));
+}
+
 // --- arrays --- the rule of short buffers; true where there is room to fill in.
 bool check_room(const void* buffer, std::size_t capacity, std::size_t count, std::size_t* needed, const char* name);
 

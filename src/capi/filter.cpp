@@ -24,6 +24,8 @@ cairn_filter_options default_options() {
   options.gate_probability = d.gate_probability;
   options.batch_gate_probability = d.batch_gate_probability;
   write_pose(d.initial_pose, &options.initial_pose);
+  options.submap_landmarks = 0;
+  options.join = CAIRN_JOIN_AUTO;
   return options;
 }
 
@@ -34,7 +36,15 @@ FilterOptions read_filter_options(const cairn_filter_options* user) {
   if (o.error != CAIRN_ERROR_INVARIANT && o.error != CAIRN_ERROR_STANDARD)
     throw Error(ErrorCode::argument, "options.error is %d, neither CAIRN_ERROR_INVARIANT nor CAIRN_ERROR_STANDARD",
                 o.error);
-  check_range(o.max_landmarks, 1, 30000, "options.max_landmarks");
+  if (o.join != CAIRN_JOIN_AUTO && o.join != CAIRN_JOIN_DENSE && o.join != CAIRN_JOIN_SPARSE)
+    throw Error(ErrorCode::argument, "options.join is %d, none of CAIRN_JOIN_AUTO, CAIRN_JOIN_DENSE, CAIRN_JOIN_SPARSE",
+                o.join);
+  const bool sparse = o.submap_landmarks > 0 && o.join != CAIRN_JOIN_DENSE;
+  check_range(o.max_landmarks, 1, sparse ? 10000000 : 30000, "options.max_landmarks");
+  check_range(o.submap_landmarks, 0, 4096, "options.submap_landmarks");
+  check_not_negative(o.submap_distance, "options.submap_distance");
+  check_not_negative(o.submap_extent, "options.submap_extent");
+  check_not_negative(o.submap_sigma, "options.submap_sigma");
   check_range(o.max_observations, 1, 4096, "options.max_observations");
   check_range(o.max_sensors, 1, 256, "options.max_sensors");
   check_range(o.iterations, 1, 50, "options.iterations");
@@ -53,6 +63,13 @@ FilterOptions read_filter_options(const cairn_filter_options* user) {
   options.batch_gate_probability = o.batch_gate_probability;
   options.initial_pose = read_pose(&o.initial_pose, "options.initial_pose");
   options.initial_covariance = Eigen::Map<const Matrix6>(o.initial_covariance);
+  options.submap_landmarks = o.submap_landmarks;
+  options.join = o.join == CAIRN_JOIN_DENSE    ? JoinKind::dense
+                 : o.join == CAIRN_JOIN_SPARSE ? JoinKind::sparse
+                                               : JoinKind::automatic;
+  options.submap_distance = o.submap_distance;
+  options.submap_extent = o.submap_extent;
+  options.submap_sigma = o.submap_sigma;
   return options;
 }
 
@@ -86,7 +103,7 @@ cairn_status cairn_filter_create(const cairn_filter_options* options, cairn_filt
   return guard([&] {
     const FilterOptions checked = read_filter_options(options);
     check_pointer(filter, "filter");
-    *filter = new cairn_filter(Filter::required_bytes(checked), checked);
+    *filter = new cairn_filter(Filter::arena_bytes(checked), checked);
   });
 }
 
@@ -196,7 +213,7 @@ cairn_status cairn_filter_joint_covariance(const cairn_filter* filter, const uin
                                            double* matrix, size_t capacity, size_t* needed) {
   return guard([&] {
     const Filter& f = read_filter(filter);
-    const std::vector<std::size_t> indices = read_ids(f, ids, count);
+    const std::vector<std::size_t> indices = read_ids(f.landmarks(), ids, count);
     const std::size_t size = 6 + 3 * count;
     if (check_room(matrix, capacity, size * size, needed, "matrix"))
       f.pose_joint_covariance(indices.data(), count, matrix);

@@ -150,13 +150,8 @@ cairn_status cairn_filter_update_heading(cairn_filter* filter, double heading, d
 cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_report* report) {
   return guard([&] {
     const Filter& f = read_filter(filter);
-    check_pointer(report, "report");
-    std::uint32_t size = 0;
-    std::memcpy(&size, report, sizeof size);
-    check_struct_size(size, "report");
     const UpdateReport& r = f.report();
     cairn_update_report out = {};
-    out.struct_size = size;
     out.matched = static_cast<std::uint32_t>(r.matched);
     out.placed = static_cast<std::uint32_t>(r.placed);
     out.rejected = static_cast<std::uint32_t>(r.rejected);
@@ -167,7 +162,7 @@ cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_r
       out.nis_lower = chi_square_quantile(static_cast<double>(r.rows), 0.025);
       out.nis_upper = chi_square_quantile(static_cast<double>(r.rows), 0.975);
     }
-    std::memcpy(static_cast<void*>(report), &out, std::min<std::size_t>(size, sizeof out));
+    write_report(out, report);
   });
 }
 

@@ -14,10 +14,11 @@ struct cairn_map {
 
 struct cairn_filter {
   cairn_filter(std::size_t arena_bytes, const cairn::FilterOptions& options)
-      : arena(arena_bytes), filter(arena, options), map{&filter} {}
+      : arena(arena_bytes), filter(arena, options), map{&filter.landmarks()}, local_map{&filter} {}
   cairn::Arena arena;
   cairn::Filter filter;
   cairn_map map;
+  cairn_map local_map;
 };
 
 namespace cairn {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ekf/ekf.hpp"
 
+#include "ekf/ekf_compose.hpp"
 #include "ekf/ekf_state.hpp"
 #include "ekf/ekf_update.hpp"
 

@@ -13,6 +13,8 @@
 // noise of the pose, which reaches landmark i through U_i = [0, -G(x_i)] (invariant error).
 #pragma once
 
+#include <vector>
+
 #include "core/arena.hpp"
 #include "ekf/batch.hpp"
 #include "geometry/se2.hpp"
@@ -67,6 +69,9 @@ class Ekf {
   PointSquare landmark_covariance(Index slot) const;
   // Normalised error squared of the pose in the filter's own coordinates; negative where its covariance is singular.
   double pose_nees(const Pose& truth) const;
+  // The same of any estimate with an ordinary covariance; `origin` is where the invariant error counts positions from.
+  static double nees(ErrorKind error, const Point& origin, const Pose& truth, const Pose& estimate,
+                     const Square& ordinary_covariance);
   // Smallest pivot of the Cholesky factor of P scaled to unit diagonal; uses the upper triangle as scratch.
   double smallest_pivot();
 
@@ -120,6 +125,30 @@ class Ekf {
   // Takes a landmark out; the last one moves into its slot.
   void remove(Index slot);
 
+  // A submap that began at the pose and whose landmarks known here were fused (an update) hands over the rest.
+  struct Handover {
+    Pose T_base_end;
+    const Index* fused;  // their slots
+    Index fused_count;
+    const Point* fresh;  // landmarks not known here, in the submap's frame
+    Index fresh_count;
+    // Own error of [end pose; fresh landmarks] in the submap: K y + w, w of covariance W, y the ordinary error of the
+    // fused ones.
+    Eigen::MatrixXd K, W;
+  };
+  // The end becomes the pose, the fresh landmarks are appended. The caller minds the capacity. Allocates.
+  void compose(const Handover& handover);
+
+  // What an update and a composition change, kept aside. Allocates.
+  struct Backup {
+    Pose pose;
+    std::vector<double> landmarks, triangle;
+    bool pending;
+    Square F, N;
+  };
+  Backup backup() const;
+  void restore(const Backup& backup);  // no landmark may have been removed in between
+
  private:
   Point local(Index slot) const { return Eigen::Map<const Point>(landmarks_ + kDim * slot); }
   Point local_iterate(Index a) const { return Eigen::Map<const Point>(iterate_landmarks_ + kDim * a); }
@@ -146,6 +175,7 @@ class Ekf {
   };
 
   Square pose_block() const;  // with the motion held back
+  static double normalised(Square covariance, Tangent error);
   void to_ordinary(const Index* slots, Index count, double* matrix, Index ld) const;
   void retract(const Tangent& error, Pose& pose) const;
   void pending_pose_columns(double* out) const;  // of P_now, all rows

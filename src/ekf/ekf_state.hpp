@@ -180,12 +180,10 @@ typename Ekf<Pose>::PointSquare Ekf<Pose>::landmark_covariance(Index slot) const
   return joint.template bottomRightCorner<kDim, kDim>();
 }
 
+// error^T covariance^-1 error, negative where the covariance is singular.
 template <class Pose>
-double Ekf<Pose>::pose_nees(const Pose& truth) const {
-  const Pose local_truth(truth.rotation(), truth.translation() - origin_);
-  Tangent error = (local_truth * pose_.inverse()).log();
-  if (error_ == ErrorKind::standard) error.template head<kDim>() = local_truth.translation() - pose_.translation();
-  Square L = pose_block();
+double Ekf<Pose>::normalised(Square covariance, Tangent error) {
+  Square& L = covariance;
   // Scaled to unit diagonal first: metres and radians must not decide what counts as singular.
   for (Index i = 0; i < kDof; ++i)
     if (!(L(i, i) > 0.0)) return -1.0;
@@ -197,6 +195,29 @@ double Ekf<Pose>::pose_nees(const Pose& truth) const {
     if (L(i, i) < 1e-7) return -1.0;  // pivots of rounding alone
   solve_lower(L.data(), kDof, kDof, error.data());
   return error.squaredNorm();
+}
+
+template <class Pose>
+double Ekf<Pose>::pose_nees(const Pose& truth) const {
+  const Pose local_truth(truth.rotation(), truth.translation() - origin_);
+  Tangent error = (local_truth * pose_.inverse()).log();
+  if (error_ == ErrorKind::standard) error.template head<kDim>() = local_truth.translation() - pose_.translation();
+  return normalised(pose_block(), error);
+}
+
+template <class Pose>
+double Ekf<Pose>::nees(ErrorKind error_kind, const Point& origin, const Pose& truth, const Pose& estimate,
+                       const Square& ordinary_covariance) {
+  const Pose from_origin(truth.rotation(), truth.translation() - origin);
+  const Pose pose(estimate.rotation(), estimate.translation() - origin);
+  if (error_kind == ErrorKind::standard) {
+    Tangent error = (from_origin * pose.inverse()).log();
+    error.template head<kDim>() = from_origin.translation() - pose.translation();
+    return normalised(ordinary_covariance, error);
+  }
+  Square J = Square::Identity();  // xi_p = e_p - G(p) e_R
+  J.template topRightCorner<kDim, kTurn>() = -Rotation::turn(pose.translation());
+  return normalised(J * ordinary_covariance * J.transpose(), (from_origin * pose.inverse()).log());
 }
 
 template <class Pose>

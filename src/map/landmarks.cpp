@@ -34,6 +34,12 @@ std::vector<std::size_t> indices_of(const std::vector<Entry>& entries) {
 
 }  // namespace
 
+void without_pose(const double* joint, std::size_t count, double* matrix) {
+  const std::size_t joint_size = 6 + 3 * count, size = 3 * count;
+  for (std::size_t c = 0; c < size; ++c)
+    for (std::size_t r = 0; r < size; ++r) matrix[c * size + r] = joint[(6 + c) * joint_size + 6 + r];
+}
+
 std::vector<std::size_t> all_by_id(const Landmarks& map) {
   const double infinity = std::numeric_limits<double>::infinity();
   return in_box(map, Vector3::Constant(-infinity), Vector3::Constant(infinity));

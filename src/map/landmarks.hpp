@@ -25,6 +25,9 @@ class Landmarks {
   virtual void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const = 0;
 };
 
+// The joint covariance of `count` landmarks out of one with a pose before them, 6 + 3 count on a side.
+void without_pose(const double* joint, std::size_t count, double* matrix);
+
 // Indices of all landmarks by ascending id.
 std::vector<std::size_t> all_by_id(const Landmarks& map);
 // Indices of those within `radius` of `centre`, nearest first, ties by id.

@@ -13,11 +13,11 @@ namespace cairn {
 
 Filter::Filter(Arena& arena, const FilterOptions& options)
     : options_(options),
-      ekf_(arena, options.error, {options.max_landmarks, options.max_observations}),
-      slots_(arena, static_cast<std::size_t>(options.max_landmarks)),
+      ekf_(arena, options.error, {options.local_landmarks(), options.max_observations}),
+      slots_(arena, static_cast<std::size_t>(options.local_landmarks())),
       frame_ids_(arena, static_cast<std::size_t>(options.max_observations)),
-      ids_(arena.take<std::uint64_t>(options.max_landmarks)),
-      counts_(arena.take<std::uint64_t>(options.max_landmarks)),
+      ids_(arena.take<std::uint64_t>(options.local_landmarks())),
+      counts_(arena.take<std::uint64_t>(options.local_landmarks())),
       sensor_storage_(arena.take<unsigned char>(options.max_sensors * sizeof(AnySensorSlot))),
       observations_(arena.take<Observation>(options.max_observations)),
       matches_(arena.take<Match>(options.max_observations)),
@@ -30,14 +30,19 @@ Filter::Filter(Arena& arena, const FilterOptions& options)
   static_assert(alignof(AnySensorSlot) <= Arena::kAlignment, "the arena aligns to a cache line");
   if (arena.measuring()) return;
   for (int rows = 1; rows <= 6; ++rows) gate_thresholds_[rows] = chi_square_quantile(rows, options.gate_probability);
-  ekf_.start(options.initial_pose, options.initial_covariance);
+  if (options.single_map()) {
+    ekf_.start(options.initial_pose, options.initial_covariance);
+  } else {
+    ekf_.start(SE3(), Matrix6::Zero());
+    map_ = make_map(options);
+  }
 }
 
 Filter::~Filter() {
   for (int i = 0; i < sensor_count_; ++i) sensor_slot(i).~AnySensorSlot();
 }
 
-std::size_t Filter::required_bytes(const FilterOptions& options) {
+std::size_t Filter::arena_bytes(const FilterOptions& options) {
   Arena measure;
   const Filter unused(measure, options);
   return measure.used();
@@ -77,19 +82,28 @@ void Filter::propagate(const Increment<SE3>& increment) {
   if (!ekf_.propagate(increment))
     throw Error(ErrorCode::numerical,
                 "prediction: the pose or its covariance would not be finite; nothing was changed");
+  driven_ += increment.T_before_after.translation().norm();
 }
 
-void Filter::remove_landmark(std::uint64_t id) {
-  const std::int32_t slot = slots_.find(id);
-  if (slot == IdTable::kAbsent)
-    throw Error(ErrorCode::not_found, "id: the map has no landmark %llu", static_cast<unsigned long long>(id));
+void Filter::forget_local(std::int32_t slot) {
   const Index last = ekf_.size() - 1;
+  const std::uint64_t id = ids_[slot];
   ekf_.remove(slot);
   slots_.erase(id);
   if (slot == last) return;
   ids_[slot] = ids_[last];
   counts_[slot] = counts_[last];
   slots_.set(ids_[slot], slot);
+}
+
+void Filter::remove_landmark(std::uint64_t id) {
+  const std::int32_t slot = slots_.find(id);
+  std::size_t index = 0;
+  const bool mapped = map_ != nullptr && map_->find(id, index);
+  if (slot == IdTable::kAbsent && !mapped)
+    throw Error(ErrorCode::not_found, "id: the map has no landmark %llu", static_cast<unsigned long long>(id));
+  if (mapped) map_->remove(id);
+  if (slot != IdTable::kAbsent) forget_local(slot);
 }
 
 bool Filter::find(std::uint64_t id, std::size_t& index) const {
@@ -99,17 +113,11 @@ bool Filter::find(std::uint64_t id, std::size_t& index) const {
   return true;
 }
 
-void Filter::pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
-  const std::vector<Index> slots(indices, indices + count);
-  ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), matrix, static_cast<Index>(6 + 3 * count));
-}
-
 void Filter::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
-  const std::size_t joint_size = 6 + 3 * count, size = 3 * count;
-  std::vector<double> joint(joint_size * joint_size);
-  pose_joint_covariance(indices, count, joint.data());
-  for (std::size_t c = 0; c < size; ++c)
-    for (std::size_t r = 0; r < size; ++r) matrix[c * size + r] = joint[(6 + c) * joint_size + 6 + r];
+  const std::vector<Index> slots(indices, indices + count);
+  std::vector<double> joint((6 + 3 * count) * (6 + 3 * count));
+  ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), joint.data(), static_cast<Index>(6 + 3 * count));
+  without_pose(joint.data(), count, matrix);
 }
 
 void Filter::say(const char* format, ...) const {

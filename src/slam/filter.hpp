@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <variant>
 
 #include "core/arena.hpp"
+#include "core/error.hpp"
 #include "core/id_table.hpp"
 #include "ekf/ekf.hpp"
-#include "map/landmarks.hpp"
+#include "ekf/iterate.hpp"
+#include "map/global_map.hpp"
 #include "motion/motion.hpp"
 #include "sensor/cartesian.hpp"
 #include "sensor/custom.hpp"
@@ -18,6 +21,8 @@
 namespace cairn {
 
 constexpr std::uint64_t kNoId = UINT64_MAX;
+
+enum class JoinKind { automatic, dense, sparse };
 
 struct FilterOptions {
   ErrorKind error = ErrorKind::invariant;
@@ -30,6 +35,28 @@ struct FilterOptions {
   double batch_gate_probability = 0.9999;
   SE3 initial_pose;
   Matrix6 initial_covariance = Matrix6::Zero();
+  Index submap_landmarks = 0;  // 0: a single map
+  JoinKind join = JoinKind::automatic;
+  double submap_distance = 0.0, submap_extent = 0.0, submap_sigma = 0.0;  // 0: no matter
+
+  bool single_map() const { return submap_landmarks == 0; }
+  bool sparse() const;
+  // Landmarks of the filter's own covariance: a frame may exceed what closes a submap.
+  Index local_landmarks() const { return single_map() ? max_landmarks : submap_landmarks + max_observations; }
+};
+
+enum class ClosedBy { none, caller, landmarks, distance, extent, sigma, fix };
+
+// The last attempt to close a submap.
+struct ClosingReport {
+  bool failed = false;
+  ErrorCode error = ErrorCode::state;  // where it failed
+  bool no_memory = false;
+  std::size_t submaps = 0;
+  ClosedBy reason = ClosedBy::none;
+  Index landmarks = 0;
+  JoinReport join;
+  double seconds = 0.0;
 };
 
 struct Observation {
@@ -64,7 +91,8 @@ class Filter final : public Landmarks {
   ~Filter() override;
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
-  static std::size_t required_bytes(const FilterOptions& options);
+  static std::size_t arena_bytes(const FilterOptions& options);     // of the arena that the constructor wants
+  static std::size_t required_bytes(const FilterOptions& options);  // of all that it takes
   const FilterOptions& options() const { return options_; }
   void set_log(Log log, void* payload) { log_ = log, log_payload_ = payload; }
 
@@ -87,7 +115,10 @@ class Filter final : public Landmarks {
 
   // --- observations --- each throws with nothing changed; decisions() holds one a observation after it
   Observation* staging() { return observations_; }  // room for max_observations
-  void update(int sensor, Index count);             // of staging()
+  void update(int sensor, Index count) {            // of staging()
+    logged([&] { take_in(sensor, count); });
+    close_if_full();
+  }
   struct Linear {
     const double* residual;
     Index rows;
@@ -97,10 +128,19 @@ class Filter final : public Landmarks {
     Index count;
     const double* J_landmarks;  // rows x 3 count row-major
   };
-  void update_linear(const Linear& linear);
-  void update_position(const Vector3& position, const Matrix3& covariance, const Vector3& lever_arm);
-  void update_attitude(const SO3& attitude, const Matrix3& covariance);
-  void update_heading(double heading, double sigma);
+  void update_linear(const Linear& linear) {
+    logged([&] { take_in(linear); });
+  }
+  void update_fix(const AbsoluteFix& fix) {
+    logged([&] { take_in(fix); });
+  }
+  void update_position(const Vector3& position, const Matrix3& covariance, const Vector3& lever_arm) {
+    update_fix(AbsoluteFix::position(position, covariance, lever_arm));
+  }
+  void update_attitude(const SO3& attitude, const Matrix3& covariance) {
+    update_fix(AbsoluteFix::attitude(attitude, covariance));
+  }
+  void update_heading(double heading, double sigma) { update_fix(AbsoluteFix::heading(heading, sigma)); }
   double* workspace() {
     return ekf_.scratch();
   }  // m^2 + cholesky_workspace(m) doubles, m = 3 max_observations; free between updates
@@ -109,15 +149,24 @@ class Filter final : public Landmarks {
 
   void remove_landmark(std::uint64_t id);
 
+  // --- submaps --- throws with nothing changed
+  void close_submap();
+  const ClosingReport& closing() const { return closing_; }
+
   // --- queries ---
-  SE3 pose() const { return ekf_.pose(); }
-  Matrix6 pose_covariance() const { return ekf_.pose_covariance(); }
-  double pose_nees(const SE3& truth) const { return ekf_.pose_nees(truth); }
+  SE3 pose() const { return map_ != nullptr ? map_->base() * ekf_.pose() : ekf_.pose(); }
+  Matrix6 pose_covariance() const;
+  SE3 local_pose() const { return ekf_.pose(); }
+  Matrix6 local_pose_covariance() const { return ekf_.pose_covariance(); }
+  double pose_nees(const SE3& truth) const;
   double smallest_pivot() { return ekf_.smallest_pivot(); }
-  // Pose, then landmarks; square of 6 + 3 count.
+  // The map that the caller sees; null: this filter's own landmarks are it.
+  const GlobalMap* map() const { return map_.get(); }
+  const Landmarks& landmarks() const { return map_ != nullptr ? static_cast<const Landmarks&>(*map_) : *this; }
+  // Pose, then landmarks of landmarks(); square of 6 + 3 count.
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 
-  // Landmarks
+  // Landmarks: of the open submap, or of the single map
   std::size_t size() const override { return static_cast<std::size_t>(ekf_.size()); }
   std::uint64_t id(std::size_t index) const override { return ids_[index]; }
   std::uint64_t observations(std::size_t index) const override { return counts_[index]; }
@@ -136,6 +185,19 @@ class Filter final : public Landmarks {
     Matrix3 noise;
   };
 
+  // Numerical refusals are worth a line in the log.
+  template <class Function>
+  void logged(Function&& function) const {
+    try {
+      function();
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::numerical) say("%s", error.what());
+      throw;
+    }
+  }
+  void take_in(int sensor, Index count);
+  void take_in(const Linear& linear);
+  void take_in(const AbsoluteFix& fix);
   int add_sensor(const AnySensorSlot& sensor);
   AnySensorSlot& sensor_slot(int sensor);
   const Sensor& sensor_at(int sensor);
@@ -146,22 +208,31 @@ class Filter final : public Landmarks {
   void gate_each();
   void gate_batch(const Sensor& sensor);
   template <class Linearise>
-  void fill(Linearise&& linearise);
-  template <class Linearise>
   void iterate(int iterations, bool relative, Linearise&& linearise);
   void place_new(const Sensor& sensor);
-  template <class JPose>
-  void add_pose_rows(Index rows, const JPose& J_pose, const double* covariance);
   template <class Linearise>
   void update_alone(Index rows, int iterations, std::uint64_t landmark, Linearise&& linearise);
   void start_report(Index count);
   void finish_report(Index count);
   double batch_threshold(Index rows);
-  [[noreturn]] void throw_not_definite() const;
+  double single_threshold(Index rows) const;
+  void update_map_by_fix(const AbsoluteFix& fix);
+  ClosedBy full() const;
+  Submap take_submap() const;
+  void join_submap(ClosedBy reason);
+  void close_if_full();
+  void forget_local(std::int32_t slot);
+  static std::unique_ptr<GlobalMap> make_map(const FilterOptions& options);
+  Matrix6 base_to_pose() const;
+  Matrix6 local_part() const;
   void say(const char* format, ...) const __attribute__((format(printf, 2, 3)));
 
   FilterOptions options_;
   Ekf<SE3> ekf_;
+  std::unique_ptr<GlobalMap> map_;  // null: a single map
+  double driven_ = 0.0;             // in the open submap, m
+  ClosingReport closing_;
+  std::size_t frames_to_wait_ = 0, next_wait_ = 1;  // before another attempt to close
   IdTable slots_;
   IdTable frame_ids_;
   std::uint64_t* ids_;
@@ -187,5 +258,14 @@ class Filter final : public Landmarks {
   Log log_ = nullptr;
   void* log_payload_ = nullptr;
 };
+
+// Gauss-Newton on the batch, which stands factored at the prediction, and the commit; see iterate_and_commit().
+template <class Linearise>
+void Filter::iterate(int iterations, bool relative, Linearise&& linearise) {
+  next_report_.nis = ekf_.nis();
+  next_report_.iterations =
+      iterate_and_commit(ekf_, {iterations, options_.iteration_tolerance, relative}, residual_, linearise);
+  next_report_.rows = ekf_.batch().rows();
+}
 
 }  // namespace cairn

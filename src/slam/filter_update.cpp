@@ -2,10 +2,11 @@
 // Observations: sorted into known and new, gated, taken in as one batch, and the new ones placed.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
-#include "slam/filter_batch.hpp"
+#include "slam/filter.hpp"
 
 namespace cairn {
 namespace {
@@ -14,33 +15,17 @@ bool given(const Observation& observation) {
   return std::any_of(observation.covariance, observation.covariance + 9, [](double v) { return v != 0.0; });
 }
 
-// Squared Mahalanobis distance of `rows` values against the lower triangle of their covariance.
-double squared_distance(const double* residual, const double* covariance, Index ld, Index rows) {
-  double L[9], x[3];
-  for (Index c = 0; c < rows; ++c) {
-    x[c] = residual[c];
-    for (Index r = c; r < rows; ++r) L[c * 3 + r] = covariance[c * ld + r];
-  }
-  if (!cholesky(L, 3, rows)) return -1.0;
-  solve_lower(L, 3, rows, x);
-  double sum = 0.0;
-  for (Index r = 0; r < rows; ++r) sum += x[r] * x[r];
-  return sum;
-}
-
 }  // namespace
-
-void Filter::throw_not_definite() const {
-  constexpr const char* kText =
-      "update: the covariance would not stay positive definite; nothing was changed. Is the noise realistic?";
-  say("%s", kText);
-  throw Error(ErrorCode::numerical, "%s", kText);
-}
 
 double Filter::batch_threshold(Index rows) {
   if (thresholds_[rows] == 0.0)
     thresholds_[rows] = chi_square_quantile(static_cast<double>(rows), options_.batch_gate_probability);
   return thresholds_[rows];
+}
+
+// Gate of a batch that is taken as a whole.
+double Filter::single_threshold(Index rows) const {
+  return rows <= 6 ? gate_thresholds_[rows] : chi_square_quantile(static_cast<double>(rows), options_.gate_probability);
 }
 
 // The noise of one observation's values; that of the mount's angles comes on top.
@@ -97,9 +82,9 @@ void Filter::sort_out(const Sensor& sensor, Index count) {
         match.reason = Reason::no_place;
     }
   }
-  if (ekf_.size() + new_count_ > options_.max_landmarks)
-    throw Error(ErrorCode::capacity, "observations: %td new landmarks, and the map holds %td of max_landmarks = %td",
-                new_count_, ekf_.size(), options_.max_landmarks);
+  if (ekf_.size() + new_count_ > options_.local_landmarks())
+    throw Error(ErrorCode::capacity, "observations: %td new landmarks, and the %s holds %td of %td", new_count_,
+                map_ != nullptr ? "open submap" : "map", ekf_.size(), options_.local_landmarks());
 }
 
 void Filter::open_candidates(const Sensor& sensor) {
@@ -155,37 +140,21 @@ void Filter::gate_each() {
   candidate_count_ = kept;
 }
 
-// Chi-square gate of the batch: while it fails, the observation goes without which the distance falls most. Leaving a
-// block i out takes u_i^T (S^-1)_ii^-1 u_i off the distance, with u = S^-1 r; what remains follows by block inversion.
+// Chi-square gate of the batch: what does not fit with the rest goes.
 void Filter::gate_batch(const Sensor& sensor) {
-  const Index m = ekf_.batch().rows();
-  if (m == 0) return;
-  const Index rows = sensor.rows();
-  if (!ekf_.factor()) throw_not_definite();
-  if (options_.batch_gate_probability >= 1.0 || ekf_.nis() <= batch_threshold(m)) return;
-  ekf_.compute_innovation();  // the factor stands where it was
-  const double* inverse = ekf_.inverse_innovation();
-  if (inverse == nullptr) throw_not_definite();
-  double nis = ekf_.distance_by_inverse(residual_);
-  Index left = candidate_count_;
-  while (left > 0 && nis > batch_threshold(left * rows)) {
-    Index worst = -1;
-    double largest = -1.0;
-    for (Index a = 0; a < candidate_count_; ++a) {
-      if (candidates_[a].slot < 0) continue;
-      const double fall = squared_distance(residual_ + a * rows, inverse + a * rows * (m + 1), m, rows);
-      if (fall > largest) largest = fall, worst = a;
-    }
-    if (worst < 0) throw_not_definite();
-    ekf_.leave_out(worst * rows, rows, residual_);
-    Match& match = next_matches_[candidates_[worst].observation];
-    match.reason = Reason::batch_gate;
-    match.distance = nis;
-    nis -= largest;
-    match.threshold = batch_threshold(left * rows);
-    candidates_[worst].slot = -1;
-    --left;
-  }
+  if (ekf_.batch().rows() == 0) return;
+  const auto bound = [&](Index rows) {
+    return options_.batch_gate_probability >= 1.0 ? std::numeric_limits<double>::infinity() : batch_threshold(rows);
+  };
+  const Index left = gate_jointly(
+      ekf_, candidate_count_, sensor.rows(), residual_, bound, [&](Index a) { return candidates_[a].slot < 0; },
+      [&](Index a, double distance, double threshold) {
+        Match& match = next_matches_[candidates_[a].observation];
+        match.reason = Reason::batch_gate;
+        match.distance = distance;
+        match.threshold = threshold;
+        candidates_[a].slot = -1;
+      });
   if (left == candidate_count_) return;
   say("update: the batch gate refused %td of %td observations", candidate_count_ - left, candidate_count_);
   candidate_count_ =
@@ -219,7 +188,7 @@ void Filter::place_new(const Sensor& sensor) {
   }
 }
 
-void Filter::update(int sensor_number, Index count) {
+void Filter::take_in(int sensor_number, Index count) {
   const Sensor& sensor = sensor_at(sensor_number);
   start_report(count);
   sort_out(sensor, count);
@@ -227,17 +196,17 @@ void Filter::update(int sensor_number, Index count) {
 
   open_candidates(sensor);
   const Index seen = candidate_count_;
-  fill(relinearise);
+  fill_batch(ekf_, relinearise);
   gate_each();
   if (candidate_count_ < seen) {
     open_candidates(sensor);
-    fill(relinearise);
+    fill_batch(ekf_, relinearise);
   }
   const Index passed = candidate_count_;
   gate_batch(sensor);
   if (candidate_count_ < passed) {
     open_candidates(sensor);
-    fill(relinearise);
+    fill_batch(ekf_, relinearise);
     if (!ekf_.factor()) throw_not_definite();
   }
   if (candidate_count_ > 0) iterate(options_.iterations, sensor.relative(), relinearise);

@@ -15,7 +15,7 @@ namespace {
 
 struct Run {
   Run(const FilterOptions& options, const Sensor& sensor)
-      : arena(Filter::required_bytes(options)), filter(arena, options), sensor_(sensor) {
+      : arena(Filter::arena_bytes(options)), filter(arena, options), sensor_(sensor) {
     if (const auto* head = dynamic_cast<const StereoHead*>(&sensor)) filter.add(*head);
     if (const auto* camera = dynamic_cast<const StereoCamera*>(&sensor)) filter.add(*camera);
   }
@@ -178,7 +178,7 @@ TEST_CASE("ekf: a vehicle that stands and gets position fixes learns nothing of 
   FilterOptions options;
   options.gate_probability = 1;
   options.initial_covariance = Vector6(4, 4, 4, 0.09, 0.09, 0.09).asDiagonal();
-  Arena arena(Filter::required_bytes(options));
+  Arena arena(Filter::arena_bytes(options));
   Filter filter(arena, options);
   Random random(6);
   for (int i = 0; i < 10; ++i)
@@ -192,7 +192,7 @@ TEST_CASE("ekf: with the standard error, position fixes teach a vehicle that sta
   options.error = ErrorKind::standard;
   options.gate_probability = 1;
   options.initial_covariance = Vector6(4, 4, 4, 0.09, 0.09, 0.09).asDiagonal();
-  Arena arena(Filter::required_bytes(options));
+  Arena arena(Filter::arena_bytes(options));
   Filter filter(arena, options);
   Random random(6);
   for (int i = 0; i < 10; ++i)

@@ -56,7 +56,7 @@ TEST_CASE("ekf: equals least squares over the whole drive where the problem is l
     options.initial_pose = SE3(R, Vector3(12, -7, 3));
     const Matrix3 start = random_covariance_of_points(random, 0.8);
     options.initial_covariance.topLeftCorner<3, 3>() = start;
-    Arena arena(Filter::required_bytes(options));
+    Arena arena(Filter::arena_bytes(options));
     Filter filter(arena, options);
     const CartesianParameters parameters;
     const int sensor = filter.add(Cartesian(parameters));
@@ -132,7 +132,7 @@ TEST_CASE("ekf: the covariance stays positive definite over a long drive") {
   for (ErrorKind error : {ErrorKind::invariant, ErrorKind::standard}) {
     Random random(9);
     const FilterOptions options = random_options(error, random);
-    Arena arena(Filter::required_bytes(options));
+    Arena arena(Filter::arena_bytes(options));
     Filter filter(arena, options);
     const StereoHead head = scenario_head(0.01, true);
     const int number = filter.add(head);

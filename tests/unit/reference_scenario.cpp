@@ -43,7 +43,7 @@ std::int32_t compass_place(void*, const double* pose, const double* z, double* l
 }  // namespace
 
 Pair::Pair(const FilterOptions& options)
-    : arena_(std::make_unique<Arena>(Filter::required_bytes(options))),
+    : arena_(std::make_unique<Arena>(Filter::arena_bytes(options))),
       filter_(std::make_unique<Filter>(*arena_, options)),
       reference_(reference_options(options), options.initial_pose, options.initial_covariance) {}
 

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Submaps of a filter: closing, reports, poses and contents.
+#include "capi/filter_handle.hpp"
+
+using namespace cairn;
+using namespace cairn::capi;
+
+namespace cairn {
+namespace capi {
+namespace {
+
+std::int32_t reason_of(ClosedBy reason) {
+  switch (reason) {
+    case ClosedBy::none:
+      break;
+    case ClosedBy::caller:
+      return CAIRN_CLOSED_BY_CALLER;
+    case ClosedBy::landmarks:
+      return CAIRN_CLOSED_BY_LANDMARKS;
+    case ClosedBy::distance:
+      return CAIRN_CLOSED_BY_DISTANCE;
+    case ClosedBy::extent:
+      return CAIRN_CLOSED_BY_EXTENT;
+    case ClosedBy::sigma:
+      return CAIRN_CLOSED_BY_SIGMA;
+    case ClosedBy::fix:
+      return CAIRN_CLOSED_BY_FIX;
+  }
+  return CAIRN_CLOSED_BY_NONE;
+}
+
+cairn_status closing_status(const ClosingReport& closing) {
+  if (!closing.failed) return CAIRN_OK;
+  return closing.no_memory ? CAIRN_ERROR_MEMORY : status_of(closing.error);
+}
+
+void write_estimate(const SE3& pose, const Matrix6& covariance, cairn_pose* pose_out, double* covariance_out) {
+  if (covariance_out != nullptr) write_square<6>(covariance, covariance_out);
+  if (pose_out != nullptr) write_pose(pose, pose_out);
+}
+
+}  // namespace
+}  // namespace capi
+}  // namespace cairn
+
+extern "C" {
+
+cairn_status cairn_filter_close_submap(cairn_filter* filter) {
+  return guard([&] { read_filter(filter).close_submap(); });
+}
+
+cairn_status cairn_filter_last_closing(const cairn_filter* filter, cairn_closing_report* report) {
+  return guard([&] {
+    const ClosingReport& c = read_filter(filter).closing();
+    cairn_closing_report out = {};
+    out.status = closing_status(c);
+    out.submaps = static_cast<std::uint32_t>(c.submaps);
+    out.reason = reason_of(c.reason);
+    out.landmarks = static_cast<std::uint32_t>(c.landmarks);
+    out.landmarks_new = static_cast<std::uint32_t>(c.join.fresh);
+    out.landmarks_fused = static_cast<std::uint32_t>(c.join.fused);
+    out.landmarks_refused = static_cast<std::uint32_t>(c.join.refused);
+    out.relinearised = static_cast<std::uint32_t>(c.join.relinearised);
+    out.refactored = static_cast<std::uint32_t>(c.join.refactored);
+    out.iterations = static_cast<std::uint32_t>(c.join.iterations);
+    out.rows = static_cast<std::uint32_t>(c.join.rows);
+    out.distance = c.join.distance;
+    out.threshold = c.join.threshold;
+    out.seconds = c.seconds;
+    out.moved_max = c.join.moved_max;
+    out.moved_rms = c.join.moved_rms;
+    write_report(out, report);
+  });
+}
+
+cairn_status cairn_filter_local_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]) {
+  return guard([&] {
+    const Filter& f = read_filter(filter);
+    write_estimate(f.local_pose(), f.local_pose_covariance(), pose, covariance);
+  });
+}
+
+cairn_status cairn_filter_base_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]) {
+  return guard([&] {
+    const GlobalMap* map = read_filter(filter).map();
+    write_estimate(map != nullptr ? map->base() : SE3(),
+                   map != nullptr ? map->base_covariance() : Matrix6(Matrix6::Zero()), pose, covariance);
+  });
+}
+
+const cairn_map* cairn_filter_local_map(const cairn_filter* filter) {
+  return filter != nullptr ? &filter->local_map : nullptr;
+}
+
+cairn_status cairn_filter_submap_count(const cairn_filter* filter, size_t* count) {
+  return guard([&] {
+    const GlobalMap* map = read_filter(filter).map();
+    check_pointer(count, "count");
+    *count = map != nullptr ? map->submap_count() : 0;
+  });
+}
+
+cairn_status cairn_filter_submap(const cairn_filter* filter, size_t index, cairn_pose* base, uint64_t* ids,
+                                 size_t capacity, size_t* needed) {
+  return guard([&] {
+    const GlobalMap* map = read_filter(filter).map();
+    const std::size_t count = map != nullptr ? map->submap_count() : 0;
+    if (index >= count)
+      throw Error(ErrorCode::not_found, "index: there is no submap %zu; %zu are closed, counted from 0", index, count);
+    const std::vector<std::uint64_t>& source = map->submap_ids(index);
+    const bool room = check_room(ids, capacity, source.size(), needed, "ids");
+    if (room) std::copy(source.begin(), source.end(), ids);
+    if (base != nullptr) write_pose(map->submap_base(index), base);
+  });
+}
+
+}  // extern "C"

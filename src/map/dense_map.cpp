@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/dense_map.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/chi_square.hpp"
+#include "ekf/iterate.hpp"
+#include "sensor/sensor.hpp"
+
+namespace cairn {
+namespace {
+
+Ekf<SE3>::Capacity capacity_of(const MapOptions& options) {
+  return {static_cast<Index>(options.max_landmarks),
+          static_cast<Index>(std::min(options.submap_capacity, options.max_landmarks))};
+}
+
+// Rows and columns of a symmetric matrix of 3 x 3 blocks behind 6 states of the pose.
+std::vector<Eigen::Index> states_of(const std::vector<Eigen::Index>& landmarks) {
+  std::vector<Eigen::Index> states;
+  for (const Eigen::Index i : landmarks)
+    for (Eigen::Index d = 0; d < 3; ++d) states.push_back(6 + 3 * i + d);
+  return states;
+}
+
+// How far landmarks moved between two states of the map.
+void measure_movement(const std::vector<Vector3>& before, const Ekf<SE3>& ekf, JoinReport& report) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double way = (ekf.landmark(static_cast<Index>(i)) - before[i]).squaredNorm();
+    report.moved_max = std::max(report.moved_max, std::sqrt(way));
+    sum += way;
+  }
+  if (!before.empty()) report.moved_rms = std::sqrt(sum / static_cast<double>(before.size()));
+}
+
+}  // namespace
+
+DenseMap::DenseMap(const MapOptions& options) : DenseMap(options, required_bytes(options)) {}
+
+DenseMap::DenseMap(const MapOptions& options, std::size_t bytes)
+    : options_(options),
+      arena_(bytes),
+      ekf_(arena_, options.error, capacity_of(options)),
+      slots_(arena_, options.max_landmarks),
+      ids_(arena_.take<std::uint64_t>(options.max_landmarks)),
+      counts_(arena_.take<std::uint64_t>(options.max_landmarks)) {
+  ekf_.start(options.initial_pose, options.initial_covariance);
+}
+
+std::size_t DenseMap::required_bytes(const MapOptions& options) {
+  Arena measure;
+  const Ekf<SE3> ekf(measure, options.error, capacity_of(options));
+  const IdTable slots(measure, options.max_landmarks);
+  measure.take<std::uint64_t>(options.max_landmarks);
+  measure.take<std::uint64_t>(options.max_landmarks);
+  return measure.used();
+}
+
+void DenseMap::open(const std::vector<Pair>& pairs) {
+  std::vector<Index> slots;
+  for (const Pair& pair : pairs) slots.push_back(pair.slot);
+  ekf_.open(slots.data(), static_cast<Index>(slots.size()), nullptr);
+}
+
+// The submap's estimates of the known landmarks are observations from its base: y = R_S^T (l - p_S), with one full
+// noise block, their covariance in the submap. This is eq. 30 of the Mars paper with the rotation that its constant
+// Jacobian leaves out.
+bool DenseMap::linearise(const Submap& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& noise,
+                         double* residual_only) {
+  const SE3 T = ekf_.iterate_pose();
+  if (residual_only == nullptr) ekf_.batch().clear();
+  for (std::size_t a = 0; a < pairs.size(); ++a) {
+    const Vector3 l = ekf_.iterate_landmark(static_cast<Index>(a));
+    const Vector3 residual = submap.landmarks[pairs[a].local] - T.inverse() * l;
+    double* target = residual_only != nullptr ? residual_only : ekf_.batch().residual();
+    std::copy_n(residual.data(), 3, target + 3 * a);
+    if (residual_only != nullptr) continue;
+    Prediction prediction;
+    map_jacobians(T, l, Matrix3::Identity(), prediction);
+    const Index row = ekf_.batch().add_rows(3);
+    const auto pose = ekf_.add_pose_block(row, 3, prediction.J_z_pose, true);
+    ekf_.add_landmark_block(row, 3, prediction.J_z_landmark, static_cast<Index>(a), pose);
+  }
+  if (residual_only != nullptr) return true;
+  const std::size_t rows = 3 * pairs.size();
+  double* block = ekf_.batch().add_noise(0, static_cast<Index>(rows));
+  for (std::size_t c = 0; c < rows; ++c)
+    for (std::size_t r = 0; r < rows; ++r)
+      block[c * rows + r] = noise(6 + 3 * pairs[r / 3].local + static_cast<Eigen::Index>(r % 3),
+                                  6 + 3 * pairs[c / 3].local + static_cast<Eigen::Index>(c % 3));
+  return true;
+}
+
+// Each pair by itself, then all jointly; what is refused leaves `pairs`. The batch stands factored at the end.
+void DenseMap::gate(const Submap& submap, std::vector<Pair>& pairs, const Eigen::MatrixXd& noise, JoinReport& report) {
+  const auto refill = [&] {
+    open(pairs);
+    fill_batch(ekf_, [&](double* residual_only) { return linearise(submap, pairs, noise, residual_only); });
+  };
+  refill();
+  const double single = chi_square_quantile(3, options_.gate_probability);
+  const Index m = ekf_.batch().rows();
+  std::vector<Pair> passed;
+  for (std::size_t a = 0; a < pairs.size(); ++a) {
+    const double distance =
+        squared_distance(ekf_.batch().residual() + 3 * a, ekf_.innovation() + 3 * a * (m + 1), m, 3);
+    if (distance < 0.0) throw_not_definite();
+    if (distance <= single) passed.push_back(pairs[a]);
+  }
+  if (passed.size() < pairs.size()) {
+    pairs.swap(passed);
+    refill();
+  }
+  std::vector<char> refused(pairs.size(), 0);
+  std::vector<double> u(3 * pairs.size());
+  const auto bound = [&](Index rows) {
+    return chi_square_quantile(static_cast<double>(rows), options_.joint_gate_probability);
+  };
+  const Index left = gate_jointly(
+      ekf_, static_cast<Index>(pairs.size()), 3, u.data(), bound, [&](Index a) { return refused[a] != 0; },
+      [&](Index a, double, double) { refused[a] = 1; });
+  if (left < static_cast<Index>(pairs.size())) {
+    passed.clear();
+    for (std::size_t a = 0; a < pairs.size(); ++a)
+      if (refused[a] == 0) passed.push_back(pairs[a]);
+    pairs.swap(passed);
+    refill();
+    if (!ekf_.factor()) throw_not_definite();
+  }
+  report.rows = 3 * pairs.size();
+  report.distance = ekf_.nis();
+  report.threshold = report.rows > 0 ? bound(static_cast<Index>(report.rows)) : 0.0;
+}
+
+// Fuses the known landmarks, by which the submap's rest moves, and hands that over.
+void DenseMap::fuse_and_compose(const Submap& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& joint,
+                                const std::vector<Index>& slots, std::vector<Vector3>& landmarks,
+                                Ekf<SE3>::Handover& handover, JoinReport& report) {
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * pairs.size()));
+  if (!pairs.empty()) {
+    std::vector<double> residual(3 * pairs.size());
+    report.iterations =
+        iterate_and_commit(ekf_, {options_.iterations, options_.iteration_tolerance, true}, residual.data(),
+                           [&](double* residual_only) { return linearise(submap, pairs, joint, residual_only); });
+    const SE3 T_base_map = ekf_.pose().inverse();
+    for (std::size_t a = 0; a < pairs.size(); ++a)
+      shift.segment<3>(3 * static_cast<Eigen::Index>(a)) =
+          T_base_map * ekf_.landmark(pairs[a].slot) - submap.landmarks[pairs[a].local];
+  }
+  const Eigen::VectorXd error = handover.K * shift;
+  const Vector3 turn = error.segment<3>(3);
+  const bool invariant = submap.error == ErrorKind::invariant;
+  const SO3 R = SO3::exp(turn);
+  const Matrix3 V = SO3::left_jacobian(turn);
+  const auto moved = [&](const Vector3& x, const Vector3& e) -> Vector3 {
+    if (!invariant) return x + e;
+    return R * x + V * e;
+  };
+  handover.T_base_end = SE3(R * submap.T_base_end.rotation(), moved(submap.T_base_end.translation(), error.head<3>()));
+  for (std::size_t a = 0; a < landmarks.size(); ++a)
+    landmarks[a] = moved(landmarks[a], error.segment<3>(6 + 3 * static_cast<Eigen::Index>(a)));
+  handover.fused = slots.data();
+  handover.fused_count = static_cast<Index>(slots.size());
+  handover.fresh = landmarks.data();
+  handover.fresh_count = static_cast<Index>(landmarks.size());
+  ekf_.compose(handover);
+}
+
+JoinReport DenseMap::join(const Submap& submap) {
+  JoinReport report;
+  std::vector<Pair> pairs;
+  std::vector<Eigen::Index> fresh;
+  for (Eigen::Index i = 0; i < submap.size(); ++i) {
+    const std::int32_t slot = slots_.find(submap.ids[i]);
+    if (slot == IdTable::kAbsent)
+      fresh.push_back(i);
+    else
+      pairs.push_back({i, slot});
+  }
+  if (size() + fresh.size() > options_.max_landmarks)
+    throw Error(ErrorCode::capacity, "submap: %zu new landmarks, and the map holds %zu of max_landmarks = %zu",
+                fresh.size(), size(), options_.max_landmarks);
+  const std::size_t known = pairs.size();
+  std::vector<Eigen::Index> known_ones;
+  for (const Pair& pair : pairs) known_ones.push_back(pair.local);
+  Eigen::MatrixXd joint = submap.covariance;
+  to_ordinary(submap, known_ones, joint);
+  if (!pairs.empty()) gate(submap, pairs, joint, report);
+  report.fused = pairs.size();
+  report.fresh = fresh.size();
+  report.refused = known - pairs.size();
+
+  // The rest of the submap's error is K y + w by the fused landmarks' y.
+  std::vector<Eigen::Index> fused, rest{0, 1, 2, 3, 4, 5};
+  for (const Pair& pair : pairs) fused.push_back(pair.local);
+  const std::vector<Eigen::Index> of_fused = states_of(fused), of_fresh = states_of(fresh);
+  rest.insert(rest.end(), of_fresh.begin(), of_fresh.end());
+  Ekf<SE3>::Handover handover;
+  const Eigen::MatrixXd cross = joint(of_fused, rest);
+  handover.K = pairs.empty() ? Eigen::MatrixXd(rest.size(), 0)
+                             : Eigen::MatrixXd(joint(of_fused, of_fused).ldlt().solve(cross).transpose());
+  handover.W = joint(rest, rest);
+  handover.W -= handover.K * cross;
+  if (!handover.K.allFinite() || !handover.W.allFinite()) throw_not_definite();
+  std::vector<Index> slots;
+  for (const Pair& pair : pairs) slots.push_back(pair.slot);
+  std::vector<Vector3> before, landmarks;
+  for (std::size_t i = 0; i < size(); ++i) before.push_back(position(i));
+  for (const Eigen::Index i : fresh) landmarks.push_back(submap.landmarks[i]);
+  Closed closed{base(), submap.ids};
+  if (closed_.size() == closed_.capacity()) closed_.reserve(2 * closed_.size() + 8);
+
+  // Nothing was changed so far. The composition takes memory once more: if there is none, the update is taken back.
+  const Ekf<SE3>::Backup backup = ekf_.backup();
+  try {
+    fuse_and_compose(submap, pairs, joint, slots, landmarks, handover, report);
+  } catch (...) {
+    ekf_.restore(backup);
+    throw;
+  }
+  for (std::size_t a = 0; a < fresh.size(); ++a) {
+    const std::size_t slot = size() - fresh.size() + a;
+    ids_[slot] = submap.ids[fresh[a]];
+    counts_[slot] = submap.counts[fresh[a]];
+    slots_.set(ids_[slot], static_cast<std::int32_t>(slot));
+  }
+  for (const Pair& pair : pairs) counts_[pair.slot] += submap.counts[pair.local];
+  measure_movement(before, ekf_, report);
+  closed_.push_back(std::move(closed));
+  return report;
+}
+
+FixReport DenseMap::fix(const AbsoluteFix& fix, double threshold) {
+  FixReport report;
+  const auto linearise = [&](double* residual_only) { return linearise_fix(ekf_, fix, residual_only); };
+  ekf_.open(nullptr, 0, nullptr);
+  fill_batch(ekf_, linearise);
+  if (!ekf_.factor()) throw_not_definite();
+  report.distance = ekf_.nis();
+  report.accepted = report.distance <= threshold;
+  double residual[3];
+  if (report.accepted)
+    report.iterations =
+        iterate_and_commit(ekf_, {options_.iterations, options_.iteration_tolerance, false}, residual, linearise);
+  return report;
+}
+
+void DenseMap::remove(std::uint64_t id) {
+  const std::int32_t slot = slots_.find(id);
+  if (slot == IdTable::kAbsent) return;
+  const Index last = ekf_.size() - 1;
+  ekf_.remove(slot);
+  slots_.erase(id);
+  if (slot == last) return;
+  ids_[slot] = ids_[last];
+  counts_[slot] = counts_[last];
+  slots_.set(ids_[slot], slot);
+}
+
+bool DenseMap::find(std::uint64_t id, std::size_t& index) const {
+  const std::int32_t slot = slots_.find(id);
+  if (slot == IdTable::kAbsent) return false;
+  index = static_cast<std::size_t>(slot);
+  return true;
+}
+
+void DenseMap::base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  const std::vector<Index> slots(indices, indices + count);
+  ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), matrix, static_cast<Index>(6 + 3 * count));
+}
+
+void DenseMap::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  std::vector<double> joint((6 + 3 * count) * (6 + 3 * count));
+  base_joint_covariance(indices, count, joint.data());
+  without_pose(joint.data(), count, matrix);
+}
+
+}  // namespace cairn

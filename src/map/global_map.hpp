@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The map that closed submaps join, in one of two ways: dense (dense_map.hpp) or sparse (sparse_map.hpp).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "map/landmarks.hpp"
+#include "map/submap.hpp"
+#include "sensor/absolute_fix.hpp"
+
+namespace cairn {
+
+struct JoinReport {
+  std::size_t fused = 0, fresh = 0, refused = 0;
+  std::size_t relinearised = 0, refactored = 0;
+  int iterations = 0;
+  std::size_t rows = 0;  // of the joint test of the fused landmarks
+  double distance = 0.0, threshold = 0.0;
+  double moved_max = 0.0, moved_rms = 0.0;  // of landmarks that the map held before
+};
+
+struct FixReport {
+  bool accepted = false;
+  int iterations = 0;
+  double distance = 0.0;
+};
+
+struct MapOptions {
+  ErrorKind error = ErrorKind::invariant;
+  std::size_t max_landmarks = 1000;
+  std::size_t submap_capacity = 64;  // landmarks of a submap at most
+  int iterations = 3;
+  double iteration_tolerance = 0.1;
+  double gate_probability = 0.99;  // of a single fused landmark
+  double joint_gate_probability = 0.9999;
+  SE3 initial_pose;
+  Matrix6 initial_covariance = Matrix6::Zero();  // ordinary
+};
+
+// Every call that throws leaves the map as it was.
+class GlobalMap : public Landmarks {
+ public:
+  // Takes in a submap that began at base(); its end is the new base.
+  virtual JoinReport join(const Submap& submap) = 0;
+  // The base gets an absolute fix; refused where its distance exceeds `threshold`.
+  virtual FixReport fix(const AbsoluteFix& fix, double threshold) = 0;
+  virtual void remove(std::uint64_t id) = 0;
+
+  // Where the next submap begins.
+  virtual SE3 base() const = 0;
+  virtual Matrix6 base_covariance() const = 0;  // of [dp; dtheta]
+  // Of [base; landmarks], ordinary errors, 6 + 3 count on a side, both triangles.
+  virtual void base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const = 0;
+
+  virtual std::size_t submap_count() const = 0;
+  virtual SE3 submap_base(std::size_t submap) const = 0;
+  virtual const std::vector<std::uint64_t>& submap_ids(std::size_t submap) const = 0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The life of submaps: when one is closed, how it joins the map, and what the caller's pose is meanwhile.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <chrono>
+#include <new>
+
+#include "core/error.hpp"
+#include "map/dense_map.hpp"
+#include "slam/filter.hpp"
+
+namespace cairn {
+namespace {
+
+// Up to here a dense closing is the cheaper one (docs/submaps.md).
+constexpr Index kDenseAtMost = 100;
+
+MapOptions map_options(const FilterOptions& options) {
+  MapOptions map;
+  map.error = options.error;
+  map.max_landmarks = static_cast<std::size_t>(options.max_landmarks);
+  map.submap_capacity = static_cast<std::size_t>(options.local_landmarks());
+  map.iterations = options.iterations;
+  map.iteration_tolerance = options.iteration_tolerance;
+  map.gate_probability = options.gate_probability;
+  map.joint_gate_probability = options.batch_gate_probability;
+  map.initial_pose = options.initial_pose;
+  map.initial_covariance = options.initial_covariance;
+  return map;
+}
+
+}  // namespace
+
+bool FilterOptions::sparse() const {
+  if (single_map()) return false;
+  return join == JoinKind::sparse || (join == JoinKind::automatic && max_landmarks > kDenseAtMost);
+}
+
+std::unique_ptr<GlobalMap> Filter::make_map(const FilterOptions& options) {
+  if (options.single_map()) return nullptr;
+  return std::make_unique<DenseMap>(map_options(options));
+}
+
+std::size_t Filter::required_bytes(const FilterOptions& options) {
+  std::size_t bytes = arena_bytes(options);
+  if (!options.single_map() && !options.sparse()) bytes += DenseMap::required_bytes(map_options(options));
+  return bytes;
+}
+
+// Which limit the open submap has reached.
+ClosedBy Filter::full() const {
+  if (ekf_.size() >= options_.submap_landmarks) return ClosedBy::landmarks;
+  if (ekf_.size() == 0) return ClosedBy::none;
+  if (options_.submap_distance > 0.0 && driven_ >= options_.submap_distance) return ClosedBy::distance;
+  if (options_.submap_extent > 0.0)
+    for (Index slot = 0; slot < ekf_.size(); ++slot)
+      if (ekf_.landmark(slot).norm() >= options_.submap_extent) return ClosedBy::extent;
+  if (options_.submap_sigma > 0.0) {
+    const Matrix3 P = ekf_.pose_covariance().topLeftCorner<3, 3>();
+    Eigen::SelfAdjointEigenSolver<Matrix3> solver;
+    solver.computeDirect(P, Eigen::EigenvaluesOnly);
+    if (solver.eigenvalues().maxCoeff() >= options_.submap_sigma * options_.submap_sigma) return ClosedBy::sigma;
+  }
+  return ClosedBy::none;
+}
+
+Submap Filter::take_submap() const {
+  Submap submap;
+  const Index n = ekf_.states();
+  submap.error = options_.error;
+  submap.T_base_end = ekf_.pose();
+  submap.ids.assign(ids_, ids_ + ekf_.size());
+  submap.counts.assign(counts_, counts_ + ekf_.size());
+  std::vector<Index> slots(static_cast<std::size_t>(ekf_.size()));
+  for (Index slot = 0; slot < ekf_.size(); ++slot) {
+    slots[slot] = slot;
+    submap.landmarks.push_back(ekf_.landmark(slot));
+  }
+  submap.covariance.resize(n, n);
+  ekf_.gather(slots.data(), ekf_.size(), submap.covariance.data(), n);
+  return submap;
+}
+
+// Closes the open submap, whatever it holds, and starts anew at the vehicle's pose (Mars paper, eq. 14-16).
+void Filter::join_submap(ClosedBy reason) {
+  ClosingReport next;
+  const auto begin = std::chrono::steady_clock::now();
+  next.reason = reason;
+  next.landmarks = ekf_.size();
+  next.join = map_->join(take_submap());
+  ekf_.start(SE3(), Matrix6::Zero());
+  slots_.clear();
+  driven_ = 0.0;
+  frames_to_wait_ = 0;
+  next_wait_ = 1;
+  next.submaps = map_->submap_count();
+  next.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  closing_ = next;
+  if (next.join.refused > 0)
+    say("closing: %zu of %zu known landmarks contradict the map and were left out", next.join.refused,
+        next.join.refused + next.join.fused);
+}
+
+void Filter::close_submap() {
+  if (map_ == nullptr)
+    throw Error(ErrorCode::state, "filter: it keeps a single map; create it with submap_landmarks to have submaps");
+  if (ekf_.size() == 0) throw Error(ErrorCode::state, "filter: the open submap holds no landmark; nothing to close");
+  join_submap(ClosedBy::caller);
+}
+
+// A closing that fails leaves the submap open; the update before it stands. Later frames try again, after ever more of
+// them.
+void Filter::close_if_full() {
+  if (map_ == nullptr) return;
+  const ClosedBy reason = full();
+  if (reason == ClosedBy::none) return;
+  if (frames_to_wait_ > 0) {
+    --frames_to_wait_;
+    return;
+  }
+  ClosingReport failed;
+  failed.failed = true;
+  failed.submaps = map_->submap_count();
+  failed.reason = reason;
+  failed.landmarks = ekf_.size();
+  try {
+    return join_submap(reason);
+  } catch (const Error& error) {
+    failed.error = error.code();
+    say("closing: put off: %s", error.what());
+  } catch (const std::bad_alloc&) {
+    failed.no_memory = true;
+    say("closing: put off: memory could not be had");
+  }
+  closing_ = failed;
+  frames_to_wait_ = next_wait_;
+  next_wait_ = std::min<std::size_t>(2 * next_wait_, 64);
+}
+
+// A fix speaks of the map, and the open submap knows nothing of where it lies there: it is closed, so that the pose is
+// the base of the next one, and the map's to improve.
+void Filter::update_map_by_fix(const AbsoluteFix& fix) {
+  const bool moved = ekf_.size() > 0 || driven_ > 0.0 || !ekf_.pose_covariance().isZero(0.0) ||
+                     !ekf_.pose().rotation().matrix().isIdentity(0.0);
+  if (moved) join_submap(ClosedBy::fix);
+  Match& match = next_matches_[0];
+  match.landmark = kNoId;
+  match.threshold = single_threshold(fix.rows());
+  const FixReport done = map_->fix(fix, match.threshold);
+  match.distance = done.distance;
+  if (done.accepted) {
+    match.decision = Decision::matched;
+    next_report_.rows = fix.rows();
+    next_report_.iterations = done.iterations;
+    next_report_.nis = done.distance;
+  } else {
+    match.reason = Reason::gate;
+    say("update: the gate refused a fix, distance %g over %g", match.distance, match.threshold);
+  }
+  finish_report(1);
+}
+
+// e_p = e_pS + G(R_S p_L) e_RS + R_S e_pL,  e_R = e_RS + R_S e_RL: base and open submap share nothing.
+Matrix6 Filter::base_to_pose() const {
+  Matrix6 J = Matrix6::Identity();
+  J.topRightCorner<3, 3>() = SO3::turn(map_->base().rotation() * ekf_.pose().translation());
+  return J;
+}
+
+Matrix6 Filter::local_part() const {
+  Matrix6 R = Matrix6::Zero();
+  R.topLeftCorner<3, 3>() = R.bottomRightCorner<3, 3>() = map_->base().rotation().matrix();
+  return R * ekf_.pose_covariance() * R.transpose();
+}
+
+Matrix6 Filter::pose_covariance() const {
+  if (map_ == nullptr) return ekf_.pose_covariance();
+  const Matrix6 J = base_to_pose();
+  const Matrix6 lower = J * map_->base_covariance() * J.transpose() + local_part();
+  return lower.selfadjointView<Eigen::Lower>();
+}
+
+void Filter::pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  const std::size_t size = 6 + 3 * count;
+  if (map_ == nullptr) {
+    const std::vector<Index> slots(indices, indices + count);
+    ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), matrix, static_cast<Index>(size));
+    return;
+  }
+  map_->base_joint_covariance(indices, count, matrix);
+  Eigen::Map<Eigen::MatrixXd> joint(matrix, static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
+  const Matrix6 J = base_to_pose();
+  joint.topRows<6>() = (J * joint.topRows<6>()).eval();
+  joint.leftCols<6>() = joint.topRows<6>().transpose();
+  const Matrix6 pose = joint.topLeftCorner<6, 6>() * J.transpose() + local_part();
+  joint.topLeftCorner<6, 6>() = pose.selfadjointView<Eigen::Lower>();
+}
+
+double Filter::pose_nees(const SE3& truth) const {
+  if (map_ == nullptr) return ekf_.pose_nees(truth);
+  return Ekf<SE3>::nees(options_.error, options_.initial_pose.translation(), truth, pose(), pose_covariance());
+}
+
+}  // namespace cairn

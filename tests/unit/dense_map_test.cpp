@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The dense joining. On linear-Gaussian problems (the attitude known, points seen as they are) a filter in submaps must
+// equal one that keeps a single map, to rounding.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "numerical.hpp"
+#include "slam/filter.hpp"
+
+namespace {
+
+using namespace cairn;
+using cairn::test::Random;
+
+struct Vehicle {
+  explicit Vehicle(const FilterOptions& options) : arena(Filter::arena_bytes(options)), filter(arena, options) {
+    Cartesian sensor;
+    filter.add(sensor);
+  }
+  Arena arena;
+  Filter filter;
+};
+
+FilterOptions options_of(ErrorKind error, Index submap_landmarks, JoinKind join) {
+  FilterOptions options;
+  options.error = error;
+  options.max_landmarks = 60;
+  options.max_observations = 16;
+  options.submap_landmarks = submap_landmarks;
+  options.join = join;
+  options.gate_probability = 1.0;
+  options.batch_gate_probability = 1.0;
+  options.initial_pose = SE3(SO3::exp(Vector3(0.1, -0.2, 0.7)), Vector3(10, -5, 2));
+  options.initial_covariance.topLeftCorner<3, 3>() = Vector3(0.04, 0.01, 0.09).asDiagonal();
+  return options;
+}
+
+// A drive on a ring of landmarks, twice round; both filters get the same.
+template <class Visit>
+void drive(double turn_sigma, Visit&& visit) {
+  Random random(7);
+  std::vector<Vector3> landmarks;
+  for (int i = 0; i < 30; ++i)
+    landmarks.push_back(Vector3(12 * std::cos(0.21 * i), 12 * std::sin(0.21 * i), 0.5 * std::sin(1.3 * i)));
+  SE3 truth;
+  const SE3 step(SO3::exp(Vector3(0.01, 0.005, 0.105)), Vector3(1.0, 0, 0.01));
+  for (int k = 0; k < 120; ++k) {
+    Increment<SE3> increment;
+    const Vector3 noise = 0.05 * random.normal_vector<3>();
+    const Vector3 turn = turn_sigma * random.normal_vector<3>();
+    increment.T_before_after = SE3(SO3::exp(turn) * step.rotation(), step.translation() + noise);
+    increment.covariance.setZero();
+    increment.covariance.topLeftCorner<3, 3>() = Matrix3::Identity() * 0.0025;
+    increment.covariance.bottomRightCorner<3, 3>() = Matrix3::Identity() * turn_sigma * turn_sigma;
+    truth = truth * step;
+    std::vector<Observation> seen;
+    for (std::size_t i = 0; i < landmarks.size(); ++i) {
+      const Vector3 y = truth.inverse() * landmarks[i];
+      if (y.norm() > 9.0 || seen.size() == 16) continue;
+      Observation observation{i, {}, {}};
+      const Vector3 z = y + 0.1 * random.normal_vector<3>();
+      for (int d = 0; d < 3; ++d) {
+        observation.z[d] = z(d);
+        observation.covariance[4 * d] = 0.01;
+      }
+      seen.push_back(observation);
+    }
+    visit(increment, seen);
+  }
+}
+
+void feed(Filter& filter, const Increment<SE3>& increment, const std::vector<Observation>& seen) {
+  filter.propagate(increment);
+  std::copy(seen.begin(), seen.end(), filter.staging());
+  filter.update(0, static_cast<Index>(seen.size()));
+}
+
+double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return (a - b).norm() / (1e-300 + b.norm()); }
+
+void compare(ErrorKind error, JoinKind join, double tolerance) {
+  Vehicle single(options_of(error, 0, join)), submaps(options_of(error, 9, join));
+  drive(0.0, [&](const Increment<SE3>& increment, const std::vector<Observation>& seen) {
+    feed(single.filter, increment, seen);
+    feed(submaps.filter, increment, seen);
+  });
+  REQUIRE(submaps.filter.closing().submaps >= 5);
+  if (submaps.filter.size() > 0) submaps.filter.close_submap();
+  CHECK(!submaps.filter.closing().failed);
+  const Landmarks &a = single.filter.landmarks(), &b = submaps.filter.landmarks();
+  REQUIRE(a.size() == b.size());
+  std::vector<std::size_t> in_a, in_b;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t j = 0;
+    REQUIRE(b.find(a.id(i), j));
+    in_a.push_back(i);
+    in_b.push_back(j);
+    CHECK((a.position(i) - b.position(j)).norm() <= tolerance * a.position(i).norm());
+    CHECK(a.observations(i) == b.observations(j));
+  }
+  const auto size = static_cast<Eigen::Index>(6 + 3 * a.size());
+  Eigen::MatrixXd P(size, size), Q(size, size);
+  single.filter.pose_joint_covariance(in_a.data(), in_a.size(), P.data());
+  submaps.filter.pose_joint_covariance(in_b.data(), in_b.size(), Q.data());
+  CHECK(relative(Q, P) <= tolerance);
+  CHECK((single.filter.pose().translation() - submaps.filter.pose().translation()).norm() <= tolerance * 20);
+}
+
+}  // namespace
+
+TEST_CASE("dense joining: equal to a single map on a linear-Gaussian problem") {
+  SUBCASE("invariant") { compare(ErrorKind::invariant, JoinKind::dense, 1e-10); }
+  SUBCASE("standard") { compare(ErrorKind::standard, JoinKind::dense, 1e-10); }
+}
