@@ -142,20 +142,26 @@ def new_pose(name, value):
     return struct
 
 
-def report(type_name, ask):
-    """What a function that fills a struct with a struct_size tells, as a dictionary."""
+def sized(type_name):
+    """An empty struct that knows its size, for a function that fills it."""
     struct = ffi.new(f"{type_name} *")
     struct.struct_size = ffi.sizeof(type_name)
+    return struct
+
+
+def report(type_name, ask):
+    """What a function that fills a struct with a struct_size tells, as a dictionary."""
+    struct = sized(type_name)
     check(ask(struct))
     return as_dict(struct[0])
 
 
 def as_dict(struct):
-    """A struct's fields: numbers, arrays, and poses as cairn.Pose."""
+    """A struct's fields: numbers, arrays, and poses as cairn.Pose; pointers are left out."""
     from .pose import Pose
     result = {}
     for name, field in ffi.typeof(struct).fields:
-        if name.startswith(BOOKKEEPING):
+        if name.startswith(BOOKKEEPING) or field.type.kind == "pointer":
             continue
         value = getattr(struct, name)
         if field.type.kind == "array":

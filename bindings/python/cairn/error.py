@@ -20,10 +20,11 @@ class CairnError(Exception):
         return type(self), (self.status, self.message)
 
 
-def check(status):
-    """Raises the CairnError of a status that is an error. Called in the thread, and right after, the call failed."""
+def check(status, message="cairn_last_message"):
+    """Raises the CairnError of a status that is an error. Called in the thread, and right after, the call failed;
+    `message` is the function that tells of it."""
     if status != 0:
-        raise CairnError(status, ffi.string(lib.cairn_last_message()).decode(errors="replace"))
+        raise CairnError(status, ffi.string(getattr(lib, message)()).decode(errors="replace"))
 
 
 def closed(what):

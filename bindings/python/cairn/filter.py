@@ -103,29 +103,41 @@ class Filter(Handle):
 
     # Observations.
 
-    def update(self, sensor, ids, z, covariance=None):
+    def update(self, sensor, ids, z=None, covariance=None):
         """Takes in one frame of one sensor; all of it is one batch.
 
         ids: n landmark ids. z: n x 3 values in the sensor's units (custom: n x rows). covariance: the noise of each
-        observation, n x 3 x 3 (custom: n x rows x rows); None: the sensor's own.
+        observation, n x 3 x 3 (custom: n x rows x rows); None: the sensor's own. Or, all in one, an array of
+        observations with these three as fields, as a World hands them out.
         Gives n decisions: an array with the fields landmark, result (cairn.MATCHED, NEW, REJECTED), reason, distance and
         threshold (squared Mahalanobis distance and its bound).
         """
+        frame = self._frame(ids, z, covariance)
+        matches = np.zeros(len(frame), _structs.dtype("cairn_match"))
+        self._call(lib.cairn_filter_update, sensor, ffi.from_buffer("cairn_observation *", frame), len(frame),
+                   ffi.from_buffer("cairn_match *", matches))
+        return matches
+
+    @staticmethod
+    def _frame(ids, z, covariance):
+        layout = _structs.dtype("cairn_observation")
+        if z is None:
+            frame = np.asarray(ids)
+            if frame.dtype != layout or frame.ndim != 1 or covariance is not None:
+                raise TypeError("z is missing: only an array of observations stands alone")
+            return np.ascontiguousarray(frame)
         ids = _structs.identifiers("ids", ids)
         z = _structs.array("z", np.zeros((0, 3)) if len(ids) == 0 and np.size(z) == 0 else z, (len(ids), None))
         rows = z.shape[1]
         if not 1 <= rows <= 3:
             raise ValueError(f"z: 1 to 3 values an observation are wanted, not {rows}")
-        frame = np.zeros(len(ids), _structs.dtype("cairn_observation"))
+        frame = np.zeros(len(ids), layout)
         frame["id"] = ids
         frame["z"][:, :rows] = z
         if covariance is not None:
             packed = _structs.array("covariance", covariance, (len(ids), rows, rows)).reshape(len(ids), rows * rows)
             frame["covariance"].reshape(len(ids), 9)[:, : rows * rows] = packed
-        matches = np.zeros(len(ids), _structs.dtype("cairn_match"))
-        self._call(lib.cairn_filter_update, sensor, ffi.from_buffer("cairn_observation *", frame), len(ids),
-                   ffi.from_buffer("cairn_match *", matches))
-        return matches
+        return frame
 
     def _update_alone(self, function, *arguments):
         match = np.zeros(1, _structs.dtype("cairn_match"))

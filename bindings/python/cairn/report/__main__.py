@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""python -m cairn.report DIR [-o FILE]: one HTML page; --figures OUT: the Mars paper's figures."""
+import argparse
+import os
+import sys
+
+from . import page, run
+
+
+def pictures_of(runs):
+    """The paper's figures for the page of a comparison; none where matplotlib is missing, and it says so."""
+    from . import figures
+    try:
+        return figures.for_page(runs)
+    except ImportError as error:
+        print(f"cairn.report: the page goes without the paper's figures: {error}: pip install 'cairn[figures]'",
+              file=sys.stderr)
+        return ()
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(
+        prog="python -m cairn.report",
+        description="Makes one self-contained HTML page of a run's results, or pictures of them.")
+    parser.add_argument("folder", metavar="DIR", help="what 'cairn run --output DIR' or 'cairn simulate --output DIR' wrote")
+    parser.add_argument("-o", "--output", metavar="FILE", help="the page (default: DIR/report.html)")
+    parser.add_argument("--figures", metavar="OUT", help="write Figures 5 to 13 of the Mars paper into this folder instead")
+    parser.add_argument("--format", choices=("png", "svg"), default="png", help="of the figures (default: png)")
+    options = parser.parse_args(arguments)
+    try:
+        runs = run.read_folder(options.folder)
+        if options.figures:
+            from . import figures
+            for path in figures.write(runs, options.figures, options.format):
+                print(path)
+            return 0
+        text = page.build(options.folder, runs, pictures_of(runs) if len(runs) > 1 else ())
+        path = options.output or os.path.join(options.folder, "report.html")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        print(f"{path}: {len(text.encode()) / 1e6:.1f} MB")
+        return 0
+    except run.ReportError as error:
+        print(f"cairn.report: {error}", file=sys.stderr)
+    except ImportError as error:
+        print(f"cairn.report: the figures take matplotlib ({error}): pip install 'cairn[figures]'", file=sys.stderr)
+    except OSError as error:
+        print(f"cairn.report: {error}", file=sys.stderr)
+    return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page's curves, as plotly draws them: {"data": [...], "layout": {...}}."""
+import numpy as np
+
+from . import thin
+
+MOST = 2400  # points of a curve
+COLOURS = {"only": "#2563a8", "standard": "#c8641b", "submaps": "#2563a8"}
+BANDS = {"only": "rgba(37,99,168,0.16)", "standard": "rgba(200,100,27,0.14)", "submaps": "rgba(37,99,168,0.18)"}
+AXIS = {"gridcolor": "#e8e6e1", "zerolinecolor": "#cfccc4", "linecolor": "#cfccc4", "ticks": "outside", "ticklen": 4,
+        "tickcolor": "#cfccc4", "automargin": True}
+ERRORS = [("x", "error_x_m", "sigma3_x_m", "m", 1.0), ("y", "error_y_m", "sigma3_y_m", "m", 1.0),
+          ("z", "error_z_m", "sigma3_z_m", "m", 1.0),
+          ("roll: about the map's x", "error_dtheta_x_rad", "sigma3_dtheta_x_rad", "deg", np.degrees(1.0)),
+          ("pitch: about the map's y", "error_dtheta_y_rad", "sigma3_dtheta_y_rad", "deg", np.degrees(1.0)),
+          ("yaw: about the map's z", "error_dtheta_z_rad", "sigma3_dtheta_z_rad", "deg", np.degrees(1.0))]
+
+
+def key_of(runs, run):
+    return "only" if len(runs) == 1 else run.name
+
+
+def base_layout(height, y_title, x_title="time (s)", **more):
+    layout = {"height": height, "margin": {"l": 56, "r": 16, "t": 12, "b": 44}, "paper_bgcolor": "#ffffff",
+              "plot_bgcolor": "#ffffff", "font": {"family": "system-ui, sans-serif", "size": 12, "color": "#33312c"},
+              "xaxis": {**AXIS, "title": {"text": x_title}}, "yaxis": {**AXIS, "title": {"text": y_title}},
+              "hovermode": "closest", "showlegend": False}
+    layout.update(more)
+    return layout
+
+
+def line(x, y, colour, name, **more):
+    trace = {"type": "scatter", "mode": "lines", "x": thin.numbers(x, 3), "y": thin.significant(y, 5), "name": name,
+             "line": {"color": colour, "width": 1.4}}
+    trace.update(more)
+    return trace
+
+
+def band(x, low, high, fill, name):
+    """The area between two curves."""
+    return {"type": "scatter", "mode": "lines", "x": thin.numbers(np.concatenate([x, x[::-1]]), 3),
+            "y": thin.significant(np.concatenate([high, low[::-1]]), 4), "fill": "toself", "fillcolor": fill,
+            "line": {"width": 0}, "hoverinfo": "skip", "name": name}
+
+
+def errors(runs):
+    """One figure for each of the six errors inside their 3-sigma bands; empty where there is no truth."""
+    figures = []
+    for title, error_name, sigma_name, unit, scale in ERRORS:
+        bands, lines, inside = [], [], []
+        for run in runs:
+            error, sigma = run.trajectory.get(error_name), run.trajectory.get(sigma_name)
+            if error is None or np.isnan(error).all():
+                continue
+            key, times = key_of(runs, run), run.times()
+            label = "" if key == "only" else f"{key}: "
+            if sigma is not None and not np.isnan(sigma).all():
+                kept = thin.envelope(sigma, MOST)
+                bands.append(band(times[kept], -scale * sigma[kept], scale * sigma[kept], BANDS[key], f"{label}3 σ"))
+                judged = np.isfinite(error) & (sigma > 0)
+                if judged.any():
+                    share = np.mean(np.abs(error[judged]) <= sigma[judged])
+                    inside.append(f"{label}{100 * share:.1f} % inside 3 σ")
+            kept = thin.envelope(error, MOST)
+            lines.append(line(times[kept], scale * error[kept], COLOURS[key], f"{label}error"))
+        if lines:
+            figures.append({"title": title, "note": " · ".join(inside), "data": bands + lines,
+                            "layout": base_layout(230, unit)})
+    return figures
+
+
+def nis(runs):
+    """Normalised innovation squared over its degrees of freedom, in its 95 % band."""
+    traces, notes = [], []
+    for run in runs:
+        table = run.timing
+        if table is None or not {"nis", "nis_rows", "nis_lower", "nis_upper"} <= set(table):
+            continue
+        judged = np.isfinite(table["nis"]) & (table["nis_rows"] > 0)
+        if not judged.any():
+            continue
+        key = key_of(runs, run)
+        label = "" if key == "only" else f"{key}: "
+        rows, times = table["nis_rows"][judged], run.time_of_steps(table["step"][judged])
+        value, low, high = (table[name][judged] / rows for name in ("nis", "nis_lower", "nis_upper"))
+        share = np.mean((value >= low) & (value <= high))
+        notes.append(f"{label}{100 * share:.1f} % of the updates inside (95 % are expected), mean {value.mean():.3f} "
+                     "(1 is expected)")
+        kept = thin.evenly(len(value), MOST)
+        traces.insert(0, band(times[kept], low[kept], high[kept], BANDS[key], f"{label}95 % band"))
+        kept = thin.envelope(value, MOST)
+        traces.append(line(times[kept], value[kept], COLOURS[key], f"{label}NIS", mode="markers",
+                           marker={"size": 3, "color": COLOURS[key]}))
+    if not traces:
+        return None
+    return {"title": "Innovations (NIS over degrees of freedom)", "note": " · ".join(notes), "data": traces,
+            "layout": base_layout(280, "NIS / dof")}
+
+
+def step_time(runs):
+    """Time of each step on a logarithmic axis, closings marked."""
+    traces, notes = [], []
+    for run in runs:
+        table = run.timing
+        if table is None or "step_ms" not in table or len(table["step_ms"]) == 0:
+            continue
+        key = key_of(runs, run)
+        label = "" if key == "only" else f"{key}: "
+        taken, times = table["step_ms"], run.time_of_steps(table["step"])
+        kept = thin.envelope(taken, MOST)
+        traces.append(line(times[kept], taken[kept], COLOURS[key], f"{label}step", opacity=0.9))
+        note = f"{label}median {np.median(taken):.3g} ms, worst {taken.max():.3g} ms"
+        closings = np.isin(table["step"], run.closing_steps())
+        if closings.any():
+            shown = np.flatnonzero(closings)[thin.envelope(taken[closings], 600)]
+            traces.append(line(times[shown], taken[shown], "#b3261e", f"{label}a submap was closed", mode="markers",
+                               marker={"size": 6, "symbol": "triangle-down", "color": "#b3261e"}))
+            note += f", {int(closings.sum())} closings ▼"
+        notes.append(note)
+    if not traces:
+        return None
+    layout = base_layout(280, "ms")
+    layout["yaxis"].update(type="log", dtick="D2")
+    return {"title": "Time of a step", "note": " · ".join(notes), "data": traces, "layout": layout}
+
+
+def held(runs):
+    """Landmarks in the state of the filter."""
+    traces = []
+    for run in runs:
+        seen = run.observations
+        if not seen.held:
+            continue
+        key = key_of(runs, run)
+        times, count = run.time_of_steps(np.array(seen.held_step, float)), np.array(seen.held, float)
+        kept = thin.envelope(count, MOST)
+        traces.append(line(times[kept], count[kept], COLOURS[key], "landmarks" if key == "only" else key))
+    if not traces:
+        return None
+    note = "the squared number is what a step costs"
+    if any(run.closing_steps() for run in runs):
+        note += "; each submap starts anew"
+    return {"title": "Landmarks in the filter's state", "note": note, "data": traces, "layout": base_layout(280, "landmarks")}

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures 5 to 13 of the Mars paper's section 4, drawn by matplotlib from a comparison's two runs."""
+import io
+import os
+
+import matplotlib
+import numpy as np
+
+from . import scene
+from .run import ReportError
+
+matplotlib.use("Agg", force=True)
+from matplotlib import pyplot, ticker  # noqa: E402
+
+TRUTH, ESTIMATE, MARK, SEEN = "#d63f8f", "#1f4fd0", "#2e9b3d", "#d02626"  # the paper's: pink, blue, green, red
+SIDES = {"standard": "#c8641b", "submaps": "#2563a8"}
+STYLE = {"font.size": 9, "axes.grid": True, "grid.color": "#e4e1da", "axes.edgecolor": "#9a968c", "axes.titlesize": 10,
+         "legend.fontsize": 8, "legend.framealpha": 0.9, "svg.hashsalt": "cairn", "savefig.facecolor": "white"}
+CAPTIONS = {
+    5: "Figure 5: the terrain and the rover's true trajectory",
+    6: "Figure 6: true and estimated trajectory, standard EKF-SLAM",
+    7: "Figure 7: position error, standard EKF-SLAM",
+    8: "Figure 8: attitude error, standard EKF-SLAM",
+    9: "Figure 9: true and estimated trajectory, EKF-SLAM with submaps",
+    10: "Figure 10: position error, EKF-SLAM with submaps",
+    11: "Figure 11: attitude error, EKF-SLAM with submaps",
+    12: "Figure 12: standard deviation of the rover's position and azimuth in the open submap",
+    13: "Figure 13: landmarks in the state of the filter"}
+
+
+def _terrain(axes, table):
+    ground = scene.terrain(table)
+    if ground is None:
+        return
+    x, y = np.meshgrid(ground["x"], ground["y"])
+    z = np.array(ground["z"], dtype=float)
+    axes.plot_surface(x, y, z, cmap="copper", alpha=0.55, linewidth=0, antialiased=False, rasterized=True, rcount=80,
+                      ccount=80)
+
+
+def _flatten(axes):
+    """Axes x and y true to each other, heights five times as tall and more where the country is flat."""
+    axes.set_xlabel("x (m)", labelpad=6)
+    axes.set_ylabel("y (m)", labelpad=6)
+    axes.set_zlabel("z (m)", labelpad=-2)
+    axes.zaxis.set_major_locator(ticker.MaxNLocator(4))
+    axes.tick_params(axis="z", pad=1)
+    low, high = zip(axes.get_xlim3d(), axes.get_ylim3d(), axes.get_zlim3d())
+    size = np.array(high) - np.array(low)
+    axes.set_box_aspect((size[0], size[1], max(size[2] * 5, 0.25 * max(size[:2]))), zoom=1.15)
+    axes.view_init(elev=38, azim=-120)
+
+
+def terrain_and_truth(run):
+    figure = pyplot.figure(figsize=(6.4, 4.6))
+    axes = figure.add_subplot(projection="3d")
+    _terrain(axes, run.terrain)
+    truth = run.positions("true_")
+    path = run.positions() if truth is None else truth
+    lift = 0.3  # so that the ground does not hide the line
+    axes.plot(path[:, 0], path[:, 1], path[:, 2] + lift, color=TRUTH, linewidth=2, zorder=10,
+              label="true trajectory" if truth is not None else "estimated trajectory (no truth)")
+    axes.legend(loc="upper left")
+    _flatten(axes)
+    return figure
+
+
+def trajectories(run):
+    figure = pyplot.figure(figsize=(6.4, 4.6))
+    axes = figure.add_subplot(projection="3d")
+    truth, estimate = run.positions("true_"), run.positions()
+    if truth is not None:
+        axes.plot(*truth.T, color=TRUTH, linewidth=1.6, label="true trajectory")
+    axes.plot(*estimate.T, "--", color=ESTIMATE, linewidth=1.4, label="estimated trajectory")
+    marks = scene.Landmarks(run)
+    if marks.truth is not None:
+        axes.plot(*marks.truth.T, "*", color=MARK, markersize=4, alpha=0.7, label="landmarks (true)")
+    if marks.count:
+        axes.plot(*marks.points.T, "*", color=SEEN, markersize=4, alpha=0.7, label="landmarks (estimated)")
+    axes.legend(loc="upper left")
+    _flatten(axes)
+    return figure
+
+
+def _three(times, values, names, unit, bound, sigmas=None):
+    """Three curves, one below the other, each within the paper's bound."""
+    figure, rows = pyplot.subplots(3, 1, sharex=True, figsize=(6.4, 4.6))
+    for row, value, name, at in zip(rows, values.T, names, range(3)):
+        if sigmas is not None:
+            row.fill_between(times, -sigmas[:, at], sigmas[:, at], color="#dfe7f1", linewidth=0)
+        row.plot(times, value, color=ESTIMATE, linewidth=1.0)
+        row.set_ylabel(f"{name} ({unit})")
+        if bound is not None:
+            for side in (-bound, bound):
+                row.axhline(side, color=SEEN, linestyle=":", linewidth=1.0)
+    if bound is not None:
+        shaded = "" if sigmas is None else "shaded: 3 σ; "
+        rows[0].set_title(f"{shaded}dotted: the paper's bound, ±{bound:g} {unit}", loc="right", fontsize=8,
+                          color="#6d6a62")
+    rows[-1].set_xlabel("time (s)")
+    figure.align_ylabels(rows)
+    figure.tight_layout()
+    return figure
+
+
+def position_error(run, bound):
+    truth = run.positions("true_")
+    if truth is None:
+        return None
+    sigmas = [run.trajectory.get(f"sigma3_{axis}_m") for axis in "xyz"]
+    sigmas = None if any(sigma is None for sigma in sigmas) else np.stack(sigmas, axis=1)
+    return _three(run.times(), truth - run.positions(), "xyz", "m", bound, sigmas=sigmas)
+
+
+def attitude_error(run, bound):
+    error = run.euler_error()
+    if error is None:
+        return None
+    return _three(run.times(), np.degrees(error), ("roll", "pitch", "yaw"), "°", bound)
+
+
+def local_deviation(run):
+    """Of the local position and azimuth; None where the run did not write it."""
+    columns = [run.trajectory.get(name) for name in ("local_sigma3_x_m", "local_sigma3_y_m", "local_sigma3_yaw_rad")]
+    if any(column is None for column in columns):
+        return None
+    values = np.stack([columns[0] / 3, columns[1] / 3, np.degrees(columns[2]) / 3], axis=1)
+    figure, rows = pyplot.subplots(3, 1, sharex=True, figsize=(6.4, 4.6))
+    for row, value, name in zip(rows, values.T, ("σ of x (m)", "σ of y (m)", "σ of azimuth (°)")):
+        for step in run.closing_steps():
+            row.axvline(run.time_of_steps(step), color="#d8d4ca", linewidth=0.6)
+        row.plot(run.times(), value, color=ESTIMATE, linewidth=1.0)
+        row.set_ylabel(name)
+        row.set_ylim(bottom=0)
+    rows[0].set_title("upright lines: a submap was closed", loc="right", fontsize=8, color="#6d6a62")
+    rows[-1].set_xlabel("time (s)")
+    figure.align_ylabels(rows)
+    figure.tight_layout()
+    return figure
+
+
+def held(runs):
+    if not any(run.observations.held for run in runs):
+        return None
+    figure, axes = pyplot.subplots(figsize=(6.4, 4.2))
+    for run in runs:
+        if run.observations.held:
+            times = run.time_of_steps(np.array(run.observations.held_step, float))
+            axes.step(times, run.observations.held, where="post", linewidth=1.3, color=SIDES.get(run.name, ESTIMATE),
+                      label={"standard": "standard EKF-SLAM", "submaps": "SLAM with submaps"}.get(run.name, run.name))
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel("landmarks")
+    axes.set_ylim(bottom=0)
+    axes.legend()
+    figure.tight_layout()
+    return figure
+
+
+def draw(runs):
+    """(number, how to draw it) of each figure that these runs have; one run alone is standard or has submaps."""
+    sides = {run.name: run for run in runs} if len(runs) > 1 else {
+        "submaps" if runs[0].submaps is not None and len(runs[0].submaps["step"]) else "standard": runs[0]}
+    standard, submaps = sides.get("standard"), sides.get("submaps")
+    yield 5, lambda: terrain_and_truth(runs[-1])
+    if standard:
+        yield 6, lambda: trajectories(standard)
+        yield 7, lambda: position_error(standard, 1.0)
+        yield 8, lambda: attitude_error(standard, 0.5)
+    if submaps:
+        yield 9, lambda: trajectories(submaps)
+        yield 10, lambda: position_error(submaps, 1.0)
+        yield 11, lambda: attitude_error(submaps, 0.5)
+        yield 12, lambda: local_deviation(submaps)
+    yield 13, lambda: held(runs)
+
+
+def _rendered(runs, kind):
+    with pyplot.rc_context(STYLE):
+        for number, make in draw(runs):
+            figure = make()
+            if figure is None:
+                continue
+            content = io.BytesIO()
+            figure.savefig(content, format=kind, dpi=130, bbox_inches="tight", pad_inches=0.12,
+                           metadata={"Date": None} if kind == "svg" else None)
+            pyplot.close(figure)
+            yield number, content.getvalue()
+
+
+def for_page(runs):
+    """(caption, media type, bytes) of each figure."""
+    return [(CAPTIONS[number], "image/png", content) for number, content in _rendered(runs, "png")]
+
+
+def write(runs, folder, kind):
+    """Writes figure_05.png and so on; gives their paths."""
+    os.makedirs(folder, exist_ok=True)
+    paths = []
+    for number, content in _rendered(runs, kind):
+        paths.append(os.path.join(folder, f"figure_{number:02d}.{kind}"))
+        with open(paths[-1], "wb") as file:
+            file.write(content)
+    if not paths:
+        raise ReportError("there is nothing to draw")
+    return paths

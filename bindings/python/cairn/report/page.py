@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Puts the page together: one file, everything in it."""
+import base64
+import html
+import json
+import os
+
+from .. import __version__
+from . import curves, scene
+from .run import ReportError
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+MEANINGS = {
+    "steps": "steps of the run", "landmarks": "landmarks in the map at the end",
+    "observations": "observations given to the filter", "rejected": "observations that it refused",
+    "submaps": "submaps closed", "seconds": "time of the whole run, s", "filter_seconds": "time spent in the filter, s",
+    "step_ms_mean": "time of a step, mean, ms", "step_ms_second_half": "the same in the second half of the run, ms",
+    "step_ms_p99": "99 % of the steps take less, ms", "step_ms_worst": "slowest step, ms",
+    "closing_ms_worst": "slowest closing of a submap, ms", "peak_rss_mib": "largest memory of the process, MiB",
+    "pose_rmse_m": "position error, root mean square, online, m", "pose_final_m": "position error at the end, m",
+    "pose_max_m": "largest position error, m", "attitude_rmse_deg": "attitude error, root mean square, degrees",
+    "landmark_rmse_m": "landmarks' error at the end, root mean square, m",
+    "pose_anees_per_dof": "squared pose error over its variance: 1 for an honest filter",
+    "nis_per_dof": "squared innovation over its variance: 1 where the noise is as assumed",
+    "wrong_pairings": "observations paired with the wrong landmark"}
+CARDS = [("pose_rmse_m", "position error, rms", "m"), ("landmark_rmse_m", "landmark error, rms", "m"),
+         ("attitude_rmse_deg", "attitude error, rms", "°"), ("pose_anees_per_dof", "honesty of the pose (1 is right)", ""),
+         ("step_ms_mean", "time of a step", "ms"), ("landmarks", "landmarks", ""), ("submaps", "submaps", "")]
+FIGURE_SECTION = "The Mars paper’s figures"
+
+
+def number(value):
+    """A figure as a person writes it."""
+    if isinstance(value, str):
+        return html.escape(value)
+    if isinstance(value, int) or (abs(value) >= 1000 and value == round(value)):
+        return f"{int(value):,}".replace(",", "\u202f")
+    return f"{value:.4g}"
+
+
+def table(runs):
+    keys = [key for key in MEANINGS if any(key in run.summary for run in runs)]
+    keys += sorted({key for run in runs for key in run.summary} - set(MEANINGS))
+    if not keys:
+        return '<p class="note">There is no summary.json.</p>'
+    names = [""] if len(runs) == 1 else [run.name for run in runs]
+    head = "".join(f"<th>{html.escape(name)}</th>" for name in names)
+    rows = []
+    for key in keys:
+        cells = "".join(f"<td>{number(run.summary[key]) if key in run.summary else '–'}</td>" for run in runs)
+        rows.append(f'<tr><td><code>{html.escape(key)}</code></td>{cells}'
+                    f'<td class="meaning">{html.escape(MEANINGS.get(key, ""))}</td></tr>')
+    refused = [reason for run in runs for reason in run.observations.refused]
+    for reason in sorted(set(refused)):
+        cells = "".join(f"<td>{number(run.observations.refused.get(reason, 0))}</td>" for run in runs)
+        rows.append(f'<tr><td><code>rejected: {html.escape(reason)}</code></td>{cells}<td class="meaning"></td></tr>')
+    return ('<div class="scroll"><table><thead><tr><th></th>' + head + "<th></th></tr></thead><tbody>"
+            + "\n".join(rows) + "</tbody></table></div>")
+
+
+def cards(runs):
+    main, shown = runs[-1], []
+    for key, name, unit in CARDS:
+        if key not in main.summary or (key == "submaps" and not main.summary[key]):
+            continue
+        rival = ""
+        if len(runs) > 1 and key in runs[0].summary and key != "submaps":
+            rival = f'<div class="rival">{number(runs[0].summary[key])} {html.escape(runs[0].name)}</div>'
+        shown.append(f'<div class="card"><div class="value">{number(main.summary[key])} <span class="unit">{unit}</span></div>'
+                     f'<div class="name">{name}</div>{rival}</div>')
+    return f'<div class="cards">{"".join(shown)}</div>' if shown else ""
+
+
+def keys(runs):
+    """The legend of the curves."""
+    shown = []
+    for run in runs:
+        key = curves.key_of(runs, run)
+        label = "" if key == "only" else f"{html.escape(key)}: "
+        shown.append(f'<span><i style="background:{curves.COLOURS[key]}"></i>{label}error</span>'
+                     f'<span><i class="area" style="background:{curves.BANDS[key]}"></i>{label}3σ band</span>')
+    return f'<div class="keys">{"".join(shown)}</div>'
+
+
+def plot_block(curve, at):
+    note = f'<p class="note">{html.escape(curve["note"])}</p>' if curve["note"] else ""
+    return (f'<div><h3>{html.escape(curve["title"])}</h3>{note}'
+            f'<div id="curve{at}" class="plot" style="height:{curve["layout"]["height"]}px"></div></div>')
+
+
+def sections(runs, pictures):
+    """HTML of the sections below the scene, and the curves that they hold."""
+    found, blocks = [], []
+
+    def place(curve):
+        found.append(curve)
+        return plot_block(curve, len(found) - 1)
+
+    errors = curves.errors(runs)
+    if errors:
+        blocks.append(f'<section><h2>Errors, and what the filter says of them</h2>{keys(runs)}<div class="grid">'
+                      + "".join(place(curve) for curve in errors)
+                      + '</div><p class="note">Truth minus estimate of each step, as known right after that step. Attitude: '
+                      "rotation vector in the map’s axes.</p></section>")
+    others = [curve for curve in (curves.nis(runs), curves.step_time(runs), curves.held(runs)) if curve]
+    if others:
+        blocks.append('<section><h2>Consistency and cost</h2><div class="grid">' + "".join(map(place, others))
+                      + "</div></section>")
+    if pictures:
+        shown = "".join(f'<figure><img alt="{html.escape(caption)}" src="data:{kind};base64,'
+                        f'{base64.b64encode(content).decode()}"><figcaption>{html.escape(caption)}</figcaption></figure>'
+                        for caption, kind, content in pictures)
+        blocks.append(f'<section><h2>{FIGURE_SECTION}</h2><div class="grid">{shown}</div></section>')
+    return "\n".join(blocks), found
+
+
+def plotly_source():
+    try:
+        from plotly.offline import get_plotlyjs
+    except ImportError as error:
+        raise ReportError(f"the page takes plotly ({error}): pip install 'cairn[report]'") from None
+    return get_plotlyjs().replace("</script", "<\\/script")
+
+
+def build(folder, runs, pictures=()):
+    """The page of one run or of two, as text."""
+    title = os.path.basename(os.path.abspath(folder))
+    title = f"{title}: submaps beside one standard map" if len(runs) > 1 else title
+    main = runs[-1]
+    duration = main.times()[-1] - main.times()[0]
+    blocks, found = sections(runs, pictures)
+    data = {"scene": scene.build(runs), "curves": [{"data": curve["data"], "layout": curve["layout"]} for curve in found]}
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+    parts = {"TITLE": html.escape(title), "LEAD": f"{len(main.times())} steps, {duration:.1f} s",
+             "CARDS": cards(runs), "SECTIONS": blocks, "TABLE": table(runs), "VERSION": __version__,
+             "FOLDER": html.escape(folder), "STYLE": asset("page.css"), "SCRIPT": asset("page.js"), "DATA": text,
+             "PLOTLY": plotly_source()}
+    pieces = asset("page.html").split("@")
+    return "".join(parts[piece] if i % 2 else piece for i, piece in enumerate(pieces))
+
+
+def asset(name):
+    with open(os.path.join(HERE, name), encoding="utf-8") as file:
+        return file.read()

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads what a run left in its folder."""
+import csv
+import io
+import json
+import os
+
+import numpy as np
+
+WHOLE = {"id", "submap"}    # columns that a double would not hold exactly
+WORDS = {"reason", "result"}
+
+
+class ReportError(Exception):
+    """The folder can't be reported on; the message names the file and the cause."""
+
+
+def _column(name, cells):
+    if name in WHOLE:
+        return np.array([int(cell) for cell in cells], dtype=np.uint64)
+    if name in WORDS:
+        return np.array(cells, dtype=str)
+    return np.array([float(cell) if cell else np.nan for cell in cells])
+
+
+def _plain_table(header, body):
+    """The quick way for long tables of numbers alone."""
+    body = body.replace("\r", "").replace(",,", ",nan,").replace(",,", ",nan,").replace(",\n", ",nan\n")
+    if not body.strip():
+        return {name: np.zeros(0) for name in header}
+    values = np.loadtxt(io.StringIO(body), delimiter=",", ndmin=2)
+    if values.shape[1] != len(header):
+        raise ValueError(f"{values.shape[1]} fields under {len(header)} names")
+    return dict(zip(header, values.T.copy()))
+
+
+def read_table(path):
+    """A CSV file as a dictionary of columns (NaN where a field is empty), or None where there is no such file."""
+    try:
+        with open(path, newline="") as file:
+            header = file.readline().strip().split(",")
+            body = file.read()
+    except FileNotFoundError:
+        return None
+    except (OSError, UnicodeDecodeError) as error:
+        raise ReportError(f"{path}: it can't be read: {error}") from None
+    try:
+        if not (WHOLE | WORDS).intersection(header):
+            return _plain_table(header, body)
+        rows = [row for row in csv.reader(io.StringIO(body)) if row]
+        for number, row in enumerate(rows):
+            if len(row) != len(header):
+                raise ValueError(f"line {number + 2} has {len(row)} fields under {len(header)} names")
+        return {name: _column(name, [row[i] for row in rows]) for i, name in enumerate(header)}
+    except ValueError as error:
+        raise ReportError(f"{path}: it is no table of numbers: {error}") from None
+
+
+class Observations:
+    """What innovations.csv tells: when a landmark was seen first, how many were refused and why, and how many landmarks
+    the filter held at each step."""
+
+    def __init__(self, path, closing_steps):
+        self.first_step = {}   # of each landmark id
+        self.refused = {}      # number by reason
+        self.total = 0
+        self.held_step, self.held = [], []  # distinct landmarks taken in since the last closing
+        closings = sorted(closing_steps)
+        held, closed, step = set(), 0, None
+        try:
+            with open(path) as file:
+                columns = {name: i for i, name in enumerate(file.readline().strip().split(","))}
+                if not {"step", "id", "result", "reason"} <= set(columns):
+                    raise ReportError(f"{path}: it lacks one of the columns step, id, result, reason")
+                at = [columns[name] for name in ("step", "id", "result", "reason")]
+                for line in file:
+                    fields = line.rstrip("\n").split(",")
+                    now, name, result, reason = (fields[i] for i in at)
+                    now = int(now)
+                    if now != step:
+                        if step is not None:
+                            self.held_step.append(step)
+                            self.held.append(len(held))
+                        step = now
+                        while closed < len(closings) and closings[closed] < now:
+                            closed += 1
+                            held = set()
+                    self.total += 1
+                    if result == "rejected":
+                        self.refused[reason] = self.refused.get(reason, 0) + 1
+                    elif name:
+                        held.add(name)
+                        self.first_step.setdefault(int(name), now)
+                if step is not None:
+                    self.held_step.append(step)
+                    self.held.append(len(held))
+        except FileNotFoundError:
+            pass
+        except (OSError, ValueError, IndexError) as error:
+            raise ReportError(f"{path}: it is no table of observations: {error}") from None
+
+
+class Run:
+    """The files of one run. Tables that are absent are None."""
+
+    def __init__(self, folder, name=None):
+        self.folder = folder
+        self.name = name or os.path.basename(os.path.abspath(folder))
+        self.trajectory = self._table("trajectory")
+        if self.trajectory is None:
+            raise ReportError(f"{folder}: there is no trajectory.csv: name the folder that 'cairn run --output' wrote")
+        for column in ("step", "t_s", "x_m", "y_m", "z_m"):
+            if column not in self.trajectory:
+                raise ReportError(f"{os.path.join(folder, 'trajectory.csv')}: it has no column {column}")
+        if len(self.trajectory["step"]) == 0:
+            raise ReportError(f"{os.path.join(folder, 'trajectory.csv')}: it has no steps")
+        self.landmarks = self._table("landmarks")
+        self.timing = self._table("timing")
+        self.submaps = self._table("submaps")
+        self.terrain = self._table("terrain")
+        self.summary = self._json("summary")
+        self.members = self._members()
+        self.observations = Observations(self._path("innovations.csv"), self.closing_steps())
+
+    def _path(self, file):
+        return os.path.join(self.folder, file)
+
+    def _table(self, name):
+        return read_table(self._path(name + ".csv"))
+
+    def _json(self, name):
+        try:
+            with open(self._path(name + ".json")) as file:
+                found = json.load(file)
+        except FileNotFoundError:
+            return {}
+        except (OSError, ValueError) as error:
+            raise ReportError(f"{self._path(name + '.json')}: it can't be read: {error}") from None
+        return {key: value for key, value in found.items() if isinstance(value, (int, float, str))}
+
+    def _members(self):
+        """Ids of each submap's landmarks, by submap."""
+        table = self._table("submap_landmarks")
+        members = {}
+        if table is not None:
+            for submap, landmark in zip(table["submap"].tolist(), table["id"].tolist()):
+                members.setdefault(submap, []).append(landmark)
+        return members
+
+    def closing_steps(self):
+        return [] if self.submaps is None else [int(step) for step in self.submaps["step"]]
+
+    def positions(self, prefix=""):
+        """Positions (n x 3), m; prefix "true_" for the true ones, None where there is none."""
+        columns = [self.trajectory.get(f"{prefix}{axis}_m") for axis in "xyz"]
+        if any(column is None for column in columns):
+            return None
+        found = np.stack(columns, axis=1)
+        return None if np.isnan(found).all() else found
+
+    def times(self):
+        return self.trajectory["t_s"]
+
+    def time_of_steps(self, steps):
+        return np.interp(steps, self.trajectory["step"], self.trajectory["t_s"])
+
+    def euler_error(self):
+        """True minus estimated roll, pitch and yaw (n x 3), rad, or None."""
+        columns = []
+        for angle in ("roll_rad", "pitch_rad", "yaw_rad"):
+            true, estimate = self.trajectory.get("true_" + angle), self.trajectory.get(angle)
+            if true is None or estimate is None or np.isnan(true).all():
+                return None
+            columns.append((true - estimate + np.pi) % (2 * np.pi) - np.pi)
+        return np.stack(columns, axis=1)
+
+
+def read_folder(folder):
+    """The runs of a folder: one, or `standard` and `submaps` of a comparison."""
+    if not os.path.isdir(folder):
+        raise ReportError(f"{folder}: there is no such folder")
+    parts = [name for name in ("standard", "submaps") if os.path.isdir(os.path.join(folder, name))]
+    if len(parts) == 2:
+        return [Run(os.path.join(folder, name), name) for name in parts]
+    return [Run(folder)]

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Ellipsoids and outlines."""
+import functools
+
+import numpy as np
+
+
+@functools.lru_cache(maxsize=None)
+def sphere():
+    """A unit sphere of 42 vertices and 80 triangles: an icosahedron, split once. Vertices and triangles."""
+    golden = (1 + 5 ** 0.5) / 2
+    vertices = [v for a in (-1, 1) for b in (-golden, golden) for v in ((0, a, b), (a, b, 0), (b, 0, a))]
+    vertices = np.array(vertices) / np.hypot(1, golden)
+    near = np.linalg.norm(vertices[:, None] - vertices[None], axis=2) < 1.1
+    triangles = [(i, j, k) for i in range(12) for j in range(i + 1, 12) for k in range(j + 1, 12)
+                 if near[i, j] and near[j, k] and near[i, k]]
+    points, index, split = list(map(tuple, vertices)), {}, []
+
+    def middle(i, j):
+        key = (min(i, j), max(i, j))
+        if key not in index:
+            point = np.array(points[i]) + np.array(points[j])
+            index[key] = len(points)
+            points.append(tuple(point / np.linalg.norm(point)))
+        return index[key]
+
+    for i, j, k in triangles:
+        a, b, c = middle(i, j), middle(j, k), middle(k, i)
+        split += [(i, a, c), (j, a, b), (k, b, c), (a, b, c)]
+    return np.array(points), np.array(split)
+
+
+def ellipsoid(centre, covariance, sigmas=3.0):
+    """Vertices (42 x 3) of the surface of so many standard deviations."""
+    variances, axes = np.linalg.eigh(covariance)
+    lengths = sigmas * np.sqrt(np.maximum(variances, 0.0))
+    return centre + (sphere()[0] * lengths) @ axes.T
+
+
+def outline(points):
+    """Convex hull seen from above, (n x 3), closed: the first point comes again at the end."""
+    points = np.unique(np.asarray(points, dtype=float), axis=0)
+    if len(points) > 2:
+        def chain(ordered):
+            kept = []
+            for point in ordered:
+                while len(kept) > 1:
+                    a, b = kept[-1] - kept[-2], point - kept[-2]
+                    if a[0] * b[1] - a[1] * b[0] > 0:
+                        break
+                    kept.pop()
+                kept.append(point)
+            return kept[:-1]
+
+        points = np.array(chain(points) + chain(points[::-1]))
+    return np.vstack([points, points[:1]]) if len(points) else points.reshape(0, 3)
