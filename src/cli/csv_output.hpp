@@ -6,10 +6,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "cli/options.hpp"
 #include "cli/runner.hpp"
 #include "cli/summary.hpp"
-#include "io/log.hpp"
 
 namespace cairn::cli {
 
@@ -37,25 +38,40 @@ class OutputFile {
   bool row_begun_ = false;
 };
 
+// Creates a folder where there is none. Throws UsageError.
+void create_folder(const std::string& folder);
+
 class CsvOutput {
  public:
   // Creates the folder where there is none, and the files. Throws UsageError.
-  CsvOutput(const io::Log& log, const std::string& folder);
+  CsvOutput(const Drive& drive, const std::string& folder);
 
-  void add(const StepResult& result, const std::optional<PoseScore>& score);
-  void finish(const cairn_filter* filter, const Summary& summary);
+  void add(const DriveStep& step, const StepResult& result, const std::optional<PoseScore>& score);
+  // After the summary's own `finish`.
+  void finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing,
+              const Summary& summary);
 
  private:
-  void add_trajectory(const io::Step& step, const StepResult& result, const std::optional<PoseScore>& score);
-  void add_innovations(const io::Step& step, const StepResult& result);
-  void add_timing(const io::Step& step, const StepResult& result);
-  void write_landmarks(const cairn_filter* filter);
+  // What is known of a submap when it is closed; where it lies, the end of the run knows best.
+  struct Closed {
+    std::uint64_t step;
+    cairn_closing_report report;
+  };
 
-  const io::Log& log_;
+  void add_trajectory(const DriveStep& step, const StepResult& result, const std::optional<PoseScore>& score);
+  void add_innovations(const DriveStep& step, const StepResult& result);
+  void add_timing(const DriveStep& step, const StepResult& result);
+  void write_landmarks(const cairn_filter* filter);
+  void write_submaps(const cairn_filter* filter);
+  void write_terrain(const cairn_world* world);
+
+  const Drive& drive_;
   std::string folder_;
   OutputFile trajectory_;
   OutputFile innovations_;
   OutputFile timing_;
+  std::uint64_t last_step_ = 0;
+  std::vector<Closed> closed_;
 };
 
 }  // namespace cairn::cli

@@ -1,136 +1,114 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/options.hpp"
 
-#include <charconv>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <system_error>
+#include "cli/library.hpp"
 
 namespace cairn::cli {
 namespace {
 
-struct Option {
-  const char* name;
-  bool takes_value;
-  std::function<void(const std::string& value)> set;
-};
-
-[[noreturn]] void reject(const char* name, const std::string& value, const std::string& expected) {
-  throw UsageError("option " + std::string(name) + ": '" + value + "' is not " + expected);
+OptionTable run_table(RunOptions& o) {
+  OptionTable table;
+  add_common_options(table, o.common);  // a log is no game of chance: the seed is checked, and not used
+  add_filter_options(table, o.filter);
+  table.push_back(number("--min-disparity", Range::kPositive, o.camera.min_disparity));
+  table.push_back(number("--min-disparity-sigmas", Range::kNotNegative, o.camera.min_disparity_sigmas));
+  table.push_back(number("--pixel-noise", Range::kPositive, o.noise.pixel));
+  table.push_back(number("--velocity-noise", Range::kPositive, o.noise.velocity));
+  table.push_back(number("--rate-noise", Range::kPositive, o.noise.rate));
+  return table;
 }
 
-std::uint64_t parse_whole(const char* name, const std::string& value, std::uint64_t low, std::uint64_t high) {
-  std::uint64_t number = 0;
-  const char* end = value.data() + value.size();
-  const auto [stop, error] = std::from_chars(value.data(), end, number);
-  if (error != std::errc() || stop != end || number < low || number > high) {
-    const bool bounded = high < std::numeric_limits<std::uint32_t>::max();
-    reject(name, value,
-           "a whole number " + (bounded ? "from " + std::to_string(low) + " to " + std::to_string(high)
-                                        : "of " + std::to_string(low) + " or more"));
-  }
-  return number;
+// --drive knows a third way: the wheels alone.
+Option drive_option(SimulateOptions& o) {
+  static_assert(CAIRN_DRIVE_TWIST == 0 && CAIRN_DRIVE_WHEELS_GYRO == 1);
+  return {"--drive", true, [&o](const std::string& v) {
+            constexpr std::int32_t kWheels = 2;
+            std::int32_t drive = 0;
+            choice("--drive", {"twist", "wheels-gyro", "wheels"}, drive).set(v);
+            o.by_wheels = drive == kWheels;
+            o.world.drive = o.by_wheels ? CAIRN_DRIVE_TWIST : drive;
+          }};
 }
 
-enum class Range { kPositive, kNotNegative, kProbability };  // the last without 0
-
-double parse_number(const char* name, const std::string& value, Range range) {
-  double number = 0;
-  const char* end = value.data() + value.size();
-  const auto [stop, error] = std::from_chars(value.data(), end, number);
-  const bool low_enough = range == Range::kNotNegative ? number >= 0 : number > 0;
-  const bool high_enough = range == Range::kProbability ? number <= 1 : std::isfinite(number);
-  if (error != std::errc() || stop != end || !low_enough || !high_enough) {
-    static constexpr const char* kExpected[] = {"a number above 0", "a number of 0 or more",
-                                                "a probability above 0, up to 1"};
-    reject(name, value, kExpected[static_cast<int>(range)]);
-  }
-  return number;
+Option preset_option(SimulateOptions& o) {
+  return {"--preset", true, [&o](const std::string& v) {
+            std::int32_t preset = 0;
+            choice("--preset", {"paper", "row1", "row2", "row3", "row4"}, preset).set(v);
+            check_sim(cairn_world_options_preset(&o.world, preset, &o.filter.submap_landmarks));
+          }};
 }
 
-std::vector<Option> run_option_table(RunOptions& o) {
-  const auto number = [](const char* name, Range range, std::optional<double>& target) {
-    return Option{name, true, [=, &target](const std::string& v) { target = parse_number(name, v, range); }};
-  };
-  const auto whole = [](const char* name, std::uint32_t low, std::uint32_t high, std::optional<std::uint32_t>& target) {
-    return Option{name, true, [=, &target](const std::string& v) {
-                    target = static_cast<std::uint32_t>(parse_whole(name, v, low, high));
-                  }};
-  };
-  constexpr std::uint64_t kAnyWhole = std::numeric_limits<std::uint64_t>::max();
-  return {
-      {"--help", false, [&o](const std::string&) { o.help = true; }},
-      {"--quiet", false, [&o](const std::string&) { o.quiet = true; }},
-      {"--single-map", false, [](const std::string&) {}},  // the only way there is: nothing to set
-      {"--summary", true,
-       [&o](const std::string& v) {
-         if (v != "json") reject("--summary", v, "json");
-         o.json = true;
-       }},
-      {"--output", true,
-       [&o](const std::string& v) {
-         if (v.empty()) reject("--output", v, "a folder");
-         o.output = v;
-       }},
-      {"--error", true,
-       [&o](const std::string& v) {
-         if (v != "standard" && v != "invariant") reject("--error", v, "standard or invariant");
-         o.error = v == "standard" ? CAIRN_ERROR_STANDARD : CAIRN_ERROR_INVARIANT;
-       }},
-      // A log is no game of chance: the seed is checked, so that a script may pass it everywhere, and not used.
-      {"--seed", true, [](const std::string& v) { parse_whole("--seed", v, 0, kAnyWhole); }},
-      {"--forget-after", true,
-       [&o](const std::string& v) { o.forget_after = parse_whole("--forget-after", v, 0, kAnyWhole); }},
-      number("--gate", Range::kProbability, o.gate),
-      number("--batch-gate", Range::kProbability, o.batch_gate),
-      whole("--iterations", 1, 50, o.iterations),
-      whole("--max-landmarks", 1, 30000, o.max_landmarks),
-      number("--min-disparity", Range::kPositive, o.min_disparity),
-      number("--min-disparity-sigmas", Range::kNotNegative, o.min_disparity_sigmas),
-      number("--pixel-noise", Range::kPositive, o.noise.pixel),
-      number("--velocity-noise", Range::kPositive, o.noise.velocity),
-      number("--rate-noise", Range::kPositive, o.noise.rate),
-  };
+void add_world_options(OptionTable& table, SimulateOptions& o) {
+  cairn_world_options& w = o.world;
+  table.push_back(preset_option(o));
+  table.push_back(choice("--course", {"circle", "laps", "traverse"}, w.course));
+  table.push_back(whole("--landmarks", 1, 10000000, w.landmarks));
+  table.push_back({"--closed", false, [&w](const std::string&) { w.traverse_closed = 1; }});
+  table.push_back(number("--speed", Range::kPositive, w.speed));
+  table.push_back(number("--laps", Range::kPositive, w.laps));
+  table.push_back(number("--radius", Range::kPositive, w.radius));
+  table.push_back(number("--start-azimuth", Range::kAny, w.start_azimuth));
+  table.push_back(number("--round-length", Range::kPositive, w.round_length));
+  table.push_back(choice("--terrain", {"rolling", "waves", "flat"}, w.terrain));
+  table.push_back(number("--max-slope", Range::kNotNegative, w.max_slope));
+  table.push_back(choice("--contact", {"wheels", "point"}, w.contact));
+  table.push_back(drive_option(o));
+  table.push_back(choice("--accelerometer", {"velocity", "acceleration"}, w.accelerometer));
+  table.push_back(choice("--stick", {"per-observation", "per-frame"}, w.stick_noise));
+  table.push_back(number("--velocity-noise", Range::kNotNegative, w.velocity_sigma));
+  table.push_back(number("--rate-noise", Range::kNotNegative, w.rate_sigma));
+  table.push_back(number("--wheel-noise", Range::kNotNegative, w.wheel_rate_sigma));
+  table.push_back(number("--wheel-slip", Range::kNotNegative, w.wheel_slip_sigma));
+  table.push_back(number("--range-noise", Range::kPositive, w.range_sigma));
+  table.push_back(number("--azimuth-noise", Range::kPositive, w.azimuth_sigma));
+  table.push_back(number("--stick-noise", Range::kPositive, w.stick_sigma));
+  table.push_back(number("--near-range", Range::kPositive, w.near_range));
+  table.push_back(number("--far-range", Range::kPositive, w.far_range));
+  table.push_back(number("--half-azimuth", Range::kPositive, w.half_azimuth));
+  table.push_back(number("--pan-scan", Range::kNotNegative, w.pan_amplitude));
+  table.push_back(number("--stick-scan", Range::kNotNegative, w.stick_amplitude));
+  table.push_back(number("--imu-period", Range::kPositive, w.imu_period));
+  table.push_back(number("--motion-period", Range::kPositive, w.motion_period));
+  table.push_back(number("--frame-period", Range::kPositive, w.frame_period));
 }
 
 }  // namespace
 
 RunOptions parse_run_options(const std::vector<std::string>& arguments) {
   RunOptions options;
-  const std::vector<Option> table = run_option_table(options);
-  bool only_files = false;  // after --
   bool has_log = false;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& argument = arguments[i];
-    if (!only_files && argument == "--") {
-      only_files = true;
-      continue;
-    }
-    if (only_files || argument.size() < 2 || argument[0] != '-') {
-      if (has_log) throw UsageError("one log at a time: '" + argument + "' is a second one");
-      options.log = argument;
-      has_log = true;
-      continue;
-    }
-    const std::size_t equals = argument.find('=');
-    const std::string name = argument == "-h" ? "--help" : argument.substr(0, equals);
-    const Option* option = nullptr;
-    for (const Option& candidate : table) {
-      if (name == candidate.name) option = &candidate;
-    }
-    if (option == nullptr) throw UsageError("unknown option '" + name + "' (see cairn run --help)");
-    if (!option->takes_value) {
-      if (equals != std::string::npos) throw UsageError("option " + name + " takes no value");
-      option->set("");
-    } else if (equals != std::string::npos) {
-      option->set(argument.substr(equals + 1));
-    } else {
-      if (i + 1 == arguments.size()) throw UsageError("option " + name + " needs a value");
-      option->set(arguments[++i]);
-    }
-  }
-  if (!options.help && options.log.empty()) throw UsageError("no log given (usage: cairn run LOG [options])");
+  parse(arguments, run_table(options), "run", [&](const std::string& word) {
+    if (has_log) throw UsageError("one log at a time: '" + word + "' is a second one");
+    options.log = word;
+    has_log = true;
+  });
+  if (!options.common.help && options.log.empty()) throw UsageError("no log given (usage: cairn run LOG [options])");
+  return options;
+}
+
+SimulateOptions parse_simulate_options(const std::vector<std::string>& arguments) {
+  SimulateOptions options;
+  check_sim(cairn_world_options_init(&options.world, sizeof options.world));
+  options.filter.gate = options.filter.batch_gate = 1;  // a world has no outliers
+  OptionTable table;
+  add_common_options(table, options.common);
+  add_filter_options(table, options.filter);
+  add_world_options(table, options);
+  table.push_back(flag("--compare", options.compare));
+  table.push_back(whole("--runs", 1, 100000, options.runs));
+  std::string scenario;
+  parse(
+      arguments, table, "simulate",
+      [&](const std::string& word) {
+        if (!scenario.empty()) throw UsageError("one scenario at a time: '" + word + "' is a second one");
+        if (word != "mars") throw UsageError("unknown scenario '" + word + "': this version knows mars");
+        scenario = word;
+      },
+      "--preset");
+  if (options.common.help) return options;
+  if (scenario.empty()) throw UsageError("no scenario given (usage: cairn simulate mars [options])");
+  if (options.compare && options.filter.submap_landmarks == 0)
+    throw UsageError("option --compare runs a single map and submaps: it can't be had with --single-map");
   return options;
 }
 

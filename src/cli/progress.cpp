@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -27,7 +28,7 @@ void Progress::show(std::size_t done) {
   const auto now = std::chrono::steady_clock::now();
   if (terminal_) {
     if (now - last_ < kBarPeriod) return;
-    const std::size_t filled = kBarWidth * done / steps_;
+    const std::size_t filled = std::min(kBarWidth, kBarWidth * done / steps_);  // runs may differ in length
     std::fprintf(stderr, "\r[%s%s] %zu/%zu", std::string(filled, '#').c_str(),
                  std::string(kBarWidth - filled, ' ').c_str(), done, steps_);
     drawn_ = true;

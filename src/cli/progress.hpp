@@ -15,9 +15,11 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void show(std::size_t done);
+  void advance() { show(++done_); }
 
  private:
   std::size_t steps_;
+  std::size_t done_ = 0;
   bool quiet_;
   bool terminal_;
   bool drawn_ = false;

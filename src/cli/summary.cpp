@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
+
+#include "cli/library.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -28,24 +29,18 @@ double peak_rss_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts it in KiB
 }
 
-std::string format(const Figure& figure) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, figure.whole ? "%.0f" : "%.9g", figure.value);
-  return buffer;
-}
-
 }  // namespace
 
-std::optional<PoseScore> score_pose(const cairn_filter* filter, const io::Step& step, const cairn_pose& estimate) {
+std::optional<PoseScore> score_pose(const cairn_filter* filter, const DriveStep& step, const cairn_pose& estimate) {
   if (!step.truth) return std::nullopt;
   PoseScore score{};
-  if (cairn_pose_error(&*step.truth, &estimate, score.error) != CAIRN_OK) throw LibraryError(cairn_last_message());
+  check(cairn_pose_error(&*step.truth, &estimate, score.error));
   double nees = 0;
   const cairn_status status = cairn_filter_pose_nees(filter, &*step.truth, &nees);
   if (status == CAIRN_OK) {
     score.nees = nees;
   } else if (status != CAIRN_ERROR_NUMERICAL) {  // singular covariance, as at the known start: no score
-    throw LibraryError(cairn_last_message());
+    check(status);
   }
   return score;
 }
@@ -56,43 +51,66 @@ std::vector<cairn_landmark> map_landmarks(const cairn_filter* filter) {
   cairn_status status = cairn_map_size(map, &count);
   std::vector<cairn_landmark> landmarks(count);
   if (status == CAIRN_OK && count > 0) status = cairn_map_landmarks(map, landmarks.data(), count, &count);
-  if (status != CAIRN_OK) throw LibraryError(cairn_last_message());
+  check(status);
   return landmarks;
 }
 
-void Summary::add(const StepResult& result, const std::optional<PoseScore>& score) {
+void Summary::add(const DriveStep& step, const StepResult& result, const std::optional<PoseScore>& score) {
   step_seconds_.push_back(result.seconds);
   observations_ += result.matches.size();
   for (const cairn_match& match : result.matches) rejected_ += match.result == CAIRN_REJECTED;
   nis_sum_ += result.report.nis;
   nis_rows_ += result.report.rows;
+  const auto held = static_cast<double>(result.filter_landmarks);
+  filter_landmarks_most_ = std::max(filter_landmarks_most_, result.filter_landmarks);
+  filter_landmarks_sum_ += held;
+  filter_landmarks_square_sum_ += held * held;
+  if (result.closing) add_closing(*result.closing);
+  last_truth_ = step.truth;
   if (!score) return;
   ++scored_;
   const double position = square_norm(score->error);
   position_square_sum_ += position;
   position_last_ = std::sqrt(position);
   position_worst_ = std::max(position_worst_, position_last_);
-  attitude_square_sum_ += square_norm(score->error + 3);
+  const double attitude = square_norm(score->error + 3);
+  attitude_square_sum_ += attitude;
+  attitude_last_ = std::sqrt(attitude);
+  for (int axis = 0; axis < 3; ++axis) {
+    position_worst_axis_ = std::max(position_worst_axis_, std::abs(score->error[axis]));
+    attitude_worst_axis_ = std::max(attitude_worst_axis_, std::abs(score->error[3 + axis]));
+  }
   if (score->nees) {
     ++nees_count_;
     nees_sum_ += *score->nees;
   }
 }
 
+void Summary::add_closing(const cairn_closing_report& closing) {
+  ++submaps_;
+  closing_worst_ = std::max(closing_worst_, closing.seconds);
+}
+
 void Summary::measure(const char* key, double value) {
   if (std::isfinite(value)) figures_.push_back({key, value, false});  // JSON knows no other numbers
 }
 
-void Summary::finish(const cairn_filter* filter, double seconds) {
+void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing,
+                     double seconds) {
+  if (last_closing) {
+    add_closing(*last_closing);
+    closing_outside_ = last_closing->seconds;
+  }
   const std::vector<cairn_landmark> landmarks = map_landmarks(filter);
   count("steps", step_seconds_.size());
   count("landmarks", landmarks.size());
   count("observations", observations_);
   count("rejected", rejected_);
+  count("submaps", submaps_);
   measure("seconds", seconds);
   finish_timing();
   measure("peak_rss_mib", peak_rss_mib());
-  finish_pose();
+  finish_pose(filter);
   finish_landmarks(landmarks);
   if (nees_count_ > 0) measure("pose_anees_per_dof", nees_sum_ / static_cast<double>(nees_count_) / kPoseDimension);
   if (nis_rows_ > 0) measure("nis_per_dof", nis_sum_ / static_cast<double>(nis_rows_));
@@ -100,6 +118,8 @@ void Summary::finish(const cairn_filter* filter, double seconds) {
 
 void Summary::finish_timing() {
   if (step_seconds_.empty()) return;
+  const double steps_sum = std::accumulate(step_seconds_.cbegin(), step_seconds_.cend(), 0.0);
+  measure("filter_seconds", steps_sum + closing_outside_);
   std::vector<double> sorted = step_seconds_;
   std::sort(sorted.begin(), sorted.end());
   const std::size_t count = sorted.size();
@@ -109,46 +129,41 @@ void Summary::finish_timing() {
   measure("step_ms_second_half", 1e3 * mean(middle, step_seconds_.cend()));
   measure("step_ms_p99", 1e3 * sorted[p99]);
   measure("step_ms_worst", 1e3 * sorted.back());
+  if (submaps_ > 0) measure("closing_ms_worst", 1e3 * closing_worst_);
+  this->count("filter_landmarks_max", filter_landmarks_most_);
+  measure("filter_landmarks_mean", filter_landmarks_sum_ / static_cast<double>(count));
+  measure("filter_landmarks_rms", std::sqrt(filter_landmarks_square_sum_ / static_cast<double>(count)));
 }
 
-void Summary::finish_pose() {
+void Summary::finish_pose(const cairn_filter* filter) {
   if (scored_ == 0) return;
   const auto count = static_cast<double>(scored_);
   measure("pose_rmse_m", std::sqrt(position_square_sum_ / count));
   measure("pose_final_m", position_last_);
   measure("pose_max_m", position_worst_);
+  measure("pose_axis_max_m", position_worst_axis_);
   measure("attitude_rmse_deg", kDegreesPerRadian * std::sqrt(attitude_square_sum_ / count));
+  measure("attitude_final_deg", kDegreesPerRadian * attitude_last_);
+  measure("attitude_axis_max_deg", kDegreesPerRadian * attitude_worst_axis_);
+  if (!last_truth_) return;
+  cairn_pose pose;  // once all submaps are closed
+  double error[6];
+  check(cairn_filter_pose(filter, &pose, nullptr));
+  check(cairn_pose_error(&*last_truth_, &pose, error));
+  measure("pose_end_m", std::sqrt(square_norm(error)));
+  measure("attitude_end_deg", kDegreesPerRadian * std::sqrt(square_norm(error + 3)));
 }
 
 void Summary::finish_landmarks(const std::vector<cairn_landmark>& landmarks) {
   double sum = 0;
   std::size_t known = 0;
   for (const cairn_landmark& landmark : landmarks) {
-    const auto truth = log_.landmarks.find(landmark.id);
-    if (truth == log_.landmarks.end()) continue;
+    double truth[3];
+    if (!drive_.true_landmark(landmark.id, truth)) continue;
     ++known;
-    for (std::size_t i = 0; i < 3; ++i) sum += std::pow(truth->second[i] - landmark.position[i], 2);
+    for (std::size_t i = 0; i < 3; ++i) sum += std::pow(truth[i] - landmark.position[i], 2);
   }
   if (known > 0) measure("landmark_rmse_m", std::sqrt(sum / static_cast<double>(known)));
-}
-
-std::string Summary::json() const {
-  std::string out = "{";
-  for (const Figure& figure : figures_) {
-    if (out.size() > 1) out += ", ";
-    out += "\"" + std::string(figure.key) + "\": " + format(figure);
-  }
-  return out + "}\n";
-}
-
-std::string Summary::text() const {
-  std::string out;
-  char buffer[96];
-  for (const Figure& figure : figures_) {
-    std::snprintf(buffer, sizeof buffer, figure.whole ? "%-20s %12.0f\n" : "%-20s %12.6g\n", figure.key, figure.value);
-    out += buffer;
-  }
-  return out;
 }
 
 }  // namespace cairn::cli

@@ -5,12 +5,10 @@
 #include <cairn/cairn.h>
 
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "cli/figures.hpp"
 #include "cli/runner.hpp"
-#include "io/log.hpp"
 
 namespace cairn::cli {
 
@@ -22,50 +20,53 @@ struct PoseScore {
 };
 
 // Nothing where the step has no true pose.
-std::optional<PoseScore> score_pose(const cairn_filter* filter, const io::Step& step, const cairn_pose& estimate);
+std::optional<PoseScore> score_pose(const cairn_filter* filter, const DriveStep& step, const cairn_pose& estimate);
 
 // All landmarks of a filter's map, by ascending id.
 std::vector<cairn_landmark> map_landmarks(const cairn_filter* filter);
 
-// A figure's key and how to print it; there is no figure where the log has no truth for it.
-struct Figure {
-  const char* key;
-  double value;
-  bool whole;  // a count
-};
-
 class Summary {
  public:
-  explicit Summary(const io::Log& log) : log_(log) {}
+  // Figures that take truth are left out where the drive has none.
+  explicit Summary(const Drive& drive) : drive_(drive) {}
 
-  void add(const StepResult& result, const std::optional<PoseScore>& score);
-  // Once, after the last step. `seconds` is what the whole run took.
-  void finish(const cairn_filter* filter, double seconds);
+  void add(const DriveStep& step, const StepResult& result, const std::optional<PoseScore>& score);
+  // Once, after the last step: the closing of the submap that was still open then, and what the whole run took.
+  void finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing, double seconds);
 
-  std::string json() const;  // one object on one line
-  std::string text() const;  // for people
-  const std::vector<double>& step_seconds() const { return step_seconds_; }
+  const std::vector<Figure>& figures() const { return figures_; }
 
  private:
   void count(const char* key, std::size_t value) { figures_.push_back({key, static_cast<double>(value), true}); }
   void measure(const char* key, double value);
+  void add_closing(const cairn_closing_report& closing);
   void finish_timing();
-  void finish_pose();
+  void finish_pose(const cairn_filter* filter);
   void finish_landmarks(const std::vector<cairn_landmark>& landmarks);
 
-  const io::Log& log_;
+  const Drive& drive_;
   std::vector<double> step_seconds_;
   std::size_t observations_ = 0;
   std::size_t rejected_ = 0;
-  std::size_t scored_ = 0;  // steps with a true pose
+  std::size_t scored_ = 0;                // steps with a true pose
+  std::optional<cairn_pose> last_truth_;  // of the last step
   double position_square_sum_ = 0;
   double position_last_ = 0;
   double position_worst_ = 0;
+  double position_worst_axis_ = 0;
   double attitude_square_sum_ = 0;
+  double attitude_last_ = 0;
+  double attitude_worst_axis_ = 0;
   std::size_t nees_count_ = 0;
   double nees_sum_ = 0;
   double nis_sum_ = 0;
   std::size_t nis_rows_ = 0;
+  std::size_t submaps_ = 0;
+  double closing_worst_ = 0;               // s
+  double closing_outside_ = 0;             // s, of the closing after the last step
+  std::size_t filter_landmarks_most_ = 0;  // in the filter that takes the frames in
+  double filter_landmarks_sum_ = 0;
+  double filter_landmarks_square_sum_ = 0;
   std::vector<Figure> figures_;
 };
 

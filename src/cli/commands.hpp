@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands of the program. `arguments` are what follows the command's word.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cairn::cli {
+
+extern const char* const kHelp;
+
+void write_stdout(const std::string& text);  // throws UsageError
+
+// Throw UsageError, io::LogError, LibraryError.
+void run_command(const std::vector<std::string>& arguments);
+void simulate_command(const std::vector<std::string>& arguments);
+
+}  // namespace cairn::cli

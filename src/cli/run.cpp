@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// cairn run: a recorded log.
+#include <chrono>
+#include <cstdio>
+
+#include "cli/commands.hpp"
+#include "cli/log_drive.hpp"
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "cli/session.hpp"
+
+namespace cairn::cli {
+
+void run_command(const std::vector<std::string>& arguments) {
+  const RunOptions options = parse_run_options(arguments);
+  if (options.common.help) return write_stdout(kHelp);
+  const auto begin = std::chrono::steady_clock::now();
+  const io::Log log = io::read_log(options.log, options.noise);
+  if (!options.common.quiet) {
+    for (const std::string& note : log.notes) std::fprintf(stderr, "cairn: note: %s\n", note.c_str());
+  }
+  LogDrive drive(log, options.camera);
+  std::vector<Figure> figures;
+  {
+    Progress progress(drive.steps(), options.common.quiet);
+    Session session;
+    session.output = options.common.output;
+    session.seconds_before = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    session.on_step = [&] { progress.advance(); };
+    figures = run_drive(drive, options.filter, session);
+  }
+  write_stdout(options.common.json ? json(figures) + "\n" : options.log + ": " + log.format + "\n" + text(figures));
+}
+
+}  // namespace cairn::cli
