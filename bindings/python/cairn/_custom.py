@@ -59,11 +59,14 @@ class Callbacks:
                 ("landmark", landmark, (3,)), ("jacobian_pose", jacobian_pose, (3, 6)),
                 ("jacobian_z", jacobian_z, (3, rows))]))
 
-        struct.predict = ffi.callback("cairn_custom_predict", predicted, error=1)
-        self._kept.append(struct.predict)
+        self._keep(struct, "predict", predicted)
         if place is not None:
-            struct.place = ffi.callback("cairn_custom_place", placed, error=1)
-            self._kept.append(struct.place)
+            self._keep(struct, "place", placed)
+
+    def _keep(self, struct, name, function):
+        callback = ffi.callback(f"cairn_custom_{name}", function, error=1)
+        setattr(struct, name, callback)
+        self._kept.append(callback)  # the struct's field does not keep it alive
 
     def log(self, function):
         """The C callback of a log function; the one before it is kept, it may be in use."""

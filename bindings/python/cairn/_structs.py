@@ -22,12 +22,12 @@ def shape_of_array(name, length):
 
 def array(name, value, shape=None):
     """A C-contiguous array of doubles; `shape` may hold None for any length. Its buffer goes to C."""
+    if np.iscomplexobj(value):
+        raise TypeError(f"{name}: real numbers are wanted")
     try:
         result = np.ascontiguousarray(value, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise TypeError(f"{name}: numbers are wanted: {error}") from None
-    if np.iscomplexobj(value):
-        raise TypeError(f"{name}: real numbers are wanted")
     if shape is not None:
         fits = result.ndim == len(shape) and all(want in (None, has) for want, has in zip(shape, result.shape))
         if not fits:

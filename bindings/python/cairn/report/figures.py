@@ -121,10 +121,10 @@ def attitude_error(run, bound):
 
 def local_deviation(run):
     """Of the local position and azimuth; None where the run did not write it."""
-    columns = [run.trajectory.get(name) for name in ("local_sigma3_x_m", "local_sigma3_y_m", "local_sigma3_yaw_rad")]
+    columns = [run.trajectory.get(name) for name in ("local_sigma_x_m", "local_sigma_y_m", "local_sigma_dtheta_z_rad")]
     if any(column is None for column in columns):
         return None
-    values = np.stack([columns[0] / 3, columns[1] / 3, np.degrees(columns[2]) / 3], axis=1)
+    values = np.stack([columns[0], columns[1], np.degrees(columns[2])], axis=1)
     figure, rows = pyplot.subplots(3, 1, sharex=True, figsize=(6.4, 4.6))
     for row, value, name in zip(rows, values.T, ("σ of x (m)", "σ of y (m)", "σ of azimuth (°)")):
         for step in run.closing_steps():

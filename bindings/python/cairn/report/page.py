@@ -130,7 +130,7 @@ def build(folder, runs, pictures=()):
     duration = main.times()[-1] - main.times()[0]
     blocks, found = sections(runs, pictures)
     data = {"scene": scene.build(runs), "curves": [{"data": curve["data"], "layout": curve["layout"]} for curve in found]}
-    text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     parts = {"TITLE": html.escape(title), "LEAD": f"{len(main.times())} steps, {duration:.1f} s",
              "CARDS": cards(runs), "SECTIONS": blocks, "TABLE": table(runs), "VERSION": __version__,
              "FOLDER": html.escape(folder), "STYLE": asset("page.css"), "SCRIPT": asset("page.js"), "DATA": text,
