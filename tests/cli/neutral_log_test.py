@@ -6,7 +6,7 @@ import os
 import unittest
 
 import make_log
-from support import ALWAYS, WITH_TRUE_LANDMARKS, WITH_TRUE_POSES, ProgramTest, call
+from support import (ALWAYS, WITH_SUBMAPS, WITH_TRUE_END, WITH_TRUE_LANDMARKS, WITH_TRUE_POSES, ProgramTest, call)
 
 
 def records(text, letter):
@@ -30,7 +30,7 @@ class NeutralLog(ProgramTest):
     def test_figures(self):
         text = self.neutral_log(steps=400)
         s = self.summary(self.write("a.log", text))
-        self.assertEqual(set(s), ALWAYS | WITH_TRUE_POSES | WITH_TRUE_LANDMARKS)
+        self.assertEqual(set(s), ALWAYS | WITH_SUBMAPS | WITH_TRUE_POSES | WITH_TRUE_END | WITH_TRUE_LANDMARKS)
         self.assertEqual(s["steps"], 401)
         self.assertEqual(s["observations"], len(records(text, "Z")))
         self.assertEqual(s["landmarks"], len({r[1] for r in records(text, "Z")}))
@@ -47,17 +47,14 @@ class NeutralLog(ProgramTest):
 
     def test_same_log_same_figures(self):
         log = self.write("a.log", self.neutral_log())
-        runs = [self.summary(log) for _ in range(2)]
-        for s in runs:
-            for key in [k for k in s if k.startswith("step_ms") or k in ("seconds", "peak_rss_mib")]:
-                del s[key]
-        self.assertEqual(*runs)
+        self.assertEqual(*(self.untimed(self.summary(log)) for _ in range(2)))
 
     def test_without_truth(self):
         text = self.neutral_log()
         kept = [line for line in text.splitlines(True) if line[0] in "OZ" or line.startswith("T 0 ")]
         s = self.summary(self.write("a.log", "".join(kept)))
-        self.assertEqual(set(s), ALWAYS | WITH_TRUE_POSES - {"pose_anees_per_dof"})  # the start alone is known
+        # the start alone is known
+        self.assertEqual(set(s), ALWAYS | WITH_SUBMAPS | WITH_TRUE_POSES - {"pose_anees_per_dof"})
         self.assertEqual(s["steps"], 151)
 
     def test_comments_blanks_and_line_ends(self):
@@ -69,13 +66,79 @@ class NeutralLog(ProgramTest):
     def test_options_matter(self):
         log = self.write("a.log", self.neutral_log())
         plain = self.summary(log)
-        self.assertEqual(self.summary(log, "--single-map", "--seed=5", "--error=invariant")["pose_rmse_m"],
-                         plain["pose_rmse_m"])
+        same = self.summary(log, "--submap-landmarks=60", "--seed=5", "--error=invariant", "--submap-distance=0")
+        self.assertEqual(self.untimed(same), self.untimed(plain))
         for options in (["--error", "standard"], ["--iterations=1"], ["--gate=0.5", "--batch-gate", "1"]):
             other = self.summary(log, *options)
             self.assertNotEqual(other["pose_rmse_m"], plain["pose_rmse_m"], options)
         self.assertGreater(self.summary(log, "--gate=0.5", "--batch-gate=1")["rejected"], plain["rejected"])
         self.assertEqual(self.summary(log, "--gate=1", "--batch-gate=1")["rejected"], 0)
+
+    def test_single_map(self):
+        log = self.write("a.log", self.neutral_log())
+        single = self.summary(log, "--single-map")
+        self.assertEqual(self.untimed(self.summary(log, "--submap-landmarks", "0")), self.untimed(single))
+        self.assertEqual(single["submaps"], 0)
+        self.assertNotIn("closing_ms_worst", single)
+        self.assertEqual(single["filter_landmarks_max"], single["landmarks"])
+        self.assertEqual((single["pose_end_m"], single["attitude_end_deg"]),
+                         (single["pose_final_m"], single["attitude_final_deg"]))
+
+    def test_submaps(self):
+        text = self.neutral_log(landmarks=120, steps=500)
+        log, out = self.write("a.log", text), self.path("out")
+        single = self.summary(log, "--single-map")
+        s = self.summary(log, "--submap-landmarks", "15", "--join", "dense", "--output", out)
+        self.assertEqual((s["landmarks"], s["observations"]), (single["landmarks"], single["observations"]))
+        self.assertGreater(s["submaps"], 7)
+        self.assertLess(s["filter_landmarks_max"], 15 + 16)  # a frame may add more than one
+        self.assertLess(s["landmark_rmse_m"], 2 * single["landmark_rmse_m"] + 0.05)
+        self.assertTrue(0 < s["closing_ms_worst"])
+        self.assertLessEqual(s["step_ms_worst"] * 1.0001, 1e3 * s["filter_seconds"])
+
+        submaps = self.read_csv(out, "submaps.csv")
+        self.assertEqual([int(row["submap"]) for row in submaps], list(range(int(s["submaps"]))))
+        self.assertEqual({row["reason"] for row in submaps[:-1]}, {"landmarks"})
+        self.assertEqual(submaps[-1]["reason"], "caller")  # the one that was open at the end
+        steps = [int(row["step"]) for row in submaps]
+        self.assertEqual(steps, sorted(steps))
+        self.assertEqual(steps[-1], 500)
+        for row in submaps:
+            self.assertEqual(sum(int(row[name]) for name in ("new", "fused", "refused")), int(row["landmarks"]))
+            self.assertAlmostEqual(sum(float(row["q" + name]) ** 2 for name in "wxyz"), 1, places=9)
+        self.assertEqual(sum(int(row["new"]) for row in submaps), s["landmarks"])
+        members = self.read_csv(out, "submap_landmarks.csv")
+        counts = [sum(int(row["submap"]) == i for row in members) for i in range(len(submaps))]
+        self.assertEqual(counts, [int(row["landmarks"]) for row in submaps])
+        self.assertEqual({row["id"] for row in members}, {row["id"] for row in self.read_csv(out, "landmarks.csv")})
+        truth = {int(r[0]): r[2:5] for r in records(text, "T")}
+        for before, row in zip(submaps, submaps[1:]):  # a submap starts where the one before was closed
+            base = [float(row[name]) for name in "xyz"]
+            self.assertLess(math.dist(base, truth[int(before["step"])]), 1.5)
+
+        timing = self.read_csv(out, "timing.csv")
+        self.assertEqual(max(int(row["filter_landmarks"]) for row in timing), s["filter_landmarks_max"])
+        closings = [int(row["step"]) for row in timing if row["closing_ms"]]
+        self.assertEqual(closings, steps[:-1])
+        trajectory = self.read_csv(out, "trajectory.csv")
+        after = trajectory[closings[0]]  # the new submap starts with a known pose
+        self.assertEqual(float(after["local_sigma_x_m"]), 0)
+        self.assertGreater(float(after["sigma3_x_m"]), 0)
+
+    def test_other_limits_of_submaps(self):
+        log = self.write("a.log", self.neutral_log(steps=400))
+        for limit, reason in (("--submap-distance=20", "distance"), ("--submap-extent=15", "extent"),
+                              ("--submap-sigma=0.03", "sigma")):
+            out = self.path(reason)
+            s = self.summary(log, "--submap-landmarks", "1000", limit, "--output", out)
+            self.assertGreater(s["submaps"], 2, limit)
+            self.assertIn(reason, {row["reason"] for row in self.read_csv(out, "submaps.csv")})
+
+    def test_forgetting_with_submaps(self):
+        log = self.write("a.log", self.neutral_log())
+        forgetful = self.summary(log, "--forget-after", "3", "--submap-landmarks", "10")
+        self.assertLess(forgetful["landmarks"], 30)
+        self.assertGreater(forgetful["submaps"], 3)
 
     def test_forgetting_bounds_the_map(self):
         log = self.write("a.log", self.neutral_log())
@@ -89,7 +152,8 @@ class NeutralLog(ProgramTest):
 
     def test_too_small_a_map_is_the_library_s_refusal(self):
         log = self.write("a.log", self.neutral_log())
-        self.assert_refused(call("run", log, "--max-landmarks", "10"), "step", "CAIRN_ERROR_CAPACITY", status=1)
+        self.assert_refused(call("run", log, "--single-map", "--max-landmarks", "10"), "step", "CAIRN_ERROR_CAPACITY",
+                            status=1)
 
     def test_text_summary(self):
         log = self.write("a.log", self.neutral_log(steps=20))

@@ -14,9 +14,13 @@ MAKE_STARS = os.environ["CAIRN_MAKE_STARS"]
 HERE = os.path.dirname(os.path.abspath(__file__))
 SKIPPED = 77  # ctest's SKIP_RETURN_CODE
 
-ALWAYS = {"steps", "landmarks", "observations", "rejected", "seconds", "step_ms_mean", "step_ms_second_half",
-          "step_ms_p99", "step_ms_worst", "peak_rss_mib", "nis_per_dof"}
-WITH_TRUE_POSES = {"pose_rmse_m", "pose_final_m", "pose_max_m", "attitude_rmse_deg", "pose_anees_per_dof"}
+ALWAYS = {"steps", "landmarks", "observations", "rejected", "submaps", "seconds", "filter_seconds", "step_ms_mean",
+          "step_ms_second_half", "step_ms_p99", "step_ms_worst", "filter_landmarks_max", "filter_landmarks_mean",
+          "filter_landmarks_rms", "peak_rss_mib", "nis_per_dof"}
+WITH_SUBMAPS = {"closing_ms_worst"}
+WITH_TRUE_POSES = {"pose_rmse_m", "pose_final_m", "pose_max_m", "pose_axis_max_m", "attitude_rmse_deg",
+                   "attitude_final_deg", "attitude_axis_max_deg", "pose_anees_per_dof"}
+WITH_TRUE_END = {"pose_end_m", "attitude_end_deg"}  # the last step has a true pose
 WITH_TRUE_LANDMARKS = {"landmark_rmse_m"}
 
 
@@ -50,10 +54,18 @@ class ProgramTest(unittest.TestCase):
 
     def summary(self, log, *options):
         """The figures of a run that has to succeed."""
-        done = call("run", log, "--summary", "json", "--quiet", *options)
+        return self.figures("run", log, *options)
+
+    def figures(self, *arguments):
+        done = call(*arguments, "--summary", "json", "--quiet")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(done.stdout.count("\n"), 1)
         return json.loads(done.stdout)
+
+    def untimed(self, figures):
+        """Without what the clock and the machine have a say in."""
+        return {key: value for key, value in figures.items()
+                if not key.startswith(("step_ms", "closing_ms", "seconds", "filter_seconds", "peak_rss"))}
 
     def assert_refused(self, done, *words, status=2):
         """One line on stderr that holds all the words, nothing on stdout."""
