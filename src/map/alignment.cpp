@@ -294,11 +294,19 @@ std::size_t worst_of(const std::vector<double>& falls) {
   return static_cast<std::size_t>(std::max_element(falls.begin(), falls.end()) - falls.begin());
 }
 
-// Which pairs to leave out until the linearised distance is within the bound: M and lambda without a pair by block
-// inversion, as the update does it (docs/update.md). At least one, and not many before the next look at the problem
-// itself: the transform moves when a gross error leaves.
-std::vector<std::size_t> find_contradicting(const PairedPoints& pairs, const Solution& solution, double probability,
-                                            std::size_t least) {
+// What the rest has to keep within: the joint distance, and the fall of each pair.
+struct Bounds {
+  double probability, of_pair;
+  bool kept(double distance, int dof, double worst_fall) const {
+    return worst_fall <= of_pair && distance <= chi_square_quantile(dof, probability);
+  }
+};
+
+// Which pairs to leave out until the linearised problem is within the bounds: M and lambda without a pair by block
+// inversion, as the update does it (docs/update.md). Not many before the next look at the problem itself: the transform
+// moves when a gross error leaves.
+std::vector<std::size_t> find_contradicting(const PairedPoints& pairs, const Solution& solution, const Bounds& bounds,
+                                            std::size_t most) {
   const Linearisation& now = solution.at_T;
   const std::size_t k = pairs.size();
   Dense M = now.weight.inverse();
@@ -309,13 +317,13 @@ std::vector<std::size_t> find_contradicting(const PairedPoints& pairs, const Sol
   int dof = solution.alignment.dof;
   std::vector<bool> out(k, false);
   std::vector<std::size_t> order;
-  const std::size_t most = std::min(k - least, 1 + k / 16);
   do {
     std::vector<double> falls(k, -1.0);
     for (std::size_t i = 0; i < k; ++i)
       if (!out[i])
         falls[i] = fall_of(M.block<3, 3>(at(i), at(i)), lambda.segment<3>(at(i)), own.segment<3>(at(i)).sum());
     const std::size_t worst = worst_of(falls);
+    if (bounds.kept(distance, dof, falls[worst])) break;
     order.push_back(worst);
     out[worst] = true;
     distance -= falls[worst];
@@ -328,7 +336,7 @@ std::vector<std::size_t> find_contradicting(const PairedPoints& pairs, const Sol
                          (D.eigenvectors().transpose() * lambda.segment<3>(at(worst)));
     lambda.noalias() -= B * part;
     M.noalias() -= B * B.transpose();
-  } while (order.size() < most && distance > chi_square_quantile(dof, probability));
+  } while (order.size() < most);
   return order;
 }
 
@@ -387,8 +395,9 @@ Alignment align(const PairedPoints& pairs, const TransformPrior* prior, bool wit
   return solution.alignment;
 }
 
-CompatibleAlignment align_compatible(const PairedPoints& pairs, double probability, const TransformPrior* prior,
-                                     const SE3* start) {
+CompatibleAlignment align_compatible(const PairedPoints& pairs, double probability, double pair_probability,
+                                     const TransformPrior* prior, const SE3* start) {
+  const Bounds bounds{probability, chi_square_quantile(3, pair_probability)};
   const std::size_t least = prior == nullptr ? 3 : 1;
   CompatibleAlignment result;
   for (std::size_t i = 0; i < pairs.size(); ++i) result.kept.push_back(i);
@@ -399,15 +408,18 @@ CompatibleAlignment align_compatible(const PairedPoints& pairs, double probabili
     solve(rest, prior, start, solution);
     result.alignment = solution.alignment;
     if (!solution.alignment.ok()) break;
-    if (solution.alignment.distance <= chi_square_quantile(solution.alignment.dof, probability)) return result;
-    if (rest.size() <= least) break;
     std::vector<std::size_t> leave;
     if (solution.at_T.weight.full()) {
-      leave = find_contradicting(rest, solution, probability, least);
+      const std::size_t most = rest.size() > least ? std::min(rest.size() - least, 1 + rest.size() / 16) : 1;
+      leave = find_contradicting(rest, solution, bounds, most);
     } else {  // so cheap that it is solved anew after each
       find_falls(rest, solution);
-      leave.push_back(worst_of(solution.alignment.falls));
+      const std::size_t worst = worst_of(solution.alignment.falls);
+      if (!bounds.kept(solution.alignment.distance, solution.alignment.dof, solution.alignment.falls[worst]))
+        leave.push_back(worst);
     }
+    if (leave.empty()) return result;
+    if (rest.size() <= least) break;
     for (std::size_t i : leave) result.left_out.push_back(result.kept[i]);
     std::vector<bool> out(rest.size(), false);
     for (std::size_t i : leave) out[i] = true;

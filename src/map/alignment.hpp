@@ -55,13 +55,15 @@ Alignment align(const PairedPoints& pairs, const TransformPrior* prior = nullptr
                 const SE3* start = nullptr);
 
 // The largest set that is found by leaving out, one by one, the pair without which the distance falls most, until the
-// rest agrees: distance <= chi2(dof, probability). `left_out` in that order, `kept` ascending. Where even the last few
-// do not agree, or align() fails, `kept` is empty and the alignment is the last that was tried.
+// rest agrees: jointly, distance <= chi2(dof, probability), and each pair with all the others, its fall <= chi2(3,
+// pair_probability). Among many pairs the joint test alone would let a wrong one pass. `left_out` in that order, `kept`
+// ascending. Where even the last few do not agree, or align() fails, `kept` is empty and the alignment is the last that
+// was tried.
 struct CompatibleAlignment {
   Alignment alignment;
   std::vector<std::size_t> kept, left_out;
 };
-CompatibleAlignment align_compatible(const PairedPoints& pairs, double probability,
+CompatibleAlignment align_compatible(const PairedPoints& pairs, double probability, double pair_probability,
                                      const TransformPrior* prior = nullptr, const SE3* start = nullptr);
 
 // The pairs of these numbers, with their part of the covariances.

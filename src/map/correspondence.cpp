@@ -145,11 +145,12 @@ bool grow(const Side& a, const Side& b, double gate, double reach, const Transfo
 }
 
 // Drops what contradicts the rest, jointly.
-void settle(const Side& a, const Side& b, double probability, const TransformPrior* prior, Pairs& pairs,
-            Alignment& alignment) {
+void settle(const Side& a, const Side& b, const CorrespondenceOptions& options, const TransformPrior* prior,
+            Pairs& pairs, Alignment& alignment) {
   const SE3 start = alignment.T_a_b;
   const CompatibleAlignment compatible =
-      align_compatible(points_of(a, b, pairs, true), probability, prior, prior == nullptr ? &start : nullptr);
+      align_compatible(points_of(a, b, pairs, true), options.joint_probability, options.gate_probability, prior,
+                       prior == nullptr ? &start : nullptr);
   Pairs kept;
   for (std::size_t i : compatible.kept) kept.push_back(pairs[i]);
   pairs.swap(kept);
@@ -368,7 +369,7 @@ void Matcher::choose(std::size_t least, Correspondence& result) {
   if (solutions_.empty()) return;
   Solution best = solutions_.front();
   result.chance = chance(best);
-  settle(a_, b_, options_.joint_probability, nullptr, best.pairs, best.alignment);
+  settle(a_, b_, options_, nullptr, best.pairs, best.alignment);
   const double count = static_cast<double>(best.pairs.size());
   if (best.pairs.size() < least) return;
   // Three pairs were given away to the transform; the others, P(Poisson(chance) >= n) for each of all that were tried.
@@ -378,12 +379,13 @@ void Matcher::choose(std::size_t least, Correspondence& result) {
   for (std::size_t s = 1; s < std::min<std::size_t>(solutions_.size(), 4); ++s) {
     Solution& rival = solutions_[s];
     if (rival.pairs.size() <= result.rivals) break;
-    settle(a_, b_, options_.joint_probability, nullptr, rival.pairs, rival.alignment);
+    settle(a_, b_, options_, nullptr, rival.pairs, rival.alignment);
     result.rivals = std::max(result.rivals, rival.pairs.size());
   }
   if (static_cast<double>(result.rivals) >= options_.ambiguity * count) {
     result.reason = CorrespondenceReason::ambiguous;
-  } else if (unverified_ >= options_.ambiguity * best.score) {
+  } else if (unverified_ >= options_.ambiguity * best.score &&
+             static_cast<double>(result.rivals) >= 0.5 * options_.ambiguity * count) {
     result.reason = CorrespondenceReason::budget;
   } else {
     extend(best);
@@ -393,21 +395,26 @@ void Matcher::choose(std::size_t least, Correspondence& result) {
   }
 }
 
-// Local gates are too narrow where maps have bent on a long way. Now that the transform is known, whoever is nearest by
-// less than half the spacing may join, if the joint test, which knows the bend, lets it.
+// Local gates are too narrow where maps have bent on a long way. Whoever is nearest by less than half the spacing may
+// join, if the joint test, which knows the bend, lets it. What is near is told by the local fit: the transform between
+// the frames is as vague as the frames are.
 void Matcher::extend(Solution& solution) const {
+  constexpr int kExtensions = 5;
   if (!a_.set.joint && !b_.set.joint) return;
-  const Gated wide =
-      pair_up(a_, b_, solution.alignment.T_a_b, solution.alignment.covariance, gate_, reach_, Vector3::Zero(), true);
-  std::vector<bool> used_a(a_.set.points.size(), false), used_b(b_.set.points.size(), false);
-  for (const Pair& pair : solution.pairs) used_a[pair.first] = used_b[pair.second] = true;
-  Solution larger = solution;
-  for (const Pair& pair : wide.pairs)
-    if (!used_a[pair.first] && !used_b[pair.second]) larger.pairs.push_back(pair);
-  if (larger.pairs.size() == solution.pairs.size()) return;
-  std::sort(larger.pairs.begin(), larger.pairs.end());
-  settle(a_, b_, options_.joint_probability, nullptr, larger.pairs, larger.alignment);
-  if (larger.alignment.ok() && larger.pairs.size() > solution.pairs.size()) solution = larger;
+  for (int round = 0; round < kExtensions; ++round) {
+    const Alignment fit = align(points_of(a_, b_, solution.pairs, false));
+    if (!fit.ok()) return;
+    const Gated wide = pair_up(a_, b_, fit.T_a_b, fit.covariance, gate_, reach_, Vector3::Zero(), true);
+    std::vector<bool> used_a(a_.set.points.size(), false), used_b(b_.set.points.size(), false);
+    for (const Pair& pair : solution.pairs) used_a[pair.first] = used_b[pair.second] = true;
+    Solution larger = solution;
+    for (const Pair& pair : wide.pairs)
+      if (!used_a[pair.first] && !used_b[pair.second]) larger.pairs.push_back(pair);
+    std::sort(larger.pairs.begin(), larger.pairs.end());
+    if (larger.pairs.size() > solution.pairs.size()) settle(a_, b_, options_, nullptr, larger.pairs, larger.alignment);
+    if (!larger.alignment.ok() || larger.pairs.size() <= solution.pairs.size()) return;
+    solution = larger;
+  }
 }
 
 }  // namespace
@@ -434,7 +441,7 @@ Correspondence match_points_near(const PointSet& a, const PointSet& b, const Tra
   alignment.covariance = prior.covariance;
   Pairs pairs;
   if (!grow(side_a, side_b, gate, reach, &prior, pairs, alignment)) return result;
-  settle(side_a, side_b, options.joint_probability, &prior, pairs, alignment);
+  settle(side_a, side_b, options, &prior, pairs, alignment);
   if (pairs.empty()) return result;
   result.reason = CorrespondenceReason::found;
   result.pairs = pairs;

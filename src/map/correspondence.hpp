@@ -31,7 +31,7 @@ struct CorrespondenceOptions {
   std::size_t triangle_corners = 8;     // neighbours that a point's triangles are drawn from
   std::size_t max_triangles = 40000;    // a map
   std::size_t max_hypotheses = 400000;  // pairs of triangles that are laid onto each other
-  std::size_t max_verified = 60;        // of these, looked at over the whole map
+  std::size_t max_verified = 400;       // of these, looked at over the whole map
 };
 
 enum class CorrespondenceReason {

@@ -274,6 +274,47 @@ TEST_CASE("correspondence: the joint covariance sees what marginals hide") {
   CHECK(std::find(result.pairs.begin(), result.pairs.end(), std::make_pair(was, odd)) == result.pairs.end());
 }
 
+TEST_CASE("correspondence: maps that drift as they are driven") {
+  // Brownian drift along the strip, from one end in a and from the other in b, besides each landmark's own noise.
+  static constexpr double kDrift = 0.002;  // m^2 per metre: 1 m after 500 m
+  Random random(110);
+  for (int run = 0; run < 3; ++run) {
+    CAPTURE(run);
+    Maps maps = strips(random, 150, 60, 0.05);
+    double last = 0;
+    for (const Vector3& p : maps.true_b) last = std::max(last, p.x());
+    const auto drift = [&](PointSet& set, const std::vector<Vector3>& truth, bool backwards, const SO3& R) {
+      std::vector<double> driven;
+      for (const Vector3& p : truth) driven.push_back(backwards ? last - p.x() : p.x());
+      std::vector<std::size_t> order;
+      for (std::size_t i = 0; i < driven.size(); ++i) order.push_back(i);
+      std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return driven[i] < driven[j]; });
+      Vector3 error = Vector3::Zero();
+      double at = 0;
+      const std::vector<Matrix3> own = set.covariances;
+      for (std::size_t i : order) {
+        error += std::sqrt(kDrift * (driven[i] - at)) * random.normal_vector<3>();
+        at = driven[i];
+        set.points[i] += R * error;
+        set.covariances[i] += kDrift * at * Matrix3::Identity();
+      }
+      set.joint = [own, driven](const std::size_t* indices, std::size_t count, double* matrix) {
+        const auto n = 3 * static_cast<Eigen::Index>(count);
+        Eigen::Map<Eigen::MatrixXd> S(matrix, n, n);
+        for (std::size_t i = 0; i < count; ++i)
+          for (std::size_t j = 0; j < count; ++j) {
+            Matrix3 block = kDrift * std::min(driven[indices[i]], driven[indices[j]]) * Matrix3::Identity();
+            if (i == j) block += own[indices[i]];
+            S.block<3, 3>(3 * static_cast<Eigen::Index>(i), 3 * static_cast<Eigen::Index>(j)) = block;
+          }
+      };
+    };
+    drift(maps.a, maps.true_a, false, SO3());
+    drift(maps.b, maps.true_b, true, maps.T_a_b.rotation().inverse());
+    check_found(maps, match_points(maps.a, maps.b), 60);
+  }
+}
+
 TEST_CASE("correspondence: with a prior") {
   Random random(90);
   const Maps maps = strips(random, 80, 30, 0.1);
