@@ -57,6 +57,7 @@ cairn_landmark landmark_at(const Landmarks& map, std::size_t index) {
 void write_landmarks(const Landmarks& map, const std::vector<std::size_t>& indices, cairn_landmark* landmarks,
                      std::size_t capacity, std::size_t* needed) {
   if (!check_room(landmarks, capacity, indices.size(), needed, "landmarks")) return;
+  map.prepare_covariances(indices);
   for (std::size_t i = 0; i < indices.size(); ++i) landmarks[i] = landmark_at(map, indices[i]);
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "map/spatial_index.hpp"
+
 namespace cairn {
 namespace {
 
@@ -18,11 +20,28 @@ struct Entry {
 
 std::vector<Entry> entries_within(const Landmarks& map, const Vector3& centre, double radius) {
   std::vector<Entry> entries;
+  if (const SpatialIndex* index = map.spatial_index()) {
+    std::vector<SpatialIndex::Hit> hits;
+    index->within(centre, radius, hits);
+    for (const SpatialIndex::Hit& hit : hits) entries.push_back({hit.distance, map.id(hit.index), hit.index});
+    return entries;
+  }
   for (std::size_t i = 0; i < map.size(); ++i) {
     const double distance = (map.position(i) - centre).norm();
     if (distance <= radius) entries.push_back({distance, map.id(i), i});
   }
   return entries;
+}
+
+std::vector<Entry> entries_nearest(const Landmarks& map, const Vector3& point, std::size_t count) {
+  if (const SpatialIndex* index = map.spatial_index()) {
+    std::vector<SpatialIndex::Hit> hits;
+    index->nearest(point, count, hits);
+    std::vector<Entry> entries;
+    for (const SpatialIndex::Hit& hit : hits) entries.push_back({hit.distance, map.id(hit.index), hit.index});
+    return entries;
+  }
+  return entries_within(map, point, std::numeric_limits<double>::infinity());
 }
 
 std::vector<std::size_t> indices_of(const std::vector<Entry>& entries) {
@@ -52,7 +71,7 @@ std::vector<std::size_t> within(const Landmarks& map, const Vector3& centre, dou
 }
 
 std::vector<std::size_t> nearest(const Landmarks& map, const Vector3& point, std::size_t count) {
-  std::vector<Entry> entries = entries_within(map, point, std::numeric_limits<double>::infinity());
+  std::vector<Entry> entries = entries_nearest(map, point, count);
   count = std::min(count, entries.size());
   std::partial_sort(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(count), entries.end());
   entries.resize(count);
@@ -61,6 +80,13 @@ std::vector<std::size_t> nearest(const Landmarks& map, const Vector3& point, std
 
 std::vector<std::size_t> in_box(const Landmarks& map, const Vector3& lower, const Vector3& upper) {
   std::vector<Entry> entries;
+  if (const SpatialIndex* index = map.spatial_index()) {
+    std::vector<std::size_t> hits;
+    index->in_box(lower, upper, hits);
+    for (const std::size_t i : hits) entries.push_back({0.0, map.id(i), i});
+    std::sort(entries.begin(), entries.end());
+    return indices_of(entries);
+  }
   for (std::size_t i = 0; i < map.size(); ++i) {
     const Vector3 p = map.position(i);
     if ((p.array() >= lower.array()).all() && (p.array() <= upper.array()).all())

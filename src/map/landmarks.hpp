@@ -10,6 +10,8 @@
 
 namespace cairn {
 
+class SpatialIndex;
+
 class Landmarks {
  public:
   virtual ~Landmarks() = default;
@@ -23,6 +25,10 @@ class Landmarks {
   virtual bool find(std::uint64_t id, std::size_t& index) const = 0;
   // Joint covariance of `count` positions, 3 count x 3 count.
   virtual void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const = 0;
+  // The covariances of these will be asked for: computed together where that is cheaper.
+  virtual void prepare_covariances(const std::vector<std::size_t>&) const {}
+  // Where the landmarks are, by index; null: small enough to look at all.
+  virtual const SpatialIndex* spatial_index() const { return nullptr; }
 };
 
 // The joint covariance of `count` landmarks out of one with a pose before them, 6 + 3 count on a side.

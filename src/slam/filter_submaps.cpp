@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "map/dense_map.hpp"
+#include "map/sparse_map.hpp"
 #include "slam/filter.hpp"
 
 namespace cairn {
@@ -24,6 +25,7 @@ MapOptions map_options(const FilterOptions& options) {
   map.iteration_tolerance = options.iteration_tolerance;
   map.gate_probability = options.gate_probability;
   map.joint_gate_probability = options.batch_gate_probability;
+  map.step_tolerance = options.step_tolerance;
   map.initial_pose = options.initial_pose;
   map.initial_covariance = options.initial_covariance;
   return map;
@@ -38,6 +40,7 @@ bool FilterOptions::sparse() const {
 
 std::unique_ptr<GlobalMap> Filter::make_map(const FilterOptions& options) {
   if (options.single_map()) return nullptr;
+  if (options.sparse()) return std::make_unique<SparseMap>(map_options(options));
   return std::make_unique<DenseMap>(map_options(options));
 }
 

@@ -82,9 +82,15 @@ void Filter::sort_out(const Sensor& sensor, Index count) {
         match.reason = Reason::no_place;
     }
   }
-  if (ekf_.size() + new_count_ > options_.local_landmarks())
-    throw Error(ErrorCode::capacity, "observations: %td new landmarks, and the %s holds %td of %td", new_count_,
-                map_ != nullptr ? "open submap" : "map", ekf_.size(), options_.local_landmarks());
+  const Index room = options_.local_landmarks();
+  if (ekf_.size() + new_count_ <= room) return;
+  if (map_ != nullptr)
+    throw Error(ErrorCode::capacity,
+                "observations: %td new landmarks, and the open submap, which could not be closed, "
+                "holds %td of %td",
+                new_count_, ekf_.size(), room);
+  throw Error(ErrorCode::capacity, "observations: %td new landmarks, and the map holds %td of max_landmarks = %td",
+              new_count_, ekf_.size(), room);
 }
 
 void Filter::open_candidates(const Sensor& sensor) {

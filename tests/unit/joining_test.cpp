@@ -32,6 +32,7 @@ FilterOptions options_of(ErrorKind error, Index submap_landmarks, JoinKind join)
   options.join = join;
   options.gate_probability = 1.0;
   options.batch_gate_probability = 1.0;
+  options.step_tolerance = 1e-12;
   options.initial_pose = SE3(SO3::exp(Vector3(0.1, -0.2, 0.7)), Vector3(10, -5, 2));
   options.initial_covariance.topLeftCorner<3, 3>() = Vector3(0.04, 0.01, 0.09).asDiagonal();
   return options;
@@ -112,4 +113,9 @@ void compare(ErrorKind error, JoinKind join, double tolerance) {
 TEST_CASE("dense joining: equal to a single map on a linear-Gaussian problem") {
   SUBCASE("invariant") { compare(ErrorKind::invariant, JoinKind::dense, 1e-10); }
   SUBCASE("standard") { compare(ErrorKind::standard, JoinKind::dense, 1e-10); }
+}
+
+TEST_CASE("sparse joining: equal to a single map on a linear-Gaussian problem") {
+  SUBCASE("invariant") { compare(ErrorKind::invariant, JoinKind::sparse, 1e-8); }
+  SUBCASE("standard") { compare(ErrorKind::standard, JoinKind::sparse, 1e-8); }
 }

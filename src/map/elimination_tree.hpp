@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sparse Cholesky factor of the map, kept as a tree of fronts over space (multifrontal nested dissection).
+//
+// Its leaves are submaps: dense blocks of information over the variables that they share with others. A leaf has a key:
+// the cell of space where its submap lies, as a Morton code, and its number. The keys' binary trie is the tree: it
+// halves space again and again, so that an addition changes one path, and nothing is ever balanced anew. A front
+// eliminates the variables that no leaf outside its subtree holds, and hands the Schur complement over the others, its
+// boundary, up to its parent. What lies apart in space has little boundary in common.
+//
+// Fronts are immutable and shared: an update makes new ones on the paths that it touches and leaves the rest, so that a
+// tree is copied, or taken back, by copying a pointer.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "ekf/small_algebra.hpp"
+#include "geometry/types.hpp"
+
+namespace cairn {
+
+// Bases are even, landmarks odd.
+using Variable = std::int32_t;
+inline Variable base_variable(std::size_t base) {
+  return static_cast<Variable>(2 * base);
+}
+inline Variable landmark_variable(std::size_t landmark) {
+  return static_cast<Variable>(2 * landmark + 1);
+}
+inline bool is_landmark(Variable v) {
+  return (v & 1) != 0;
+}
+inline Index dimension(Variable v) {
+  return is_landmark(v) ? 3 : 6;
+}
+inline Index dimension(const std::vector<Variable>& variables) {
+  Index sum = 0;
+  for (const Variable v : variables) sum += dimension(v);
+  return sum;
+}
+
+// Where in the tree a leaf stands.
+struct TreeKey {
+  static constexpr int kBits = 96;
+  std::uint64_t place = 0;  // Morton code
+  std::uint32_t leaf = 0;
+
+  TreeKey() = default;
+  // Cells are 1 m wide; `offset` counts from a point that stays the same for all of a tree's life.
+  TreeKey(const Vector3& offset, std::uint32_t leaf_number);
+  bool bit(int i) const { return i < 64 ? (place >> (63 - i)) & 1 : (leaf >> (95 - i)) & 1; }
+  // The first bit in which two keys differ, kBits where there is none.
+  int split(const TreeKey& other) const;
+  bool operator<(const TreeKey& other) const { return place != other.place ? place < other.place : leaf < other.leaf; }
+};
+
+// What the tree asks of its owner. Leaves have ascending variables.
+class LeafSource {
+ public:
+  virtual ~LeafSource() = default;
+  virtual const std::vector<Variable>& variables(std::uint32_t leaf) const = 0;
+  // Lower triangle of its information, in the order of its variables; H comes zeroed.
+  virtual void information(std::uint32_t leaf, double* H, Index ld) const = 0;
+};
+
+class EliminationTree {
+ public:
+  static constexpr int kCrown = -1;  // as a front's bit
+
+  struct Front;
+  using FrontPointer = std::shared_ptr<const Front>;
+
+  // How many leaves hold a variable; one that has more than those in the tree is eliminated last of all.
+  void set_degree(Variable v, std::int32_t degree);
+
+  struct Changes {
+    std::vector<TreeKey> leaves;  // new, or with other variables or information
+    // Variables that were eliminated before and are now held by more leaves, each with a leaf that held it.
+    std::vector<std::pair<Variable, TreeKey>> variables;
+  };
+  // False, with nothing changed, where a pivot is not positive. `refactored` and `assembled` get the fronts and the
+  // leaves whose information was asked for.
+  bool update(const LeafSource& source, const Changes& changes, std::size_t& refactored,
+              std::vector<std::uint32_t>& assembled);
+
+  // Solves H x = b, several columns at a time. `touch` says where b may be not zero (and where x is wanted whatever
+  // happens): leaves, or eliminated variables.
+  struct Touch {
+    TreeKey key;
+    int bit;
+  };
+  Touch touch(const TreeKey& leaf) const { return {leaf, TreeKey::kBits}; }
+  Touch touch(Variable v, const TreeKey& leaf_that_holds_it) const { return {leaf_that_holds_it, eliminated_at(v)}; }
+  class System {
+   public:
+    virtual ~System() = default;
+    // Adds to the right-hand side of a variable, dimension(v) x columns.
+    virtual void right_hand_side(Variable v, double* b, Index ld) const = 0;
+    // Takes the solution of a variable; `weight` holds the square roots of the information's diagonal there, all others
+    // known. False: whoever hangs on this variable alone needs no visit.
+    virtual bool solution(Variable v, const double* x, Index ld, const double* weight) = 0;
+  };
+  void solve(std::vector<Touch> touches, Index columns, System& system) const;
+
+  // Covariances by selected inversion: of all variables of each leaf asked for, in their order.
+  class Covariances {
+   public:
+    virtual ~Covariances() = default;
+    virtual void leaf(std::uint32_t leaf, const Eigen::MatrixXd& covariance) = 0;
+  };
+  void covariances(std::vector<TreeKey> leaves, Covariances& visitor) const;
+  // Of the variable that was eliminated last.
+  Eigen::MatrixXd last_covariance() const;
+
+  std::size_t memory_bytes() const;  // of the fronts
+
+ private:
+  int eliminated_at(Variable v) const { return eliminated_at_[v]; }
+
+  FrontPointer crown_;  // above the trie: eliminates what is left
+  std::vector<std::int32_t> degree_;
+  std::vector<std::int16_t> eliminated_at_;  // bit of the front that eliminates a variable; kNever
+};
+
+}  // namespace cairn

@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sparse joining: leaves, transactions, closings. The solution: sparse_solve.cpp; queries: sparse_queries.cpp.
+#include "map/sparse_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/chi_square.hpp"
+#include "core/error.hpp"
+#include "map/sparse_undo.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kStaleAtOnce = 32;  // leaves that a closing linearises anew because their base has turned
+
+}  // namespace
+
+SparseMap::SparseMap(const MapOptions& options)
+    : options_(options),
+      prior_(options.initial_pose),
+      prior_covariance_(options.initial_covariance),
+      bases_{options.initial_pose},
+      base_saved_{0},
+      base_covariance_(options.initial_covariance),
+      index_([this](std::size_t i) { return position(i); }) {}
+
+SparseMap::SparseMap(const SparseMap& other)
+    : options_(other.options_),
+      prior_(other.prior_),
+      prior_covariance_(other.prior_covariance_),
+      fixes_(other.fixes_),
+      bases_(other.bases_),
+      base_saved_(other.base_saved_),
+      landmarks_(other.landmarks_),
+      leaves_(other.leaves_),
+      visible_(other.visible_),
+      ids_(other.ids_),
+      tree_(other.tree_),
+      base_covariance_(other.base_covariance_),
+      stale_(other.stale_),
+      unsettled_(other.unsettled_),
+      change_(other.change_),
+      index_([this](std::size_t i) { return position(i); }) {
+  for (std::size_t i = 0; i < visible_.size(); ++i) index_.add(i);
+}
+
+// --- leaves ---
+
+FactorValues SparseMap::values(const Leaf& leaf) const {
+  const auto number = static_cast<std::size_t>(&leaf - leaves_.data());
+  FactorValues values{bases_[number], bases_[number + 1], {}};
+  values.shared.reserve(static_cast<std::size_t>(leaf.factor->shared_count()));
+  for (const Index i : leaf.factor->shared()) values.shared.push_back(landmarks_[leaf.landmarks[i]].position);
+  return values;
+}
+
+// The leaf's factor and variables, by which of its landmarks are shared now.
+void SparseMap::shape(Leaf& leaf, Number number) const {
+  std::vector<Index> shared_ones;
+  for (std::size_t i = 0; i < leaf.landmarks.size(); ++i)
+    if (leaf.landmarks[i] != kNone && shared(leaf.landmarks[i])) shared_ones.push_back(static_cast<Index>(i));
+  leaf.factor = std::make_shared<const SubmapFactor>(leaf.data, std::move(shared_ones));
+  struct Column {
+    Variable variable;
+    Index state;  // of the factor
+  };
+  std::vector<Column> columns{{base_variable(number), 0}, {base_variable(number + 1), 6}};
+  for (Index i = 0; i < leaf.factor->shared_count(); ++i)
+    columns.push_back({landmark_variable(leaf.landmarks[leaf.factor->shared()[i]]), 12 + 3 * i});
+  std::sort(columns.begin(), columns.end(), [](const Column& a, const Column& b) { return a.variable < b.variable; });
+  leaf.variables.clear();
+  leaf.states.clear();
+  leaf.order.assign(static_cast<std::size_t>(leaf.factor->columns()), 0);
+  Index state = 0;
+  for (const Column& column : columns) {
+    leaf.variables.push_back(column.variable);
+    leaf.states.push_back(state);
+    for (Index d = 0; d < dimension(column.variable); ++d) leaf.order[column.state + d] = state++;
+  }
+}
+
+Matrix6 SparseMap::prior_information() const {
+  // What is known exactly counts as known to a micrometre and to a tenth of a microradian.
+  Matrix6 covariance = prior_covariance_;
+  for (int i = 0; i < 6; ++i) covariance(i, i) += i < 3 ? 1e-12 : 1e-14;
+  const Vector6 scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const Matrix6 scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
+  return scale.asDiagonal() * scaled.ldlt().solve(Matrix6::Identity()) * scale.asDiagonal();
+}
+
+void SparseMap::information(std::uint32_t number, double* H, Index ld) const {
+  const Leaf& leaf = leaves_[number];
+  const Eigen::MatrixXd own = leaf.factor->hessian(values(leaf));
+  for (Index c = 0; c < own.cols(); ++c)
+    for (Index r = 0; r < own.rows(); ++r)
+      if (leaf.order[r] >= leaf.order[c]) H[leaf.order[c] * ld + leaf.order[r]] = own(r, c);
+  // What tells of a base alone goes with the submap that ends there; of the first, with the one that begins there.
+  const auto add = [&](Index state, const Matrix6& block) {
+    for (Index c = 0; c < 6; ++c)
+      for (Index r = c; r < 6; ++r) H[(leaf.order[state] + c) * ld + leaf.order[state] + r] += block(r, c);
+  };
+  if (number == 0) {
+    const Matrix6 J = prior_jacobian();
+    add(0, J.transpose() * prior_information() * J);
+  }
+  const auto fixes = fixes_.find(number + 1);
+  if (fixes == fixes_.end()) return;
+  const SE3& T = bases_[number + 1];
+  for (const AbsoluteFix& fix : fixes->second) {
+    const int rows = fix.rows();
+    const Eigen::MatrixXd J = fix.jacobian(T).topRows(rows);
+    add(6, J.transpose() * fix.covariance().topLeftCorner(rows, rows).ldlt().solve(J));
+  }
+}
+
+void SparseMap::evaluate(Number number) {
+  Leaf& leaf = leaves_[number];
+  const SubmapFactor::Evaluation own = leaf.factor->evaluate(values(leaf));
+  leaf.cost = own.cost;
+  leaf.gradient.resize(own.gradient.size());
+  for (Index i = 0; i < own.gradient.size(); ++i) leaf.gradient(leaf.order[i]) = own.gradient(i);
+  if (number == 0) {
+    const Vector6 e = pose_error(bases_[0], prior_);
+    const Vector6 weighted = prior_information() * e;
+    leaf.cost += 0.5 * e.dot(weighted);
+    leaf.gradient.segment<6>(leaf.order[0]) += prior_jacobian().transpose() * weighted;
+  }
+  const auto fixes = fixes_.find(number + 1);
+  if (fixes == fixes_.end()) return;
+  const SE3& T = bases_[number + 1];
+  for (const AbsoluteFix& fix : fixes->second) {
+    const int rows = fix.rows();
+    const Eigen::VectorXd r = fix.residual(T).head(rows);
+    const Eigen::VectorXd weighted = fix.covariance().topLeftCorner(rows, rows).ldlt().solve(r);
+    leaf.cost += 0.5 * r.dot(weighted);
+    leaf.gradient.segment<6>(leaf.order[6]) -= fix.jacobian(T).topRows(rows).transpose() * weighted;
+  }
+}
+
+// d pose_error(base, prior) by the base's own ordinary error.
+Matrix6 SparseMap::prior_jacobian() const {
+  Matrix6 J = Matrix6::Identity();
+  J.bottomRightCorner<3, 3>() = SO3::left_jacobian_inverse((bases_[0].rotation() * prior_.rotation().inverse()).log());
+  return J;
+}
+
+void SparseMap::place_private(Number number) {
+  const Leaf& leaf = leaves_[number];
+  const FactorValues at = values(leaf);
+  const Eigen::VectorXd residual = leaf.factor->residual(at);
+  const Eigen::VectorXd weighted = leaf.factor->weighted(residual);
+  for (std::size_t i = 0; i < leaf.landmarks.size(); ++i) {
+    const Number landmark = leaf.landmarks[i];
+    if (landmark == kNone || shared(landmark)) continue;
+    landmarks_[landmark].position = leaf.factor->place_private(static_cast<Index>(i), at, residual, weighted);
+  }
+}
+
+double SparseMap::cost() const {
+  double sum = 0.0;
+  for (const Leaf& leaf : leaves_) sum += leaf.cost;
+  return sum;
+}
+
+std::size_t SparseMap::memory_bytes() const {
+  std::size_t bytes = tree_.memory_bytes();
+  for (const Leaf& leaf : leaves_) bytes += leaf.factor->memory_bytes();
+  return bytes;
+}
+
+// --- transactions ---
+
+void SparseMap::save_landmark(Undo& undo, Number landmark) {
+  if (landmarks_[landmark].saved == undo.change) return;
+  undo.positions.emplace_back(landmark, landmarks_[landmark].position);
+  landmarks_[landmark].saved = undo.change;
+}
+
+void SparseMap::save_base(Undo& undo, Number base) {
+  if (base_saved_[base] == undo.change) return;
+  undo.bases.emplace_back(base, bases_[base]);
+  base_saved_[base] = undo.change;
+}
+
+// And where its private landmarks stand.
+void SparseMap::save_leaf(Undo& undo, Number leaf) {
+  if (leaves_[leaf].saved == undo.change) return;
+  undo.leaves.emplace_back(leaf, leaves_[leaf]);
+  for (const Number landmark : leaves_[leaf].landmarks)
+    if (landmark != kNone && landmark < undo.landmarks) save_landmark(undo, landmark);
+  leaves_[leaf].saved = undo.change;
+}
+
+void SparseMap::roll_back(Undo& undo) noexcept {
+  for (const Number landmark : undo.extended) {
+    landmarks_[landmark].submaps.pop_back();
+    landmarks_[landmark].count -= undo.counts[&landmark - undo.extended.data()];
+  }
+  for (const auto& [landmark, position] : undo.positions) landmarks_[landmark].position = position;
+  for (const auto& [base, pose] : undo.bases) bases_[base] = pose;
+  for (auto& [number, leaf] : undo.leaves) leaves_[number] = std::move(leaf);
+  for (Number landmark = undo.landmarks; landmark < landmarks_.size(); ++landmark) {
+    ids_.erase(landmarks_[landmark].id);
+    index_.remove(landmarks_[landmark].slot);
+  }
+  landmarks_.resize(undo.landmarks, Landmark());
+  leaves_.resize(undo.leaf_count, Leaf());
+  bases_.resize(undo.base_count);
+  base_saved_.resize(undo.base_count);
+  visible_.resize(undo.visible);
+  tree_ = std::move(undo.tree);
+  fixes_ = std::move(undo.fixes);
+  unsettled_ = std::move(undo.unsettled);
+}
+
+SparseMap::Undo::Undo(const SparseMap& map, Number number)
+    : change(number),
+      landmarks(static_cast<Number>(map.landmarks_.size())),
+      leaf_count(map.leaves_.size()),
+      base_count(map.bases_.size()),
+      visible(map.visible_.size()),
+      tree(map.tree_),
+      fixes(map.fixes_),
+      unsettled(map.unsettled_) {}
+
+double SparseMap::cost_since(const Undo& undo) const {
+  double change = 0.0;
+  for (std::size_t i = undo.leaf_count; i < leaves_.size(); ++i) change += leaves_[i].cost;
+  for (const auto& [number, leaf] : undo.leaves) change += leaves_[number].cost - leaf.cost;
+  return change;
+}
+
+// --- joining ---
+
+JoinReport SparseMap::join(const Submap& submap) {
+  // Landmarks that contradict the map are left out, and the joining begins anew without them.
+  std::vector<char> left_out(submap.ids.size(), 0);
+  for (;;) {
+    bool contradicted = false;
+    const JoinReport report = try_join(submap, left_out, contradicted);
+    if (!contradicted) return report;
+  }
+}
+
+JoinReport SparseMap::try_join(const Submap& submap, std::vector<char>& left_out, bool& contradicted) {
+  JoinReport report;
+  Undo undo(*this, ++change_);
+  try {
+    const Number leaf = take_in(submap, left_out, undo, report);
+    optimise({leaf}, undo, report, options_.most_iterations);
+    report.rows = 3 * report.fused;
+    if (report.rows > 0) {
+      report.threshold = chi_square_quantile(static_cast<double>(report.rows), options_.joint_gate_probability);
+      report.distance = 2.0 * cost_since(undo);
+      if (report.distance > report.threshold && !unsettled_.empty()) {  // it may be too early to tell
+        optimise({}, undo, report, 5 * options_.most_iterations);
+        report.distance = 2.0 * cost_since(undo);
+      }
+      contradicted = find_contradictions(leaf, submap, left_out, report);
+    }
+    if (!contradicted) finish(undo, report);
+  } catch (...) {
+    roll_back(undo);
+    throw;
+  }
+  if (contradicted) roll_back(undo);
+  return report;
+}
+
+// Appends the submap, its end and its new landmarks, and makes the factor anew where that reaches.
+SparseMap::Number SparseMap::take_in(const Submap& submap, const std::vector<char>& left_out, Undo& undo,
+                                     JoinReport& report) {
+  const auto number = static_cast<Number>(leaves_.size());
+  const SE3 base = bases_.back();
+  bases_.push_back(base * submap.T_base_end);
+  base_saved_.push_back(undo.change);
+  Leaf leaf;
+  leaf.data = std::make_shared<const SubmapData>(submap);
+  leaf.key = TreeKey(base.translation() - options_.initial_pose.translation(), number);
+  leaf.saved = undo.change;
+  EliminationTree::Changes changes;
+  std::vector<Number> reshaped;
+  for (std::size_t i = 0; i < submap.ids.size(); ++i) {
+    const auto known = ids_.find(submap.ids[i]);
+    if (known != ids_.end() && left_out[i] != 0) {
+      leaf.landmarks.push_back(kNone);
+      ++report.refused;
+      continue;
+    }
+    if (known == ids_.end()) {
+      const auto landmark = static_cast<Number>(landmarks_.size());
+      landmarks_.push_back({submap.ids[i],
+                            submap.counts[i],
+                            base * submap.landmarks[i],
+                            {number},
+                            static_cast<Number>(visible_.size()),
+                            undo.change});
+      visible_.push_back(landmark);
+      ids_.emplace(submap.ids[i], landmark);
+      index_.add(visible_.size() - 1);
+      leaf.landmarks.push_back(landmark);
+      ++report.fresh;
+      continue;
+    }
+    const Number landmark = known->second;
+    save_landmark(undo, landmark);
+    undo.counts.push_back(submap.counts[i]);
+    undo.extended.push_back(landmark);
+    Landmark& l = landmarks_[landmark];
+    try {
+      l.submaps.push_back(number);
+    } catch (...) {
+      undo.extended.pop_back();
+      throw;
+    }
+    l.count += submap.counts[i];
+    leaf.landmarks.push_back(landmark);
+    ++report.fused;
+    if (l.submaps.size() == 2)
+      reshaped.push_back(l.submaps[0]);
+    else
+      changes.variables.emplace_back(landmark_variable(landmark), leaves_[l.submaps[0]].key);
+    tree_.set_degree(landmark_variable(landmark), static_cast<std::int32_t>(l.submaps.size()));
+  }
+  if (visible_.size() > options_.max_landmarks)
+    throw Error(ErrorCode::capacity, "submap: %zu new landmarks, and the map holds %zu of max_landmarks = %zu",
+                report.fresh, undo.visible, options_.max_landmarks);
+  shape(leaf, number);
+  leaves_.push_back(std::move(leaf));
+  evaluate(number);
+  std::sort(reshaped.begin(), reshaped.end());
+  reshaped.erase(std::unique(reshaped.begin(), reshaped.end()), reshaped.end());
+  for (const Number old : reshaped) {
+    save_leaf(undo, old);
+    shape(leaves_[old], old);
+    evaluate(old);
+    changes.leaves.push_back(leaves_[old].key);
+  }
+  const std::size_t linearise = std::min(stale_.size(), kStaleAtOnce);
+  for (std::size_t i = 0; i < linearise; ++i) changes.leaves.push_back(leaves_[stale_[stale_.size() - 1 - i]].key);
+  report.relinearised = linearise;
+  undo.linearised = linearise;
+  // A base is held by the submap that ends there and by the one that begins there. The newest one waits for the latter,
+  // and is eliminated last of all until then.
+  tree_.set_degree(base_variable(number), number == 0 ? 1 : 2);
+  tree_.set_degree(base_variable(number + 1), 2);
+  changes.leaves.push_back(leaves_[number].key);
+  refactor(std::move(changes), undo, report);
+  return number;
+}
+
+void SparseMap::refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report) {
+  std::size_t refactored = 0;
+  std::vector<std::uint32_t> assembled;
+  if (!tree_.update(*this, changes, refactored, assembled))
+    throw Error(ErrorCode::numerical, "submap: the map's information is not positive definite; nothing was changed");
+  report.refactored += refactored;
+  undo.assembled.insert(undo.assembled.end(), assembled.begin(), assembled.end());
+}
+
+// What a fused landmark's two estimates have against each other, from below: its share of S^-1 nu is the force that the
+// new submap exerts on it, and the conditional covariance of nu_i, given all other states, is the sum of the inverses
+// of what the new submap and the old ones know of it.
+bool SparseMap::find_contradictions(Number number, const Submap& submap, std::vector<char>& left_out,
+                                    const JoinReport& report) const {
+  const Leaf& leaf = leaves_[number];
+  const double single = chi_square_quantile(3, options_.gate_probability);
+  std::vector<std::pair<double, std::size_t>> distances;
+  for (Index i = 0; i < leaf.factor->shared_count(); ++i) {
+    const Number landmark = leaf.landmarks[leaf.factor->shared()[i]];
+    Matrix3 old = Matrix3::Zero();
+    for (const Number other : landmarks_[landmark].submaps) {
+      if (other == number) continue;
+      const std::vector<Index>& shared_there = leaves_[other].factor->shared();
+      for (std::size_t j = 0; j < shared_there.size(); ++j)
+        if (leaves_[other].landmarks[shared_there[j]] == landmark)
+          old += leaves_[other].factor->landmark_information(static_cast<Index>(j), bases_[other].rotation());
+    }
+    const Matrix3 fresh = leaf.factor->landmark_information(i, bases_[number].rotation());
+    const Vector3 force = leaf.gradient.segment<3>(leaf.order[12 + 3 * i]);
+    const double distance = force.dot((fresh.inverse() + old.inverse()) * force);
+    distances.emplace_back(distance, static_cast<std::size_t>(leaf.factor->shared()[i]));
+  }
+  const auto worst = std::max_element(distances.begin(), distances.end());
+  if (worst == distances.end()) return false;
+  if (!(worst->first > single) && !(report.distance > report.threshold)) return false;
+  // The worst goes, and who is not much better.
+  const double bound = std::max(single, 0.25 * worst->first);
+  left_out[worst->second] = 1;
+  for (const auto& [distance, i] : distances)
+    if (distance > bound) left_out[i] = 1;
+  static_cast<void>(submap);
+  return true;
+}
+
+void SparseMap::finish(Undo& undo, JoinReport& report) {
+  for (const auto& [number, leaf] : undo.leaves) place_private(number);
+  for (std::size_t i = undo.leaf_count; i < leaves_.size(); ++i) place_private(static_cast<Number>(i));
+  base_covariance_ = tree_.last_covariance();
+  double sum = 0.0;
+  for (const auto& [landmark, before] : undo.positions) {
+    const double way = (landmarks_[landmark].position - before).squaredNorm();
+    sum += way;
+    report.moved_max = std::max(report.moved_max, std::sqrt(way));
+    if (landmarks_[landmark].slot != kNone) index_.moved(landmarks_[landmark].slot);
+  }
+  if (undo.landmarks > 0) report.moved_rms = std::sqrt(sum / undo.landmarks);
+  stale_.resize(stale_.size() - undo.linearised);
+  for (const Number leaf : undo.assembled) leaves_[leaf].linearised = bases_[leaf];
+  const auto turned = [&](Number number) {
+    constexpr double kTurned = 0.02;  // rad
+    return (bases_[number].rotation() * leaves_[number].linearised.rotation().inverse()).log().norm() > kTurned;
+  };
+  for (const auto& [number, leaf] : undo.leaves)
+    if (turned(number)) stale_.push_back(number);
+  std::sort(stale_.begin(), stale_.end());
+  stale_.erase(std::unique(stale_.begin(), stale_.end()), stale_.end());
+}
+
+void SparseMap::remove(std::uint64_t id) {
+  const auto found = ids_.find(id);
+  if (found == ids_.end()) return;
+  Landmark& landmark = landmarks_[found->second];
+  const Number last = visible_.back(), slot = landmark.slot;
+  visible_[slot] = last;
+  landmarks_[last].slot = slot;
+  landmark.slot = kNone;
+  visible_.pop_back();
+  index_.remove(visible_.size());
+  if (slot < visible_.size()) index_.moved(slot);
+  ids_.erase(found);
+}
+
+}  // namespace cairn

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sparse joining: all submaps solved for together, each as one dense observation of its base, its end and its
+// landmarks, by damped Gauss-Newton on a factor that a closing changes only where it reaches (docs/submaps.md).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+#include "map/elimination_tree.hpp"
+#include "map/global_map.hpp"
+#include "map/spatial_index.hpp"
+#include "map/submap_factor.hpp"
+
+namespace cairn {
+
+class SparseMap final : public GlobalMap, private LeafSource {
+ public:
+  explicit SparseMap(const MapOptions& options);
+  SparseMap(const SparseMap& other);
+  SparseMap& operator=(const SparseMap&) = delete;
+
+  JoinReport join(const Submap& submap) override;
+  FixReport fix(const AbsoluteFix& fix, double threshold) override;
+  void remove(std::uint64_t id) override;
+  SE3 base() const override { return bases_.back(); }
+  Matrix6 base_covariance() const override { return base_covariance_; }
+  void base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override;
+  std::size_t submap_count() const override { return leaves_.size(); }
+  SE3 submap_base(std::size_t submap) const override { return bases_[submap]; }
+  const std::vector<std::uint64_t>& submap_ids(std::size_t submap) const override { return leaves_[submap].data->ids; }
+
+  // Landmarks
+  std::size_t size() const override { return visible_.size(); }
+  std::uint64_t id(std::size_t index) const override { return landmarks_[visible_[index]].id; }
+  std::uint64_t observations(std::size_t index) const override { return landmarks_[visible_[index]].count; }
+  Vector3 position(std::size_t index) const override { return landmarks_[visible_[index]].position; }
+  Matrix3 covariance(std::size_t index) const override;
+  bool find(std::uint64_t id, std::size_t& index) const override;
+  void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override;
+  void prepare_covariances(const std::vector<std::size_t>& indices) const override;
+  const SpatialIndex* spatial_index() const override { return &index_; }
+
+  std::size_t memory_bytes() const;
+  double cost() const;  // half the sum of all squared normalised residuals
+
+ private:
+  using Number = std::uint32_t;
+  static constexpr Number kNone = UINT32_MAX;
+
+  struct Landmark {
+    std::uint64_t id;
+    std::uint64_t count;
+    Vector3 position;
+    std::vector<Number> submaps;  // that hold it
+    Number slot;                  // in visible_, kNone once removed
+    Number saved;                 // the change that saved it last
+  };
+  struct Leaf {
+    TreeKey key;
+    std::shared_ptr<const SubmapData> data;
+    std::vector<Number> landmarks;  // of the map, by the submap's; kNone: left out
+    std::shared_ptr<const SubmapFactor> factor;
+    std::vector<Variable> variables;  // ascending
+    std::vector<Index> states;        // where each begins
+    std::vector<Index> order;         // state of the variables by state of the factor
+    SE3 linearised;                   // the base when the tree took its information
+    double cost = 0.0;
+    Eigen::VectorXd gradient;  // in the order of `variables`
+    Number saved = 0;
+  };
+  struct Undo;
+  class Step;
+  class Columns;
+  class CovarianceCache;
+
+  // LeafSource
+  const std::vector<Variable>& variables(std::uint32_t leaf) const override { return leaves_[leaf].variables; }
+  void information(std::uint32_t leaf, double* H, Index ld) const override;
+
+  bool shared(Number landmark) const { return landmarks_[landmark].submaps.size() > 1; }
+  FactorValues values(const Leaf& leaf) const;
+  void shape(Leaf& leaf, Number number) const;
+  void evaluate(Number leaf);
+  void place_private(Number leaf);
+  template <class Visit>
+  void for_leaves_of(Variable v, Visit&& visit) const;
+  void gradient_of(Variable v, double* b) const;
+  Matrix6 prior_information() const;
+  Matrix6 prior_jacobian() const;
+
+  void save_landmark(Undo& undo, Number landmark);
+  void save_base(Undo& undo, Number base);
+  void save_leaf(Undo& undo, Number leaf);
+  void roll_back(Undo& undo) noexcept;
+
+  JoinReport try_join(const Submap& submap, std::vector<char>& left_out, bool& contradicted);
+  Number take_in(const Submap& submap, const std::vector<char>& left_out, Undo& undo, JoinReport& report);
+  void refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report);
+  void optimise(std::vector<Number> dirty, Undo& undo, JoinReport& report, int most_iterations);
+  bool find_contradictions(Number leaf, const Submap& submap, std::vector<char>& left_out,
+                           const JoinReport& report) const;
+  void finish(Undo& undo, JoinReport& report);
+  double cost_since(const Undo& undo) const;
+
+  MapOptions options_;
+  SE3 prior_;  // the first base
+  Matrix6 prior_covariance_;
+  std::map<Number, std::vector<AbsoluteFix>> fixes_;  // by base
+  std::vector<SE3> bases_;
+  std::vector<Number> base_saved_;
+  std::vector<Landmark> landmarks_;
+  std::vector<Leaf> leaves_;
+  std::vector<Number> visible_;
+  std::unordered_map<std::uint64_t, Number> ids_;
+  EliminationTree tree_;
+  Matrix6 base_covariance_;
+  std::vector<Number> stale_;      // leaves whose base has turned since they were linearised
+  std::vector<Number> unsettled_;  // leaves where the last optimisation ended before it converged
+  Number change_ = 0;
+  SpatialIndex index_;
+  mutable std::mutex mutex_;  // of what follows
+  mutable std::vector<Matrix3> covariances_;
+  mutable std::vector<Number> covariance_of_;  // the change that a covariance belongs to
+};
+
+}  // namespace cairn

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Queries of the sparse map. Covariances are recovered from the factor when they are asked for, and kept until the map
+// changes.
+#include <algorithm>
+
+#include "map/sparse_map.hpp"
+
+namespace cairn {
+
+bool SparseMap::find(std::uint64_t id, std::size_t& index) const {
+  const auto found = ids_.find(id);
+  if (found == ids_.end()) return false;
+  index = landmarks_[found->second].slot;
+  return true;
+}
+
+// Fills the cache, leaf by leaf.
+class SparseMap::CovarianceCache final : public EliminationTree::Covariances {
+ public:
+  explicit CovarianceCache(const SparseMap& map) : map_(map) {}
+
+  void leaf(std::uint32_t number, const Eigen::MatrixXd& covariance) override {
+    const Leaf& leaf = map_.leaves_[number];
+    std::vector<Index> privates;
+    for (std::size_t i = 0; i < leaf.landmarks.size(); ++i) {
+      const Number landmark = leaf.landmarks[i];
+      if (landmark != kNone && !map_.shared(landmark)) privates.push_back(static_cast<Index>(i));
+    }
+    const std::vector<Index>& shared_ones = leaf.factor->shared();
+    for (std::size_t i = 0; i < shared_ones.size(); ++i) {
+      const Index at = leaf.order[12 + 3 * i];
+      keep(leaf.landmarks[shared_ones[i]], covariance.block<3, 3>(at, at));
+    }
+    if (privates.empty()) return;
+    Eigen::MatrixXd A, W, sorted(3 * static_cast<Index>(privates.size()), covariance.rows());
+    leaf.factor->express_private(privates, map_.values(leaf), A, W);
+    for (Index c = 0; c < A.cols(); ++c) sorted.col(leaf.order[c]) = A.col(c);
+    const Eigen::MatrixXd across = sorted * covariance;
+    for (std::size_t a = 0; a < privates.size(); ++a) {
+      const auto row = 3 * static_cast<Index>(a);
+      keep(leaf.landmarks[privates[a]],
+           W.block<3, 3>(row, row) + across.middleRows<3>(row) * sorted.middleRows<3>(row).transpose());
+    }
+  }
+
+ private:
+  void keep(Number landmark, const Matrix3& covariance) {
+    map_.covariances_[landmark] = 0.5 * (covariance + covariance.transpose());
+    map_.covariance_of_[landmark] = map_.change_;
+  }
+
+  const SparseMap& map_;
+};
+
+void SparseMap::prepare_covariances(const std::vector<std::size_t>& indices) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  covariances_.resize(landmarks_.size());
+  covariance_of_.resize(landmarks_.size(), 0);
+  std::vector<Number> wanted;
+  for (const std::size_t index : indices) {
+    const Number landmark = visible_[index];
+    if (covariance_of_[landmark] != change_) wanted.push_back(landmarks_[landmark].submaps[0]);
+  }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  if (wanted.empty()) return;
+  std::vector<TreeKey> keys;
+  for (const Number leaf : wanted) keys.push_back(leaves_[leaf].key);
+  CovarianceCache cache(*this);
+  tree_.covariances(std::move(keys), cache);
+}
+
+Matrix3 SparseMap::covariance(std::size_t index) const {
+  prepare_covariances({index});
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return covariances_[visible_[index]];
+}
+
+// Columns of the covariance for chosen variables; of the solution their rows alone.
+class SparseMap::Columns final : public EliminationTree::System {
+ public:
+  explicit Columns(std::vector<Variable> variables) : variables_(std::move(variables)) {
+    Index state = 0;
+    for (const Variable v : variables_) {
+      states_.push_back(state);
+      state += dimension(v);
+    }
+    covariance.resize(state, state);
+  }
+  Index columns() const { return covariance.cols(); }
+  Index state(Variable v) const { return states_[position(v)]; }
+
+  void right_hand_side(Variable v, double* b, Index ld) const override {
+    const std::size_t at = position(v);
+    if (at == variables_.size()) return;
+    for (Index d = 0; d < dimension(v); ++d) b[(states_[at] + d) * ld + d] += 1.0;
+  }
+  bool solution(Variable v, const double* x, Index ld, const double*) override {
+    const std::size_t at = position(v);
+    if (at == variables_.size()) return false;
+    for (Index c = 0; c < covariance.cols(); ++c)
+      for (Index d = 0; d < dimension(v); ++d) covariance(states_[at] + d, c) = x[c * ld + d];
+    return false;
+  }
+
+  Eigen::MatrixXd covariance;
+
+ private:
+  std::size_t position(Variable v) const {
+    const auto found = std::lower_bound(variables_.begin(), variables_.end(), v);
+    return found != variables_.end() && *found == v ? static_cast<std::size_t>(found - variables_.begin())
+                                                    : variables_.size();
+  }
+
+  std::vector<Variable> variables_;  // ascending
+  std::vector<Index> states_;
+};
+
+void SparseMap::base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  const auto size = static_cast<Index>(6 + 3 * count);
+  Eigen::Map<Eigen::MatrixXd> joint(matrix, size, size);
+  if (leaves_.empty()) {
+    joint = base_covariance_;
+    return;
+  }
+  // All asked for are A e + w by chosen variables' errors e; only private landmarks of one submap share a w.
+  const Variable newest = base_variable(bases_.size() - 1);
+  std::vector<Variable> variables{newest};
+  std::vector<EliminationTree::Touch> touches{tree_.touch(newest, leaves_.back().key)};
+  std::map<Number, std::vector<std::size_t>> privates;  // by leaf: which of those asked for
+  const auto want = [&](Variable v, Number leaf) {
+    variables.push_back(v);
+    touches.push_back(tree_.touch(v, leaves_[leaf].key));
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const Number landmark = visible_[indices[i]], leaf = landmarks_[landmark].submaps[0];
+    if (shared(landmark))
+      want(landmark_variable(landmark), leaf);
+    else
+      privates[leaf].push_back(i);
+  }
+  for (const auto& [leaf, asked] : privates)
+    for (const Variable v : leaves_[leaf].variables) want(v, leaf);
+  std::sort(variables.begin(), variables.end());
+  variables.erase(std::unique(variables.begin(), variables.end()), variables.end());
+  Columns columns(variables);
+  tree_.solve(std::move(touches), columns.columns(), columns);
+
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, columns.columns()), W = Eigen::MatrixXd::Zero(size, size);
+  A.block<6, 6>(0, columns.state(newest)).setIdentity();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Number landmark = visible_[indices[i]];
+    if (shared(landmark))
+      A.block<3, 3>(static_cast<Index>(6 + 3 * i), columns.state(landmark_variable(landmark))).setIdentity();
+  }
+  for (const auto& [number, asked] : privates) {
+    const Leaf& leaf = leaves_[number];
+    std::vector<Index> local;
+    for (const std::size_t i : asked)
+      local.push_back(std::find(leaf.landmarks.begin(), leaf.landmarks.end(), visible_[indices[i]]) -
+                      leaf.landmarks.begin());
+    Eigen::MatrixXd own, noise, sorted(3 * static_cast<Index>(local.size()), static_cast<Index>(leaf.order.size()));
+    leaf.factor->express_private(local, values(leaf), own, noise);
+    for (Index c = 0; c < own.cols(); ++c) sorted.col(leaf.order[c]) = own.col(c);
+    for (std::size_t a = 0; a < asked.size(); ++a) {
+      const auto row = static_cast<Index>(6 + 3 * asked[a]), from = 3 * static_cast<Index>(a);
+      for (std::size_t v = 0; v < leaf.variables.size(); ++v) {
+        const Index d = dimension(leaf.variables[v]);
+        A.block(row, columns.state(leaf.variables[v]), 3, d) = sorted.block(from, leaf.states[v], 3, d);
+      }
+      for (std::size_t b = 0; b < asked.size(); ++b)
+        W.block<3, 3>(row, static_cast<Index>(6 + 3 * asked[b])) = noise.block<3, 3>(from, 3 * static_cast<Index>(b));
+    }
+  }
+  joint = A * columns.covariance * A.transpose() + W;
+  for (Index c = 0; c < size; ++c)  // both triangles, bit for bit
+    for (Index r = c + 1; r < size; ++r) joint(c, r) = joint(r, c);
+}
+
+void SparseMap::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  std::vector<double> joint((6 + 3 * count) * (6 + 3 * count));
+  base_joint_covariance(indices, count, joint.data());
+  without_pose(joint.data(), count, matrix);
+}
+
+}  // namespace cairn

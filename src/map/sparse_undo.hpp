@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a change of the sparse map has changed so far. Included by the map's own files alone.
+#pragma once
+
+#include "map/sparse_map.hpp"
+
+namespace cairn {
+
+struct SparseMap::Undo {
+  Undo(const SparseMap& map, Number number);
+
+  Number change;
+  Number landmarks;  // how many of each there were
+  std::size_t leaf_count, base_count, visible;
+  EliminationTree tree;
+  std::map<Number, std::vector<AbsoluteFix>> fixes;
+  std::vector<Number> unsettled;
+  std::vector<std::pair<Number, Vector3>> positions;
+  std::vector<std::pair<Number, SE3>> bases;
+  std::vector<std::pair<Number, Leaf>> leaves;
+  std::vector<Number> extended;  // landmarks that got another submap
+  std::vector<std::uint64_t> counts;
+  std::vector<std::uint32_t> assembled;
+  std::size_t linearised = 0;  // of the stale leaves, from the end
+};
+
+}  // namespace cairn
