@@ -13,7 +13,7 @@ import weakref
 import support
 import cairn
 import numpy as np
-from cairn import ffi, lib
+from cairn import _library, ffi, lib
 from support import seen
 
 LEVEL = (np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
@@ -81,6 +81,13 @@ class ResultsTest(unittest.TestCase):
         in_c = subprocess.run([os.environ["CAIRN_ROVER"]], stdout=subprocess.PIPE, text=True, check=True).stdout
         self.assertEqual(in_python, in_c)
         self.assertGreater(len(in_c.splitlines()), 10)
+
+    def test_the_best_build_is_loaded(self):
+        folder = os.environ.get("CAIRN_LIBRARY", "")
+        two = os.path.isdir(os.path.join(folder, "glibc-hwcaps", "x86-64-v3")) and _library._has_v3()
+        if two:
+            self.assertEqual(ffi.string(lib.cairn_build()), b"x86-64-v3")
+        self.assertIn(ffi.string(lib.cairn_build()), (b"x86-64", b"x86-64-v3", b"generic"))
 
     def test_predictions(self):
         with cairn.Filter() as one:

@@ -75,7 +75,7 @@ class ReportTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.room = tempfile.TemporaryDirectory()
-        cls.source = support.run_program(os.path.join(cls.room.name, "drive"))
+        cls.source = support.run_program(os.path.join(cls.room.name, "drive"), options=["--single-map"])
 
     @classmethod
     def tearDownClass(cls):

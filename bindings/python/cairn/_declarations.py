@@ -99,5 +99,6 @@ def write_module(path):
     ffi.set_source("cairn._abi", None)
     ffi.cdef(declarations(find_include_dir()))
     ffi.emit_python_code(path)
+    folder = pkg_config("libdir")
     with open(path, "a") as file:
-        file.write(f"\nlibrary_dir = {pkg_config('libdir')!r}\n")
+        file.write(f"\nlibrary_dir = {folder and os.path.realpath(folder)!r}\n")

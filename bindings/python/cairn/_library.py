@@ -16,6 +16,22 @@ except ImportError:  # run from the source tree
 _declared = ffi.dlopen(None)  # knows the headers' constants and the names of their functions
 
 
+def _has_v3():
+    """Whether this processor has the instructions of x86-64-v3."""
+    try:
+        with open("/proc/cpuinfo") as file:
+            flags = next((line for line in file if line.startswith("flags")), "").split()
+    except OSError:
+        return False
+    return {"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe", "xsave"} <= set(flags)
+
+
+def _builds(folder, soname):
+    """Paths in a folder, the best first. The loader would choose by itself, but not where it is given a path."""
+    best = os.path.join(folder, "glibc-hwcaps", "x86-64-v3", soname)
+    return ([best] if os.path.isfile(best) and _has_v3() else []) + [os.path.join(folder, soname)]
+
+
 def _open(stem):
     """Opens lib`stem`.so, in the folder that was named or where the loader finds it."""
     soname = f"lib{stem}.so.{_declared.CAIRN_VERSION_MAJOR}"
@@ -24,9 +40,9 @@ def _open(stem):
         paths = [named]
     elif named:
         folder = named if os.path.isdir(named) else os.path.dirname(named)
-        paths = [os.path.join(folder, soname), os.path.join(folder, f"lib{stem}.so")]
+        paths = _builds(folder, soname) + [os.path.join(folder, f"lib{stem}.so")]
     else:
-        paths = [os.path.join(library_dir, soname)] if library_dir else []
+        paths = _builds(library_dir, soname) if library_dir else []
         paths.append(soname)
     causes = []
     for path in paths:
@@ -54,7 +70,7 @@ class Library:
             raise AttributeError(name)
         try:
             value = getattr(self._cairn, name)
-        except AttributeError:
+        except (AttributeError, ffi.error):  # the second where the declarations were made at installation
             if not name.startswith("cairn_"):
                 raise AttributeError(f"cairn's C headers have no {name}") from None
             value = self._of_sim(name)
@@ -68,7 +84,7 @@ class Library:
             if "_sim" not in self.__dict__:
                 self._sim = _open("cairn_sim")
             return getattr(self._sim, name)
-        except (ImportError, AttributeError) as error:
+        except (ImportError, AttributeError, ffi.error) as error:
             raise AttributeError(f"libcairn has no {name}, nor has libcairn_sim: {error}") from None
 
     def __dir__(self):

@@ -14,6 +14,11 @@ _NUMPY_OF = {"double": "f8", "float": "f4", "int32_t": "i4", "uint32_t": "u4", "
              "size_t": "u8", "uint8_t": "u1", "int8_t": "i1"}
 
 
+def name_of(kind):
+    """Name of a struct's type; cffi writes it with or without "struct", by where the declarations came from."""
+    return kind.cname[7:] if kind.cname.startswith("struct ") else kind.cname
+
+
 def shape_of_array(name, length):
     """Shape that a field of so many values has in numpy: covariances are square, the rest is flat."""
     side = math.isqrt(length)
@@ -95,7 +100,7 @@ def set_field(struct, name, kind, value, where):
             values = array(where, value, shape)
         setattr(struct, name, [float(number) for number in values.ravel()])
     elif kind.kind == "struct":
-        set_fields(getattr(struct, name), kind, pose_fields(where, value) if kind.cname == "cairn_pose" else value,
+        set_fields(getattr(struct, name), kind, pose_fields(where, value) if name_of(kind) == "cairn_pose" else value,
                    where + ".")
     elif kind.kind == "primitive":
         if isinstance(value, str):
@@ -112,7 +117,7 @@ def set_fields(struct, kind, values, where=""):
     fields = {name: field.type for name, field in kind.fields if not name.startswith(BOOKKEEPING)}
     for name, value in values.items():
         if name not in fields:
-            raise TypeError(f"there is no option '{where}{name}': {kind.cname} has {', '.join(fields)}")
+            raise TypeError(f"there is no option '{where}{name}': {name_of(kind)} has {', '.join(fields)}")
         set_field(struct, name, fields[name], value, where)
 
 
@@ -167,7 +172,7 @@ def as_dict(struct):
         if field.type.kind == "array":
             value = np.array(list(value)).reshape(shape_of_array(name, field.type.length))
         elif field.type.kind == "struct":
-            value = Pose.of(value) if field.type.cname == "cairn_pose" else as_dict(value)
+            value = Pose.of(value) if name_of(field.type) == "cairn_pose" else as_dict(value)
         result[name] = value
     return result
 

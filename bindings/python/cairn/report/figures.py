@@ -47,7 +47,8 @@ def _flatten(axes):
     axes.tick_params(axis="z", pad=1)
     low, high = zip(axes.get_xlim3d(), axes.get_ylim3d(), axes.get_zlim3d())
     size = np.array(high) - np.array(low)
-    axes.set_box_aspect((size[0], size[1], max(size[2] * 5, 0.25 * max(size[:2]))), zoom=1.15)
+    axes.set_box_aspect((size[0], size[1], max(size[2] * 5, 0.25 * max(size[:2]))), zoom=1.05)
+    axes.figure.subplots_adjust(left=0.06, right=0.98, bottom=0.04, top=1.0)
     axes.view_init(elev=38, azim=-120)
 
 
@@ -140,13 +141,13 @@ def local_deviation(run):
 
 
 def held(runs):
-    if not any(run.observations.held for run in runs):
+    told = {run: run.held_landmarks() for run in runs}
+    if not any(told.values()):
         return None
     figure, axes = pyplot.subplots(figsize=(6.4, 4.2))
     for run in runs:
-        if run.observations.held:
-            times = run.time_of_steps(np.array(run.observations.held_step, float))
-            axes.step(times, run.observations.held, where="post", linewidth=1.3, color=SIDES.get(run.name, ESTIMATE),
+        if told[run]:
+            axes.step(*told[run], where="post", linewidth=1.3, color=SIDES.get(run.name, ESTIMATE),
                       label={"standard": "standard EKF-SLAM", "submaps": "SLAM with submaps"}.get(run.name, run.name))
     axes.set_xlabel("time (s)")
     axes.set_ylabel("landmarks")
@@ -181,8 +182,7 @@ def _rendered(runs, kind):
             if figure is None:
                 continue
             content = io.BytesIO()
-            figure.savefig(content, format=kind, dpi=130, bbox_inches="tight", pad_inches=0.12,
-                           metadata={"Date": None} if kind == "svg" else None)
+            figure.savefig(content, format=kind, dpi=130, metadata={"Date": None} if kind == "svg" else None)
             pyplot.close(figure)
             yield number, content.getvalue()
 

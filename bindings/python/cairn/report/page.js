@@ -120,7 +120,7 @@
 
   function describe(stop) {
     const parts = ['step ' + stop.step + ', ' + stop.time.toFixed(1) + ' s'];
-    if (main.outlines) parts.push(stop.submaps + ' submaps');
+    if (main.outlines) parts.push(stop.submaps + (stop.submaps === 1 ? ' submap' : ' submaps'));
     if (main.landmarks.x.length) parts.push(stop.landmarks + ' landmarks seen');
     return parts.join(' · ');
   }

@@ -164,6 +164,15 @@ class Run:
     def time_of_steps(self, steps):
         return np.interp(steps, self.trajectory["step"], self.trajectory["t_s"])
 
+    def held_landmarks(self):
+        """Times and how many landmarks the filter's state held then; None where nothing tells."""
+        table, seen = self.timing, self.observations
+        if table is not None and "filter_landmarks" in table and len(table["step"]):
+            return self.time_of_steps(table["step"]), table["filter_landmarks"]
+        if seen.held:
+            return self.time_of_steps(np.array(seen.held_step, float)), np.array(seen.held, float)
+        return None
+
     def euler_error(self):
         """True minus estimated roll, pitch and yaw (n x 3), rad, or None."""
         columns = []

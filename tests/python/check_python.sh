@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Installs a build and the Python package as a user would, then tests the package from there: its own tests, every
+# command of docs/python.md, and the report's page in a browser with the network off.
+# check_python.sh BUILD. What it makes stays in BUILD/python, screenshots too.
+set -euo pipefail
+# shellcheck source=../support/setup.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/../support/setup.sh"
+
+(($# == 1)) || fail "usage: check_python.sh BUILD"
+build=$(cd -- "$1" && pwd -P)
+need_packages cmake=cmake gcc=cc pkgconf=pkg-config python3 python3-venv python3-cffi python3-numpy python3-matplotlib \
+  python3-setuptools python3-wheel chromium=chromium fonts-dejavu-core
+
+work=$build/python
+rm -rf -- "$work"
+mkdir -p "$work"
+cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" || fail "cmake --install failed: see $work/install.log"
+libdir=$(dirname -- "$(find "$work/prefix" -path '*/glibc-hwcaps' -prune -o -name libcairn.so -print)")
+
+# A place with a copy of what a user has after cloning, but for the headers: those must come from the installed library.
+mkdir "$work/clone" "$work/shots"
+cp -R -- "$root/bindings" "$work/clone"
+find "$work/clone" -name __pycache__ -prune -exec rm -rf {} +
+
+# numpy, cffi, matplotlib and setuptools are Debian's; plotly comes from the package index.
+/usr/bin/python3 -m venv --system-site-packages "$work/venv"
+export PKG_CONFIG_PATH=$libdir/pkgconfig PATH=$work/venv/bin:$work/prefix/bin:$PATH
+export PIP_CONSTRAINT=$root/tests/python/constraints.txt PIP_NO_BUILD_ISOLATION=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_RETRIES=5
+export PYTHONDONTWRITEBYTECODE=1
+unset PYTHONPATH CAIRN_LIBRARY CAIRN_INCLUDE_DIR
+
+say "The commands of docs/python.md"
+# Those in blocks of sh, one script; those in blocks of python, one program that runs in the same folder.
+block() { awk -v kind="$1" '$0 == "```" kind {on = 1; next} $0 == "```" && on {on = 0; print ""} on' "$root/docs/python.md"; }
+block sh >"$work/commands.sh"
+block python >"$work/lines.py"
+[[ -s $work/commands.sh && -s $work/lines.py ]] || fail "docs/python.md has lost its commands"
+(cd -- "$work/clone" && bash -euxo pipefail "$work/commands.sh") >"$work/commands.log" 2>&1 ||
+  { cat "$work/commands.log"; fail "a command of docs/python.md failed"; }
+(cd -- "$work/clone" && python3 "$work/lines.py") || fail "the Python lines of docs/python.md failed"
+for file in out/report.html both/report.html figures/figure_05.png figures/figure_13.png; do
+  [[ -s $work/clone/$file ]] || fail "the commands of docs/python.md made no $file"
+done
+echo "ok"
+
+say "The installed package: its tests"
+export CAIRN_PROGRAM=$work/prefix/bin/cairn CAIRN_SHOTS=$work/shots
+where=$(cd / && python3 -c 'import cairn, cairn._abi; print(cairn.__file__)')
+[[ $where == "$work/venv/"* ]] || fail "cairn was imported from $where, not from where pip installed it"
+for name in declarations filter map report; do
+  python3 "$root/tests/python/${name}_test.py"
+done
+
+say "The page in a browser"
+python3 "$root/tests/python/browser_test.py"
