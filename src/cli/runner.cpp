@@ -11,6 +11,7 @@ namespace cairn::cli {
 namespace {
 
 constexpr std::size_t kLandmarkMargin = 8;
+constexpr std::size_t kMostLandmarks = 10000000, kMostObservations = 4096;  // that the library takes
 
 }  // namespace
 
@@ -26,12 +27,11 @@ void Runner::check(cairn_status status) const {
 void Runner::create() {
   cairn_filter_options options;
   check(cairn_filter_options_init(&options, sizeof options));
-  // Submaps keep what they forget until they are closed: room for all that are ever seen.
-  const bool forgets = choices_.submap_landmarks == 0;
-  const std::size_t needed = drive_.landmarks_at_once(forgets ? choices_.forget_after : 0) + kLandmarkMargin;
+  const std::size_t needed =
+      std::min(kMostLandmarks, drive_.landmarks_at_once(choices_.forget_after) + kLandmarkMargin);
   options.error = choices_.error;
   options.max_landmarks = choices_.max_landmarks.value_or(static_cast<std::uint32_t>(needed));
-  options.max_observations = static_cast<std::uint32_t>(drive_.largest_frame());
+  options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
   options.submap_landmarks = choices_.submap_landmarks;
   options.submap_distance = choices_.submap_distance;
   options.submap_extent = choices_.submap_extent;
