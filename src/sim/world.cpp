@@ -183,7 +183,6 @@ cairn_world_motion World::compose(const std::vector<Sample>& samples, const SE3&
       wheels += sample.wheels / static_cast<double>(samples.size());
     }
     twist = T.log() / motion.dt;
-    // Wheels measure no velocity aside of what the turning makes of it.
   }
   const Vector6 true_twist = T_before_after.log() / motion.dt;
   const Vector2 true_wheels = wheel_rates(true_twist[0], true_twist[5], options_.wheel_radius, options_.track);

@@ -34,7 +34,8 @@ class Simulate(ProgramTest):
     def test_every_option_of_the_world_matters(self):
         plain = self.mars()
         for options in (["--laps", "2"], ["--radius=150"], ["--start-azimuth", "-1"], ["--landmarks=300"],
-                        ["--speed=2"], ["--terrain", "waves"], ["--terrain=flat"], ["--max-slope=0.1"], ["--contact", "point"],
+                        ["--speed=2"], ["--terrain", "waves"], ["--terrain=flat"], ["--max-slope=0.1"],
+                        ["--contact", "point"],
                         ["--drive", "wheels-gyro"], ["--drive", "wheels"], ["--accelerometer", "acceleration"],
                         ["--stick", "per-frame"], ["--velocity-noise", "0.01"], ["--rate-noise=0.002"],
                         ["--drive=wheels-gyro", "--wheel-noise=0.1"], ["--drive=wheels-gyro", "--wheel-slip=0.1"],
@@ -153,7 +154,8 @@ class Refusals(ProgramTest):
                 (["mars", "--pixel-noise", "1"], "unknown option '--pixel-noise'"), (["mars", "--seed=x"], "--seed"),
                 (["mars", "--radius=20"], "radius"), (["mars", "--motion-period=0.13"], "motion_period"),
                 (["mars", "--far-range=1"], "far_range"), (["mars", "--half-azimuth=4"], "half_azimuth"),
-                (["mars", "--max-slope=1"], "max_slope"), (["mars", "--course=traverse", "--closed"], "traverse_closed")]:
+                (["mars", "--max-slope=1"], "max_slope"),
+                (["mars", "--course=traverse", "--closed"], "traverse_closed")]:
             self.assert_refused(call("simulate", *arguments), word)
 
     def test_places_that_cannot_be_written(self):
