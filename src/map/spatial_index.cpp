@@ -97,7 +97,7 @@ struct SpatialIndex::Nearest {
   std::vector<Hit> heap = {};  // the worst in front
 
   void offer(std::size_t i) {
-    const Hit hit{(index.position_(i) - point).norm(), i};
+    const Hit hit{distance(index.position_(i), point), i};
     if (heap.size() == count) {
       if (!nearer(hit, heap.front())) return;
       std::pop_heap(heap.begin(), heap.end(), nearer);
@@ -119,6 +119,10 @@ struct SpatialIndex::Nearest {
     return true;
   }
 };
+
+[[gnu::noinline]] double SpatialIndex::distance(const Vector3& a, const Vector3& b) {
+  return (a - b).norm();
+}
 
 SpatialIndex::SpatialIndex(Position position) : position_(std::move(position)) {}
 SpatialIndex::~SpatialIndex() = default;
@@ -253,8 +257,8 @@ void SpatialIndex::within(const Vector3& centre, double radius, std::vector<Hit>
   hits.clear();
   if (!(radius >= 0)) return;
   const auto take = [&](std::uint32_t index) {
-    const double distance = (position_(index) - centre).norm();
-    if (distance <= radius) hits.push_back({distance, index});
+    const double away = distance(position_(index), centre);
+    if (away <= radius) hits.push_back({away, index});
   };
   for (std::uint32_t index : loose_) take(index);
   for (const auto& tree : trees_) visit_near(*tree, centre, radius, take);

@@ -21,9 +21,11 @@ class SpatialIndex {
   // Where the point of an index is now; finite. Queries call it, from any thread.
   using Position = std::function<Vector3(std::size_t)>;
   struct Hit {
-    double distance;  // the norm of the difference, to the last bit
+    double distance;
     std::size_t index;
   };
+  // As queries measure: compiled once, for where sums of products are fused the last bit depends on who inlines them.
+  static double distance(const Vector3& a, const Vector3& b);
 
   explicit SpatialIndex(Position position);
   ~SpatialIndex();

@@ -38,7 +38,7 @@ struct World {
   Hits by_distance(const Vector3& centre) const {
     Hits hits;
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (there[i]) hits.push_back({(points[i] - centre).norm(), i});
+      if (there[i]) hits.push_back({SpatialIndex::distance(points[i], centre), i});
     std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) {
       return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
     });
