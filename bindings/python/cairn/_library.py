@@ -15,6 +15,9 @@ except ImportError:  # run from the source tree
 
 _declared = ffi.dlopen(None)  # knows the headers' constants and the names of their functions
 
+# What cffi raises for a symbol that a library lacks: the second where the declarations were made at installation.
+_MISSING = (AttributeError, getattr(ffi, "error", AttributeError))
+
 
 def _has_v3():
     """Whether this processor has the instructions of x86-64-v3."""
@@ -70,7 +73,7 @@ class Library:
             raise AttributeError(name)
         try:
             value = getattr(self._cairn, name)
-        except (AttributeError, ffi.error):  # the second where the declarations were made at installation
+        except _MISSING:
             if not name.startswith("cairn_"):
                 raise AttributeError(f"cairn's C headers have no {name}") from None
             value = self._of_sim(name)
@@ -84,7 +87,7 @@ class Library:
             if "_sim" not in self.__dict__:
                 self._sim = _open("cairn_sim")
             return getattr(self._sim, name)
-        except (ImportError, AttributeError, ffi.error) as error:
+        except (ImportError, *_MISSING) as error:
             raise AttributeError(f"libcairn has no {name}, nor has libcairn_sim: {error}") from None
 
     def __dir__(self):
