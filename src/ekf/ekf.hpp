@@ -103,10 +103,9 @@ class Ekf {
   void compute_innovation();                       // S of the batch
   const double* innovation() const { return S_; }  // column-major, lower triangle, leading dimension rows()
   // Full S^-1, column-major, or null where S is not positive definite; only before factor().
-  const double* inverse_innovation();
-  // After it: u = S^-1 r and r^T u; then rows can be left out of both, one by one.
+  double* inverse_innovation();
+  // After it: u = S^-1 r and r^T u.
   double distance_by_inverse(double* u) const;
-  void leave_out(Index row, Index rows, double* u);
   bool factor();                       // S = L L^T; false where S is not positive definite
   double nis() const { return nis_; }  // r^T S^-1 r of the last factor()
   void solve();                        // the iterate's error against the estimate

@@ -66,7 +66,7 @@ void Ekf<Pose>::compute_innovation() {
 }
 
 template <class Pose>
-const double* Ekf<Pose>::inverse_innovation() {
+double* Ekf<Pose>::inverse_innovation() {
   const Index m = batch_.rows();
   double* L = scratch_;
   for (Index j = 0; j < m; ++j) std::copy(S_ + j * m + j, S_ + (j + 1) * m, L + j * m + j);
@@ -84,32 +84,6 @@ double Ekf<Pose>::distance_by_inverse(double* u) const {
   double sum = 0.0;
   for (Index i = 0; i < m; ++i) sum += u[i] * batch_.residual()[i];
   return sum;
-}
-
-// Block inversion: with S^-1 = [A B; B^T D], the inverse of S without D's rows is A - B D^-1 B^T.
-template <class Pose>
-void Ekf<Pose>::leave_out(Index row, Index rows, double* u) {
-  const Index m = batch_.rows();
-  double* D = scratch_;
-  double* B = scratch_ + rows * rows;  // m x rows, then B L^-T
-  for (Index c = 0; c < rows; ++c) {
-    for (Index r = 0; r < rows; ++r) D[c * rows + r] = S_inverse_[(row + c) * m + row + r];
-    std::copy_n(S_inverse_ + (row + c) * m, m, B + c * m);
-  }
-  double part[3] = {};
-  for (Index r = 0; r < rows; ++r) part[r] = u[row + r];
-  if (!cholesky(D, rows, rows)) return;
-  solve_lower(D, rows, rows, part);
-  for (Index c = 0; c < rows; ++c) {
-    for (Index k = 0; k < c; ++k)
-      for (Index i = 0; i < m; ++i) B[c * m + i] -= D[k * rows + c] * B[k * m + i];
-    for (Index i = 0; i < m; ++i) B[c * m + i] /= D[c * rows + c];
-  }
-  for (Index c = 0; c < rows; ++c) {
-    for (Index i = 0; i < m; ++i) u[i] -= B[c * m + i] * part[c];
-    for (Index j = 0; j < m; ++j)
-      for (Index i = 0; i < m; ++i) S_inverse_[j * m + i] -= B[c * m + i] * B[c * m + j];
-  }
 }
 
 template <class Pose>

@@ -84,22 +84,14 @@ inline double squared_distance(const double* residual, const double* covariance,
   return sum;
 }
 
-// Chi-square gate of a batch of `count` blocks of `rows` rows each, whose S is formed: while the distance of what is
-// left exceeds `bound(rows left)`, the block goes without which the distance falls most, and `refuse(block, distance
-// before)` hears of it. Leaving a block i out takes u_i^T (S^-1)_ii^-1 u_i off the distance, with u = S^-1 r; what
-// remains follows by block inversion. `u` is room for the rows. Returns how many are left; S is spoilt unless all are,
-// and then it stands factored.
-template <class Pose, class Bound, class Refused, class Refuse>
-Index gate_jointly(Ekf<Pose>& ekf, Index count, Index rows, double* u, Bound&& bound, Refused&& refused,
-                   Refuse&& refuse) {
+// While the distance of a batch of `count` blocks of `rows` rows exceeds `bound(rows left)`, the block goes without
+// which it falls most, and `refuse(block, distance before, bound)` hears of it. Leaving block i out takes u_i^T
+// (S^-1)_ii^-1 u_i off the distance. Given are the full S^-1, u = S^-1 r and r^T u; `workspace` as leave_out() wants
+// it. Returns how many are left.
+template <class Bound, class Refused, class Refuse>
+Index gate_by_inverse(double* inverse, Index count, Index rows, double* u, double distance, double* workspace,
+                      Bound&& bound, Refused&& refused, Refuse&& refuse) {
   const Index m = count * rows;
-  if (!ekf.factor()) throw_not_definite();
-  double distance = ekf.nis();
-  if (distance <= bound(m)) return count;
-  ekf.compute_innovation();  // the factor stands where it was
-  const double* inverse = ekf.inverse_innovation();
-  if (inverse == nullptr) throw_not_definite();
-  distance = ekf.distance_by_inverse(u);
   Index left = count;
   while (left > 0 && distance > bound(left * rows)) {
     Index worst = -1;
@@ -110,12 +102,26 @@ Index gate_jointly(Ekf<Pose>& ekf, Index count, Index rows, double* u, Bound&& b
       if (fall > largest) largest = fall, worst = a;
     }
     if (worst < 0) throw_not_definite();
-    ekf.leave_out(worst * rows, rows, u);
+    leave_out(inverse, m, worst * rows, rows, u, workspace);
     refuse(worst, distance, bound(left * rows));
     distance -= largest;
     --left;
   }
   return left;
+}
+
+// The same for a batch of the filter whose S is formed. S is spoilt unless all blocks are left: then it stands
+// factored. `u` is room for the rows.
+template <class Pose, class Bound, class Refused, class Refuse>
+Index gate_jointly(Ekf<Pose>& ekf, Index count, Index rows, double* u, Bound&& bound, Refused&& refused,
+                   Refuse&& refuse) {
+  if (!ekf.factor()) throw_not_definite();
+  if (ekf.nis() <= bound(count * rows)) return count;
+  ekf.compute_innovation();  // the factor stands where it was
+  double* inverse = ekf.inverse_innovation();
+  if (inverse == nullptr) throw_not_definite();
+  const double distance = ekf.distance_by_inverse(u);
+  return gate_by_inverse(inverse, count, rows, u, distance, ekf.scratch(), bound, refused, refuse);
 }
 
 }  // namespace cairn

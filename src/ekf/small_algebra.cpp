@@ -156,4 +156,27 @@ void inverse_from_cholesky(const double* L, Index ld, Index m, double* inverse, 
   }
 }
 
+void leave_out(double* S_inverse, Index m, Index row, Index rows, double* u, double* workspace) {
+  double* D = workspace;
+  double* B = workspace + rows * rows;  // m x rows, then B L^-T
+  for (Index c = 0; c < rows; ++c) {
+    for (Index r = 0; r < rows; ++r) D[c * rows + r] = S_inverse[(row + c) * m + row + r];
+    std::copy_n(S_inverse + (row + c) * m, m, B + c * m);
+  }
+  double part[3] = {};
+  for (Index r = 0; r < rows; ++r) part[r] = u[row + r];
+  if (!cholesky(D, rows, rows)) return;
+  solve_lower(D, rows, rows, part);
+  for (Index c = 0; c < rows; ++c) {
+    for (Index k = 0; k < c; ++k)
+      for (Index i = 0; i < m; ++i) B[c * m + i] -= D[k * rows + c] * B[k * m + i];
+    for (Index i = 0; i < m; ++i) B[c * m + i] /= D[c * rows + c];
+  }
+  for (Index c = 0; c < rows; ++c) {
+    for (Index i = 0; i < m; ++i) u[i] -= B[c * m + i] * part[c];
+    for (Index j = 0; j < m; ++j)
+      for (Index i = 0; i < m; ++i) S_inverse[j * m + i] -= B[c * m + i] * B[c * m + j];
+  }
+}
+
 }  // namespace cairn

@@ -7,7 +7,9 @@
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
+#include "ekf/iterate.hpp"
 #include "map/sparse_undo.hpp"
+#include "sensor/sensor.hpp"
 
 namespace cairn {
 namespace {
@@ -193,9 +195,9 @@ void SparseMap::save_leaf(Undo& undo, Number leaf) {
 }
 
 void SparseMap::roll_back(Undo& undo) noexcept {
-  for (const Number landmark : undo.extended) {
-    landmarks_[landmark].submaps.pop_back();
-    landmarks_[landmark].count -= undo.counts[&landmark - undo.extended.data()];
+  for (std::size_t i = 0; i < undo.extended.size(); ++i) {
+    landmarks_[undo.extended[i]].submaps.pop_back();
+    landmarks_[undo.extended[i]].count -= undo.counts[i];
   }
   for (const auto& [landmark, position] : undo.positions) landmarks_[landmark].position = position;
   for (const auto& [base, pose] : undo.bases) bases_[base] = pose;
@@ -234,38 +236,42 @@ double SparseMap::cost_since(const Undo& undo) const {
 // --- joining ---
 
 JoinReport SparseMap::join(const Submap& submap) {
-  // Landmarks that contradict the map are left out, and the joining begins anew without them.
   std::vector<char> left_out(submap.ids.size(), 0);
-  for (;;) {
-    bool contradicted = false;
-    const JoinReport report = try_join(submap, left_out, contradicted);
-    if (!contradicted) return report;
-  }
+  JoinReport report;
+  if (try_join(submap, left_out, false, report)) return report;
+  // Something does not fit: the exact gates, which are dearer, tell what.
+  gate(submap, left_out);
+  report = JoinReport();
+  try_join(submap, left_out, true, report);
+  return report;
 }
 
-JoinReport SparseMap::try_join(const Submap& submap, std::vector<char>& left_out, bool& contradicted) {
-  JoinReport report;
+// False, with nothing changed, where a landmark may contradict the map; the last try takes what it gets.
+bool SparseMap::try_join(const Submap& submap, const std::vector<char>& left_out, bool last, JoinReport& report) {
   Undo undo(*this, ++change_);
   try {
     const Number leaf = take_in(submap, left_out, undo, report);
     optimise({leaf}, undo, report, options_.most_iterations);
     report.rows = 3 * report.fused;
     if (report.rows > 0) {
+      // To first order the cost grows by half of what the fused landmarks' two estimates have against each other.
       report.threshold = chi_square_quantile(static_cast<double>(report.rows), options_.joint_gate_probability);
       report.distance = 2.0 * cost_since(undo);
       if (report.distance > report.threshold && !unsettled_.empty()) {  // it may be too early to tell
         optimise({}, undo, report, 5 * options_.most_iterations);
         report.distance = 2.0 * cost_since(undo);
       }
-      contradicted = find_contradictions(leaf, submap, left_out, report);
+      if (!last && suspicious(leaf, report)) {
+        roll_back(undo);
+        return false;
+      }
     }
-    if (!contradicted) finish(undo, report);
+    finish(undo, report);
   } catch (...) {
     roll_back(undo);
     throw;
   }
-  if (contradicted) roll_back(undo);
-  return report;
+  return true;
 }
 
 // Appends the submap, its end and its new landmarks, and makes the factor anew where that reaches.
@@ -359,14 +365,13 @@ void SparseMap::refactor(EliminationTree::Changes changes, Undo& undo, JoinRepor
   undo.assembled.insert(undo.assembled.end(), assembled.begin(), assembled.end());
 }
 
-// What a fused landmark's two estimates have against each other, from below: its share of S^-1 nu is the force that the
-// new submap exerts on it, and the conditional covariance of nu_i, given all other states, is the sum of the inverses
-// of what the new submap and the old ones know of it.
-bool SparseMap::find_contradictions(Number number, const Submap& submap, std::vector<char>& left_out,
-                                    const JoinReport& report) const {
+// Whether the fused landmarks' estimates contradict each other, jointly or one by one; the latter judged from below: a
+// landmark's share of S^-1 nu is the force that the new submap exerts on it, and the covariance of its nu, given all
+// other states, is the sum of the inverses of what the new submap and the old ones know of it.
+bool SparseMap::suspicious(Number number, const JoinReport& report) const {
+  if (report.distance > report.threshold) return true;
   const Leaf& leaf = leaves_[number];
-  const double single = chi_square_quantile(3, options_.gate_probability);
-  std::vector<std::pair<double, std::size_t>> distances;
+  const double bound = chi_square_quantile(3, options_.gate_probability);
   for (Index i = 0; i < leaf.factor->shared_count(); ++i) {
     const Number landmark = leaf.landmarks[leaf.factor->shared()[i]];
     Matrix3 old = Matrix3::Zero();
@@ -379,19 +384,68 @@ bool SparseMap::find_contradictions(Number number, const Submap& submap, std::ve
     }
     const Matrix3 fresh = leaf.factor->landmark_information(i, bases_[number].rotation());
     const Vector3 force = leaf.gradient.segment<3>(leaf.order[12 + 3 * i]);
-    const double distance = force.dot((fresh.inverse() + old.inverse()) * force);
-    distances.emplace_back(distance, static_cast<std::size_t>(leaf.factor->shared()[i]));
+    if (force.dot((fresh.inverse() + old.inverse()) * force) > bound) return true;
   }
-  const auto worst = std::max_element(distances.begin(), distances.end());
-  if (worst == distances.end()) return false;
-  if (!(worst->first > single) && !(report.distance > report.threshold)) return false;
-  // The worst goes, and who is not much better.
-  const double bound = std::max(single, 0.25 * worst->first);
-  left_out[worst->second] = 1;
-  for (const auto& [distance, i] : distances)
-    if (distance > bound) left_out[i] = 1;
-  static_cast<void>(submap);
-  return true;
+  return false;
+}
+
+// Gates the known landmarks against the map as it is: nu = y_submap - R^T (l - p), S = H P H^T + Sigma_DD; each by
+// itself, then jointly. What does not pass is left out.
+void SparseMap::gate(const Submap& submap, std::vector<char>& left_out) const {
+  std::vector<Index> known;
+  std::vector<std::size_t> indices;
+  for (Index i = 0; i < submap.size(); ++i) {
+    std::size_t index = 0;
+    if (!find(submap.ids[i], index)) continue;
+    known.push_back(i);
+    indices.push_back(index);
+  }
+  Eigen::MatrixXd joint = submap.covariance;
+  to_ordinary(submap, known, joint);
+  const double single = chi_square_quantile(3, options_.gate_probability);
+  for (bool first = true;; first = false) {
+    const auto count = static_cast<Index>(known.size()), m = 3 * count;
+    if (count == 0) return;
+    Eigen::MatrixXd P(6 + m, 6 + m), H = Eigen::MatrixXd::Zero(m, 6 + m), S(m, m);
+    base_joint_covariance(indices.data(), indices.size(), P.data());
+    Eigen::VectorXd residual(m);
+    for (Index a = 0; a < count; ++a) {
+      const Vector3 l = position(indices[a]);
+      Prediction prediction;
+      map_jacobians(base(), l, Matrix3::Identity(), prediction);
+      H.block<3, 6>(3 * a, 0) = prediction.J_z_pose;
+      H.block<3, 3>(3 * a, 6 + 3 * a) = prediction.J_z_landmark;
+      residual.segment<3>(3 * a) = submap.landmarks[known[a]] - base().inverse() * l;
+      for (Index b = 0; b < count; ++b)
+        S.block<3, 3>(3 * a, 3 * b) = joint.block<3, 3>(6 + 3 * known[a], 6 + 3 * known[b]);
+    }
+    S += H * P * H.transpose();
+    if (first) {
+      std::vector<Index> passed;
+      std::vector<std::size_t> passed_indices;
+      for (Index a = 0; a < count; ++a) {
+        const double distance = squared_distance(residual.data() + 3 * a, S.data() + 3 * a * (m + 1), m, 3);
+        if (distance >= 0.0 && distance <= single) {
+          passed.push_back(known[a]);
+          passed_indices.push_back(indices[a]);
+        } else {
+          left_out[known[a]] = 1;
+        }
+      }
+      const bool all = passed.size() == known.size();
+      known.swap(passed);
+      indices.swap(passed_indices);
+      if (!all) continue;
+    }
+    Eigen::MatrixXd inverse = S.selfadjointView<Eigen::Lower>().ldlt().solve(Eigen::MatrixXd::Identity(m, m));
+    Eigen::VectorXd u = inverse * residual;
+    std::vector<double> workspace(static_cast<std::size_t>(3 * (3 + m)));
+    gate_by_inverse(
+        inverse.data(), count, 3, u.data(), residual.dot(u), workspace.data(),
+        [&](Index rows) { return chi_square_quantile(static_cast<double>(rows), options_.joint_gate_probability); },
+        [&](Index a) { return left_out[known[a]] != 0; }, [&](Index a, double, double) { left_out[known[a]] = 1; });
+    return;
+  }
 }
 
 void SparseMap::finish(Undo& undo, JoinReport& report) {

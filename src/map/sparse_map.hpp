@@ -95,12 +95,12 @@ class SparseMap final : public GlobalMap, private LeafSource {
   void save_leaf(Undo& undo, Number leaf);
   void roll_back(Undo& undo) noexcept;
 
-  JoinReport try_join(const Submap& submap, std::vector<char>& left_out, bool& contradicted);
+  bool try_join(const Submap& submap, const std::vector<char>& left_out, bool last, JoinReport& report);
   Number take_in(const Submap& submap, const std::vector<char>& left_out, Undo& undo, JoinReport& report);
   void refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report);
   void optimise(std::vector<Number> dirty, Undo& undo, JoinReport& report, int most_iterations);
-  bool find_contradictions(Number leaf, const Submap& submap, std::vector<char>& left_out,
-                           const JoinReport& report) const;
+  bool suspicious(Number leaf, const JoinReport& report) const;
+  void gate(const Submap& submap, std::vector<char>& left_out) const;
   void finish(Undo& undo, JoinReport& report);
   double cost_since(const Undo& undo) const;
 
