@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A filter of the library, set up for the neutral log: one map, invariant error, the defaults for all that the log does
-// not tell.
+// A filter of the library, set up for the neutral log: one map unless submaps are asked for, invariant error, the
+// defaults for all that the log does not tell.
 #pragma once
 
 #include <cairn/cairn.h>
@@ -28,12 +28,15 @@ inline cairn_pose pose_of(const Vector6& p) {
 
 class Filter {
  public:
-  Filter(std::size_t max_landmarks, std::size_t max_observations, const cairn_pose& start) {
+  Filter(std::size_t max_landmarks, std::size_t max_observations, const cairn_pose& start,
+         std::size_t submap_landmarks = 0, int32_t join = CAIRN_JOIN_AUTO) {
     cairn_filter_options options;
     check(cairn_filter_options_init(&options, sizeof options));
     options.max_landmarks = static_cast<uint32_t>(max_landmarks);
     options.max_observations = static_cast<uint32_t>(max_observations);
     options.initial_pose = start;
+    options.submap_landmarks = static_cast<uint32_t>(submap_landmarks);
+    options.join = join;
     check(cairn_filter_create(&options, &filter_));
     cairn_stereo_head head;
     check(cairn_stereo_head_init(&head, sizeof head));
@@ -64,6 +67,12 @@ class Filter {
     cairn_update_report report;
     report.struct_size = sizeof report;
     check(cairn_filter_last_update(filter_, &report));
+    return report;
+  }
+  cairn_closing_report last_closing() const {
+    cairn_closing_report report;
+    report.struct_size = sizeof report;
+    check(cairn_filter_last_closing(filter_, &report));
     return report;
   }
   std::size_t landmarks() const {

@@ -14,9 +14,14 @@ class Course {
  public:
   static constexpr int kSeen = 12, kAdvance = 6;
 
-  explicit Course(int landmarks) : landmarks_(landmarks), filter_(landmarks, kSeen, true_pose(0)) {
-    // The first lap, and a bit, places them all.
-    for (int frame = 0; frame <= landmarks / kAdvance + 1; ++frame) {
+  // The first lap, and a bit, places them all.
+  explicit Course(int landmarks) : Course(landmarks, kRadius, 0, CAIRN_JOIN_AUTO) { drive(landmarks / kAdvance + 2); }
+  // In submaps, round a ring of that radius (m). Nothing is seen yet.
+  Course(int landmarks, double radius, int submap_landmarks, int32_t join)
+      : landmarks_(landmarks), radius_(radius), filter_(landmarks, kSeen, true_pose(0), submap_landmarks, join) {}
+
+  void drive(int frames) {
+    for (int frame = 0; frame < frames; ++frame) {
       advance();
       predict_and_update();
     }
@@ -66,13 +71,13 @@ class Course {
   double angle(double landmark) const { return 2.0 * 3.141592653589793 * landmark / landmarks_; }
 
   cairn_pose true_pose(long frame) const {
-    const double a = angle(static_cast<double>(kAdvance * (frame % landmarks_))) - kBehind / kRadius;
-    return pose_of({kRadius * std::cos(a), kRadius * std::sin(a), std::sin(3.0 * a), 0.05 * std::sin(5.0 * a),
+    const double a = angle(static_cast<double>(kAdvance * (frame % landmarks_))) - kBehind / radius_;
+    return pose_of({radius_ * std::cos(a), radius_ * std::sin(a), std::sin(3.0 * a), 0.05 * std::sin(5.0 * a),
                     0.05 * std::cos(4.0 * a), a + 1.5707963267948966});
   }
 
   cairn_observation observe(int landmark, const cairn_pose& T_body_map) {
-    const double a = angle(landmark), radius = kRadius + 15.0 * std::sin(2.4 * landmark);
+    const double a = angle(landmark), radius = radius_ + 15.0 * std::sin(2.4 * landmark);
     const double point[3] = {radius * std::cos(a), radius * std::sin(a), 2.0 + std::sin(1.7 * landmark)};
     double b[3];
     check(cairn_pose_apply(&T_body_map, point, b));
@@ -86,6 +91,7 @@ class Course {
   }
 
   int landmarks_;
+  double radius_;
   long frame_ = 0;
   cairn_pose last_ = true_pose(0);
   cairn_pose increment_{};

@@ -4,16 +4,8 @@
 //
 //   step_ratio LOG
 //
-// Every few steps of the second half, the dsyrk that corresponds to this step is timed: lower triangle, as many rows as
-// the state has, as many columns as the batch had rows, one thread, alpha = -1, beta = 1. It works on a matrix of its
-// own. Right after our step its operands are cold: our covariance has just gone through the caches. Timed that way it
-// would look slower than it is, and our ratio better. It is therefore called several times in a row, and the median of
-// the calls after the first counts, their operands as warm as they get. Our own steps get no such favour, and the step
-// after such a row starts with cold caches. The cold time is printed too, and counts for nothing.
-#include <cblas.h>
-
+// Every few steps of the second half, the dsyrk that corresponds to this step is timed (syrk.hpp).
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <set>
@@ -21,40 +13,11 @@
 #include "cairn_run.hpp"
 #include "heap_count.hpp"
 #include "samples.hpp"
+#include "syrk.hpp"
 
 namespace {
 
 constexpr std::size_t kInterval = 5;  // steps from one row of dsyrk calls to the next
-constexpr int kHotCalls = 5;
-
-class Syrk {
- public:
-  Syrk(std::size_t max_states, std::size_t max_rows) : C_(max_states * max_states), W_(max_states * max_rows) {
-    // Small enough for a thousand downdates of C not to lead anywhere.
-    for (std::size_t i = 0; i < W_.size(); ++i) W_[i] = 1e-4 * std::sin(static_cast<double>(i));
-    openblas_set_num_threads(1);
-  }
-
-  void time(std::size_t n, std::size_t k) {
-    cold.add(call(n, k));
-    bench::Samples row;
-    for (int i = 0; i < kHotCalls; ++i) row.add(call(n, k));
-    hot.add(row.median());
-  }
-
-  bench::Samples cold, hot;
-
- private:
-  double call(std::size_t n, std::size_t k) {
-    const int size = static_cast<int>(n);
-    const bench::Stopwatch watch;
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, size, static_cast<int>(k), -1.0, W_.data(), size, 1.0,
-                C_.data(), size);
-    return watch.milliseconds();
-  }
-
-  std::vector<double> C_, W_;
-};
 
 struct Result {
   bench::Samples steps, states, rows;
@@ -85,7 +48,7 @@ void score_map(bench::Filter& filter, const bench::Log& log, bench::SquaredError
   }
 }
 
-Result run(const bench::Log& log, Syrk& syrk, std::size_t max_landmarks) {
+Result run(const bench::Log& log, bench::Syrk& syrk, std::size_t max_landmarks) {
   bench::Filter filter(max_landmarks, most_sightings(log), bench::pose_of(log.steps.front().truth));
   Result result;
   result.steps.reserve(log.steps.size());
@@ -125,7 +88,7 @@ int main(int argc, char** argv) try {
   }
   const bench::Log log = bench::read_log(argv[1]);
   const std::size_t landmarks = landmarks_seen(log);
-  Syrk syrk(6 + 3 * landmarks, 3 * most_sightings(log));
+  bench::Syrk syrk(6 + 3 * landmarks, 3 * most_sightings(log));
   const Result r = run(log, syrk, landmarks);
   std::printf("{\"program\": \"cairn %s\", \"build\": \"%s\", \"blas_core\": \"%s\", ", cairn_version(), cairn_build(),
               openblas_get_corename());

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Runs the program cairn over long traverses and prints how time, memory and error grow with the number of landmarks.
+#
+#   tests/bench/traverse.sh [--landmarks "N ..."] [--closed] [--program CAIRN] [-- OPTION...]
+#
+# 10000, 30000 and 100000 landmarks where none are named, joined sparsely; --closed lets the traverse come home. What
+# follows -- goes to 'cairn simulate mars' as it is. Without --program, builds into build/bench first. Time is that of the
+# filter alone (steps and closings, without the simulation); memory that of the whole process, as the kernel tells.
+set -euo pipefail
+# shellcheck source=../support/setup.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/../support/setup.sh"
+
+sizes=(10000 30000 100000)
+program=""
+options=(--course traverse --join sparse)
+while (($# > 0)); do
+  case $1 in
+    --landmarks) read -r -a sizes <<<"${2:?}" && shift 2 ;;
+    --closed) options+=(--closed) && shift ;;
+    --program) program=${2:?} && shift 2 ;;
+    -h | --help) sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}" && exit 0 ;;
+    --) shift && options+=("$@") && break ;;
+    *) fail "unknown option $1" ;;
+  esac
+done
+
+need_packages time=/usr/bin/time python3 >&2
+if [[ -z $program ]]; then
+  say "Build (build/bench)" >&2
+  {
+    need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libnanoflann-dev libmatio-dev \
+      libbenchmark-dev libopenblas-dev
+    configure "$root/build/bench" --preset bench
+    cmake --build "$root/build/bench" --parallel "$jobs" --target cairn_program
+  } >&2
+  program=$root/build/bench/bin/cairn
+fi
+
+work=$(mktemp -d)
+trap 'rm -rf -- "$work"' EXIT
+for size in "${sizes[@]}"; do
+  say "cairn simulate mars ${options[*]} --landmarks $size" >&2
+  /usr/bin/time -f '%M' -o "$work/$size.kib" \
+    "$program" simulate mars "${options[@]}" --landmarks "$size" --summary json >"$work/$size.json"
+done
+echo "$("$program" --version): cairn simulate mars ${options[*]}"
+python3 "$root/tests/bench/traverse_table.py" "$work" "${sizes[@]}"
