@@ -1,80 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* After its creation a filter takes no memory, and cairn_filter_required_bytes says beforehand what it takes. This
  * program puts itself before the C library's allocator (glibc) and counts. */
-#include <errno.h>
-#include <malloc.h>
-
+#include "interposer.h"
 #include "support.h"
-
-extern void *__libc_malloc(size_t size);
-extern void *__libc_calloc(size_t count, size_t size);
-extern void *__libc_realloc(void *block, size_t size);
-extern void *__libc_memalign(size_t alignment, size_t size);
-extern void __libc_free(void *block);
-
-#define VISIBLE __attribute__((visibility("default"), noinline))
-
-static struct {
-  bool armed;
-  size_t calls;      /* that asked for memory or gave it back */
-  size_t fail_at;    /* number of the call that gets none; 0: all get what they ask for */
-  size_t live, peak; /* bytes asked for and not given back */
-  size_t count;
-  struct {
-    void *block;
-    size_t size;
-  } blocks[4096];
-} counter;
-
-static void arm(void) {
-  memset(&counter, 0, sizeof counter);
-  counter.armed = true;
-}
-
-static void *taken(void *block, size_t size) {
-  if (!counter.armed || block == NULL) return block;
-  ++counter.calls;
-  if (counter.count == LENGTH(counter.blocks)) abort();
-  counter.blocks[counter.count].block = block, counter.blocks[counter.count++].size = size;
-  counter.live += size;
-  if (counter.live > counter.peak) counter.peak = counter.live;
-  return block;
-}
-
-static void given(void *block) {
-  if (!counter.armed || block == NULL) return;
-  ++counter.calls;
-  for (size_t i = 0; i < counter.count; ++i)
-    if (counter.blocks[i].block == block) {
-      counter.live -= counter.blocks[i].size;
-      counter.blocks[i] = counter.blocks[--counter.count];
-      return;
-    }
-}
-
-static bool refused(void) { return counter.armed && counter.fail_at != 0 && counter.fail_at-- == 1; }
-
-VISIBLE void *malloc(size_t size) { return refused() ? NULL : taken(__libc_malloc(size), size); }
-VISIBLE void *calloc(size_t count, size_t size) {
-  return refused() ? NULL : taken(__libc_calloc(count, size), count * size);
-}
-VISIBLE void *realloc(void *block, size_t size) {
-  if (refused()) return NULL;
-  given(block);
-  return taken(__libc_realloc(block, size), size);
-}
-VISIBLE void *memalign(size_t alignment, size_t size) {
-  return refused() ? NULL : taken(__libc_memalign(alignment, size), size);
-}
-VISIBLE void *aligned_alloc(size_t alignment, size_t size) { return memalign(alignment, size); }
-VISIBLE int posix_memalign(void **block, size_t alignment, size_t size) {
-  *block = memalign(alignment, size);
-  return *block == NULL ? ENOMEM : 0;
-}
-VISIBLE void free(void *block) {
-  given(block);
-  __libc_free(block);
-}
 
 static void the_counter_counts(void **state) {
   (void)state;
