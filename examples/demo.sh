@@ -1,16 +1,35 @@
 #!/usr/bin/env bash
-# Builds Cairn and runs it: a rover's log of two laps over rolling ground in, its trajectory and its map out.
-# Installs the Debian packages that are missing. Where CAIRN_DATA_DIR holds starry_night.mat, that is run too.
+# Builds Cairn and sends a simulated rover over Mars: standard EKF-SLAM and submaps through the same world, the Mars
+# paper's Table 2 beside what was measured, and a page to look at in a browser. Then two recorded logs, the second
+# where CAIRN_DATA_DIR holds starry_night.mat. Installs the Debian packages that are missing; plotly, which draws the
+# page, comes from the Python package index, into build/demo/venv.
 set -euo pipefail
 # shellcheck source=../tests/support/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../tests/support/setup.sh"
 
-need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libnanoflann-dev libmatio-dev
+need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libnanoflann-dev libmatio-dev \
+  python3 python3-venv python3-numpy python3-matplotlib
 
 build=$root/build/demo
 say "Building the library, the program and the examples in build/demo (a few minutes the first time)"
 configure "$build" -DCMAKE_BUILD_TYPE=Release -DCAIRN_BUILD_TESTS=OFF --log-level=WARNING
 cmake --build "$build" --parallel "$jobs"
+
+# show COMMAND WORD...: prints a command as it could be typed in the project's folder, then runs it.
+show() {
+  say "${*//"$root/"/}"
+  "$@"
+}
+
+mars=$build/mars
+rm -rf -- "$mars" # pages and files of another build would only mislead
+show "$build/bin/cairn" simulate mars --compare --output "$mars" --quiet
+cat <<END
+
+The paper's noise hardly asks for a filter. The same rover with an odometry a hundred times worse, two rounds,
+mean of ten worlds:
+END
+show "$build/bin/cairn" simulate mars --preset row4 --compare --runs 10 --quiet
 
 # value KEY [DECIMALS]: a number of the summary, "-" where it has none.
 value() {
@@ -21,28 +40,38 @@ value() {
 
 # run_and_tell LOG FOLDER WHAT: runs the program on a log and says in a few lines what came out.
 run_and_tell() {
-  local log=$1 out=$2 what=$3
-  local summary=$out/summary.json
-  mkdir -p "$out"
-  say "Running: cairn run ${log#"$root"/} --output ${out#"$root"/} --summary json"
-  "$build/bin/cairn" run "$log" --output "$out" --summary json >"$summary"
+  local log=$1 out=$2 what=$3 summary=$2/summary.json
+  say "build/demo/bin/cairn run ${log#"$root/"} --output ${out#"$root/"}"
+  "$build/bin/cairn" run "$log" --output "$out" --quiet >"$build/run.txt"
   cat <<END
 
 $what
   read         $(value steps) steps, $(value observations) observations of $(value landmarks) landmarks; $(value rejected) rejected
-  pose         $(value pose_rmse_m 2) m and $(value attitude_rmse_deg 2) degrees off (root mean square, online), $(value pose_final_m 2) m at the end
-  map          $(value landmark_rmse_m 2) m off (root mean square, at the end)
+  pose         $(value pose_rmse_m 2) m and $(value attitude_rmse_deg 2) degrees off (root mean square, online), $(value pose_end_m 2) m at the end
+  map          $(value landmark_rmse_m 2) m off (root mean square, at the end); $(value submaps) submaps
   consistency  $(value pose_anees_per_dof 2): squared error of the pose over its variance, 1 where the filter is right about itself
   time         $(value step_ms_mean 2) ms a step on average, $(value step_ms_worst 2) ms at worst
-  files        ${out#"$root"/}/: $(cd -- "$out" && echo *.csv summary.json)
 END
 }
 
-say "Writing the log of a drive: build/demo/two_laps.log"
 "$build/examples/make_demo_log" >"$build/two_laps.log"
-run_and_tell "$build/two_laps.log" "$build/out" "Two laps of a rover over rolling ground, among boulders:"
-
+run_and_tell "$build/two_laps.log" "$build/two_laps" "A recorded log, as your own might be: two laps of a rover among boulders."
 if [[ -f ${CAIRN_DATA_DIR:-}/starry_night.mat ]]; then
-  run_and_tell "$CAIRN_DATA_DIR/starry_night.mat" "$build/out/starry_night" \
-    "Starry Night: a stereo head carried over 20 landmarks, measured by motion capture:"
+  run_and_tell "$CAIRN_DATA_DIR/starry_night.mat" "$build/starry_night" \
+    "Starry Night: a stereo head carried over 20 landmarks, measured by motion capture."
 fi
+
+# Debian's Python has all that the page takes but plotly.
+python=$build/venv/bin/python3
+if ! "$python" -c 'import plotly, numpy' 2>/dev/null; then
+  say "Fetching plotly from the Python package index, into build/demo/venv"
+  rm -rf -- "$build/venv"
+  /usr/bin/python3 -m venv --system-site-packages "$build/venv"
+  "$python" -m pip install --quiet --disable-pip-version-check --retries 2 \
+    --constraint "$root/tests/python/constraints.txt" plotly </dev/null ||
+    fail "the page takes plotly, and pip could not fetch it (no network?): see above. All else is done: build/demo/mars
+holds the results as CSV files, and with plotly from elsewhere 'python3 -m cairn.report build/demo/mars' makes the page"
+fi
+say "PYTHONPATH=bindings/python build/demo/venv/bin/python3 -m cairn.report build/demo/mars"
+PYTHONPATH=$root/bindings/python PYTHONDONTWRITEBYTECODE=1 "$python" -m cairn.report "$mars"
+printf '\nOpen it in a browser: file://%s\n' "$mars/report.html"
