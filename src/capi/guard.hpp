@@ -6,17 +6,33 @@
 
 #include "capi/boundary.hpp"
 #include "core/arena.hpp"
+#include "map/owned_map.hpp"
 #include "slam/filter.hpp"
+
+namespace cairn {
+namespace capi {
+
+std::uint64_t next_filter_number() noexcept;  // from 1
+
+}  // namespace capi
+}  // namespace cairn
 
 struct cairn_map {
   const cairn::Landmarks* landmarks;
+  std::uint64_t filter = 0;                // number of the filter that owns the map
+  std::unique_ptr<cairn::OwnedMap> owned;  // null: a filter's
 };
 
 struct cairn_filter {
   cairn_filter(std::size_t arena_bytes, const cairn::FilterOptions& options)
-      : arena(arena_bytes), filter(arena, options), map{&filter.landmarks()}, local_map{&filter} {}
+      : arena(arena_bytes),
+        filter(arena, options),
+        number(cairn::capi::next_filter_number()),
+        map{&filter.landmarks(), number, nullptr},
+        local_map{&filter, number, nullptr} {}
   cairn::Arena arena;
   cairn::Filter filter;
+  std::uint64_t number;  // so that maps know what they have in common
   cairn_map map;
   cairn_map local_map;
 };

@@ -10,6 +10,7 @@
 
 #include "map/elimination_tree.hpp"
 #include "map/global_map.hpp"
+#include "map/merge.hpp"
 #include "map/spatial_index.hpp"
 #include "map/submap_factor.hpp"
 
@@ -44,6 +45,10 @@ class SparseMap final : public GlobalMap, private LeafSource {
 
   std::size_t memory_bytes() const;
   double cost() const;  // half the sum of all squared normalised residuals
+
+  // Takes in another map, whose landmarks go by these ids here; `plan` says which are the same and how the frames lie.
+  // A call that throws leaves the map in no state to be used: work on a copy (sparse_merge.cpp).
+  void append(const SparseMap& other, const MergePlan& plan, const MergeOptions& options, MergeReport& report);
 
  private:
   using Number = std::uint32_t;
@@ -103,6 +108,8 @@ class SparseMap final : public GlobalMap, private LeafSource {
   void gate(const Submap& submap, std::vector<char>& left_out) const;
   void finish(Undo& undo, JoinReport& report);
   double cost_since(const Undo& undo) const;
+  Number bridge(const Submap& link, Undo& undo);
+  void find_worst(Number offset, MergeReport& report, const SparseMap& other, const MergePlan& plan) const;
 
   MapOptions options_;
   SE3 prior_;  // the first base
