@@ -57,6 +57,95 @@ class MapTest(unittest.TestCase):
             self.assertEqual(len(empty.map.nearest([0, 0, 0], 3)), 0)
 
 
+class CopyTest(unittest.TestCase):
+    """Two vehicles see a field of landmarks, each from the origin of a frame of its own."""
+    T = cairn.Pose(np.array([4.0, -2.0, 1.0]), cairn.quaternion_from_euler(0.05, -0.1, 0.7))  # second frame in the first
+
+    def setUp(self):
+        random = support.random(5)
+        self.field = np.column_stack([random.uniform(-20, 20, 30), random.uniform(-20, 20, 30), random.uniform(-3, 3, 30)])
+        self.first = self.vehicle(self.field[:20], np.arange(20), random)
+        back = cairn.pose_inverse(self.T)
+        there = np.array([cairn.pose_compose(back, (point, [1, 0, 0, 0])).position for point in self.field])
+        self.second = self.vehicle(there[8:], np.arange(8, 30), random)
+        self.random, self.there = random, there
+
+    def vehicle(self, points, ids, random):
+        vehicle = cairn.Filter(max_landmarks=40, max_observations=40)
+        vehicle.update(vehicle.add_cartesian(sigma=[0.02] * 3), ids, points + 0.02 * random.randn(len(points), 3))
+        self.addCleanup(vehicle.close)
+        return vehicle
+
+    def test_a_copy_stands_on_its_own(self):
+        copy = self.first.map.copy()
+        before = copy.landmarks().tobytes()
+        self.assertEqual(before, self.first.map.landmarks().tobytes())
+        self.assertEqual(copy.kind, "dense")
+        self.first.remove_landmark(3)
+        self.assertEqual(len(self.first.map), 19)
+        self.first.close()
+        self.assertEqual(copy.landmarks().tobytes(), before)
+        again = copy.copy()
+        copy.close()
+        self.assertEqual(again.landmarks().tobytes(), before)
+        with self.assertRaisesRegex(cairn.CairnError, "STATE"):
+            copy.landmarks()
+        again.close()
+
+    def test_merge_by_id(self):
+        both = self.first.map.copy()
+        self.assertEqual(len(both.merged_ids()), 0)
+        report = both.merge(self.second.map)
+        self.assertEqual((report["common"], report["added"], report["rows"]), (12, 10, 30))
+        self.assertEqual(report["broken_id"], cairn.ID_NONE)
+        self.assertLess(report["distance"], report["threshold"])
+        known = both.landmarks()
+        self.assertEqual(known["id"].tolist(), list(range(30)))
+        np.testing.assert_allclose(known["position"], self.field, atol=0.15)
+        error = cairn.pose_error(self.T, report["T_map_other"])
+        self.assertLess(error @ np.linalg.solve(report["covariance"], error), 30)
+        merged = both.merged_ids()
+        self.assertEqual(merged["id"].tolist(), list(range(8, 30)))
+        self.assertEqual(merged["common"].tolist(), [1] * 12 + [0] * 10)
+
+    def test_merge_by_geometry_and_with_a_transform(self):
+        renamed = self.vehicle(self.there[8:], np.arange(22) + 15, self.random)
+        both = self.first.map.copy()
+        report = both.merge(renamed.map, by="geometry", max_tilt=0.5)
+        self.assertEqual((report["common"], report["added"]), (12, 10))
+        merged = both.merged_ids()
+        self.assertEqual(merged["id"][:12].tolist(), list(range(8, 20)))
+        self.assertEqual(merged["id"][12:].tolist(), list(range(27, 37)))
+        exact = self.first.map.copy()
+        report = exact.merge(self.second.map, transform=self.T)
+        self.assertEqual(report["rows"], 36)
+        np.testing.assert_array_equal(report["covariance"], np.zeros((6, 6)))
+        loose = self.first.map.copy().merge(self.second.map, transform=self.T, covariance=np.eye(6))
+        self.assertTrue((np.diag(loose["covariance"]) > 0).all())
+
+    def test_refusals_change_nothing(self):
+        both = self.first.map.copy()
+        before = both.landmarks().tobytes(), both.joint_covariance(range(20)).tobytes()
+        wrong = self.vehicle(self.there[8:][::-1], np.arange(8, 30), self.random)
+        with self.assertRaisesRegex(cairn.CairnError, "NUMERICAL.*contradicts") as caught:
+            both.merge(wrong.map)
+        self.assertEqual(caught.exception.report["common"], 12)
+        self.assertIn(caught.exception.report["broken_id"], range(8, 20))
+        for call, word in ((lambda: both.merge(both), "ARGUMENT.*other"), (lambda: both.merge(self.first.map), "STATE.*twice"),
+                           (lambda: self.first.map.merge(self.second.map), "STATE.*copy"),
+                           (lambda: both.merge(self.second.map, max_landmarks=29), "CAPACITY"),
+                           (lambda: both.merge(self.second.map, max_tilt=-1), "ARGUMENT.*max_tilt")):
+            with self.assertRaisesRegex(cairn.CairnError, word):
+                call()
+        for call in (lambda: both.merge(self.second), lambda: both.merge(self.second.map, covariance=np.eye(6)),
+                     lambda: both.merge(self.second.map, tilt=1)):
+            with self.assertRaises(TypeError):
+                call()
+        with self.assertRaises(ValueError):
+            both.merge(self.second.map, by="name")
+        self.assertEqual(before, (both.landmarks().tobytes(), both.joint_covariance(range(20)).tobytes()))
+
+
 class PoseTest(unittest.TestCase):
     def test_compose_and_error(self):
         a = cairn.Pose(np.array([1.0, 2, 3]), cairn.quaternion_from_euler(0.1, -0.2, 0.3))

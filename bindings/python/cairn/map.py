@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Landmarks in one frame, with their joint uncertainty."""
+import contextlib
+
 import numpy as np
 
 from . import _structs
 from ._handle import Handle
 from ._library import ffi, lib
-from .error import check
+from .error import CairnError, check
 
 
 class Map(Handle):
     """Landmarks, by estimate and covariance. A filter's maps follow the filter and keep it alive; once the filter is
-    closed they are too. A copy stands on its own.
+    closed they are too. A copy stands on its own, stays as it is, and takes in other maps.
 
     Queries give arrays with the fields id, observations, position (3, m) and covariance (3 x 3, m^2).
     """
@@ -68,6 +70,62 @@ class Map(Handle):
             check(lib.cairn_map_joint_covariance(handle, ffi.from_buffer("uint64_t *", ids), len(ids),
                                                  _structs.doubles(matrix), matrix.size, needed))
         return matrix
+
+    @property
+    def kind(self):
+        """"dense" or "sparse", as the filter joins its submaps; maps of one kind merge."""
+        kind = ffi.new("int32_t *")
+        with self._use() as handle:
+            check(lib.cairn_map_kind(handle, kind))
+        return "sparse" if kind[0] == lib.CAIRN_MAP_SPARSE else "dense"
+
+    def copy(self):
+        """A map of its own with the same landmarks."""
+        copy = ffi.new("cairn_map **")
+        with self._use() as handle:
+            check(lib.cairn_map_copy(handle, copy))
+        return Map(copy[0])
+
+    def merge(self, other, by="id", transform=None, covariance=None, **options):
+        """Takes the landmarks of `other` into this map, a copy, and gives a report as a dictionary: landmarks in common
+        and added, T_map_other with its covariance, the joint distance with rows and threshold.
+
+        by: "id", or "geometry" where the ids of the two maps have nothing to do with each other (then `merged_ids`
+        tells who became whom). transform: (position, quaternion) that takes points of the other's frame into this
+        one's, where it is known beforehand; covariance: of its error [dp; dtheta], 6 x 6, exact where it is not given.
+        The other options are the fields of cairn_merge_options.
+
+        A refusal is a CairnError that has the report too, as `report`; it changes neither map.
+        """
+        if not isinstance(other, Map):
+            raise TypeError(f"other: a Map is wanted, not a {type(other).__name__}")
+        if transform is None and covariance is not None:
+            raise TypeError("covariance: that of `transform`, which is not given")
+        if by not in ("id", "geometry"):
+            raise ValueError(f"by: 'id' or 'geometry', not {by!r}")
+        options["association"] = lib.CAIRN_MERGE_BY_ID if by == "id" else lib.CAIRN_MERGE_BY_GEOMETRY
+        if transform is not None:
+            options.update(has_transform=1, T_map_other=transform)
+            if covariance is not None:
+                options["covariance"] = covariance
+        settings, report = _structs.new("cairn_merge_options", options), _structs.sized("cairn_merge_report")
+        # Always in the same order, so that two threads never wait for each other.
+        handles = sorted({id(one): one for one in (self, other)}.values(), key=lambda one: id(one._lock))
+        with contextlib.ExitStack() as stack:
+            used = {id(one): stack.enter_context(one._use()) for one in handles}
+            status = lib.cairn_map_merge(used[id(self)], used[id(other)], settings, report)
+            try:
+                check(status)
+            except CairnError as error:
+                error.report = _structs.as_dict(report[0])
+                raise
+        return _structs.as_dict(report[0])
+
+    def merged_ids(self):
+        """What the last merge made of the other's landmarks, by ascending other_id: the fields other_id, id (in this
+        map) and common (whether this map held it before). Empty before a merge."""
+        with self._use() as handle:
+            return _structs.filled("cairn_merged_id", lambda *buffer: lib.cairn_map_merged_ids(handle, *buffer))
 
     def _query(self, function, *arguments):
         with self._use() as handle:
