@@ -114,6 +114,11 @@ static void create(slot *s) {
   if (fuzz_one_in(3)) o.gate_probability = fuzz_uniform(0.1, 1.02);
   if (fuzz_one_in(3)) o.batch_gate_probability = fuzz_one_in(2) ? 1 : fuzz_uniform(0.1, 1);
   if (fuzz_one_in(8)) o.iteration_tolerance = fuzz_garbage();
+  if (fuzz_one_in(2)) o.submap_landmarks = 1 + (uint32_t)fuzz_below(fuzz_one_in(20) ? 5000 : 12);
+  o.join = fuzz_one_in(20) ? fuzz_int() : (int32_t)fuzz_below(3);
+  if (fuzz_one_in(6)) o.submap_distance = fuzz_positive(5);
+  if (fuzz_one_in(6)) o.submap_extent = fuzz_positive(10);
+  if (fuzz_one_in(6)) o.submap_sigma = fuzz_positive(0.1);
   if (fuzz_one_in(12)) o.error = fuzz_int();
   now = &fresh;
   fuzz_wild = fresh.wild;
@@ -326,10 +331,61 @@ static void ask(slot *s) {
   free(out), free(matrix);
 }
 
+/* What the calls about submaps tell has to agree with itself. */
+static void ask_submaps(slot *s) {
+  const cairn_filter *f = fuzz_one_in(40) ? NULL : s->filter;
+  cairn_pose pose, base, local, composed;
+  double covariance[36];
+  size_t count = 0, needed = 0, open = 0;
+  cairn_closing_report report;
+  memset(&report, 0, sizeof report);
+  void *given = fuzz_resized(&report, sizeof report);
+  check_status(cairn_filter_last_closing(f, fuzz_maybe_out(given)));
+  free(given);
+  check_status(cairn_filter_local_pose(f, fuzz_maybe_out(&local), fuzz_maybe_out(covariance)));
+  check_status(cairn_filter_base_pose(f, fuzz_maybe_out(&base), fuzz_maybe_out(covariance)));
+  check_status(cairn_filter_submap_count(f, fuzz_maybe_out(&count)));
+  const size_t capacity = fuzz_below(20), index = fuzz_one_in(9) ? (size_t)fuzz_id() : fuzz_below(count + 1);
+  uint64_t *ids = malloc(capacity * sizeof *ids + 1);
+  check_status(cairn_filter_submap(f, index, fuzz_maybe_out(&pose), fuzz_maybe_out(ids), capacity, &needed));
+  free(ids);
+  if (f == NULL) return;
+  report.struct_size = sizeof report;
+  HOLDS(cairn_filter_last_closing(f, &report) == CAIRN_OK, 0);
+  HOLDS(cairn_filter_submap_count(f, &count) == CAIRN_OK && report.submaps <= count, report.submaps);
+  HOLDS(report.status <= 0 && report.status >= CAIRN_ERROR_STATE, report.status);
+  HOLDS(report.reason >= CAIRN_CLOSED_BY_NONE && report.reason <= CAIRN_CLOSED_BY_FIX, report.reason);
+  if (report.status == CAIRN_OK)
+    HOLDS(report.landmarks == report.landmarks_new + report.landmarks_fused + report.landmarks_refused,
+          report.landmarks);
+  HOLDS(cairn_map_size(cairn_filter_local_map(f), &open) == CAIRN_OK, open);
+  HOLDS(cairn_filter_local_pose(f, &local, covariance) == CAIRN_OK, 0);
+  check_numbers(s, covariance, 36);
+  HOLDS(cairn_filter_base_pose(f, &base, covariance) == CAIRN_OK, 0);
+  check_numbers(s, covariance, 36);
+  for (int i = 0; i < 6; ++i) HOLDS_OF_NUMBERS(s, covariance[7 * i] >= 0, covariance[7 * i]);
+  HOLDS(cairn_filter_pose(f, &pose, NULL) == CAIRN_OK, 0);
+  if (s->wild) return;
+  HOLDS(cairn_pose_compose(&base, &local, &composed) == CAIRN_OK, 0);
+  for (int i = 0; i < 3; ++i) {
+    const double scale =
+        1 + fabs(base.position[i]) + fabs(local.position[0]) + fabs(local.position[1]) + fabs(local.position[2]);
+    HOLDS(fabs(composed.position[i] - pose.position[i]) <= 1e-9 * scale, composed.position[i] - pose.position[i]);
+  }
+}
+
+static void submaps(slot *s) {
+  if (fuzz_one_in(3)) {
+    check_status(cairn_filter_close_submap(fuzz_one_in(40) ? NULL : s->filter));
+    return;
+  }
+  ask_submaps(s);
+}
+
 static void call_one(void) {
-  static const char *const names[] = {"add_sensor", "motion", "observe", "absolute",
-                                      "linear",     "ask",    "remove",  "helpers"};
-  static const unsigned char weights[] = {3, 22, 40, 10, 8, 10, 4, 3};
+  static const char *const names[] = {"add_sensor", "motion", "observe", "absolute", "linear",
+                                      "ask",        "remove", "helpers", "submaps"};
+  static const unsigned char weights[] = {3, 22, 38, 9, 7, 9, 4, 3, 5};
   slot *s = &slots[fuzz_below(3)];
   uint64_t pick = fuzz_below(100);
   size_t kind = 0;
@@ -352,7 +408,8 @@ static void call_one(void) {
     case 4: linear(s); break;
     case 5: ask(s); break;
     case 6: check_status(cairn_filter_remove_landmark(s->filter, id())); break;
-    default: fuzz_helpers(check_status); break;
+    case 7: fuzz_helpers(check_status); break;
+    default: submaps(s); break;
   }
   fuzz_shadow_take(&after, s->filter);
   if (counts[0] == failures || kind == 5) /* all of its calls failed, or it only asked */
