@@ -126,8 +126,18 @@ static void a_large_filter_takes_nothing(void **state) {
 
 static void the_bytes_are_foretold(void **state) {
   static const struct {
-    uint32_t landmarks, observations, sensors;
-  } cases[] = {{1, 1, 1}, {12, 12, 5}, {100, 64, 8}, {1000, 64, 8}, {300, 300, 16}, {50, 1000, 2}, {2000, 10, 256}};
+    uint32_t landmarks, observations, sensors, submap_landmarks;
+    int32_t join;
+  } cases[] = {{1, 1, 1, 0, 0},
+               {12, 12, 5, 0, 0},
+               {100, 64, 8, 0, 0},
+               {1000, 64, 8, 0, 0},
+               {300, 300, 16, 0, 0},
+               {50, 1000, 2, 0, 0},
+               {2000, 10, 256, 0, 0},
+               {100, 16, 4, 20, CAIRN_JOIN_DENSE},
+               {1500, 64, 8, 60, CAIRN_JOIN_DENSE},
+               {10000000, 64, 8, 60, CAIRN_JOIN_SPARSE}};
   (void)state;
   for (size_t k = 0; k < LENGTH(cases); ++k) {
     cairn_filter_options options = test_options();
@@ -138,6 +148,7 @@ static void the_bytes_are_foretold(void **state) {
     const cairn_stereo_camera camera = test_camera();
     options.max_landmarks = cases[k].landmarks, options.max_observations = cases[k].observations;
     options.max_sensors = cases[k].sensors;
+    options.submap_landmarks = cases[k].submap_landmarks, options.join = cases[k].join;
     assert_ok(cairn_filter_required_bytes(&options, &foretold));
     arm();
     const cairn_status created = cairn_filter_create(&options, &f);
@@ -164,10 +175,10 @@ static void the_bytes_are_foretold(void **state) {
 }
 
 /* Each allocation of a creation fails once: a status, nothing written, nothing lost. */
-static void want_of_memory_is_a_status(void **state) {
-  const cairn_filter_options options = test_options();
+static void refuse_creation(uint32_t submap_landmarks, int32_t join) {
+  cairn_filter_options options = test_options();
   size_t failures = 0;
-  (void)state;
+  options.submap_landmarks = submap_landmarks, options.join = join;
   for (size_t at = 1;; ++at) {
     cairn_filter *f = NULL;
     arm();
@@ -185,6 +196,13 @@ static void want_of_memory_is_a_status(void **state) {
     ++failures;
   }
   assert_true(failures > 0);
+}
+
+static void want_of_memory_is_a_status(void **state) {
+  (void)state;
+  refuse_creation(0, CAIRN_JOIN_AUTO);
+  refuse_creation(6, CAIRN_JOIN_DENSE);
+  refuse_creation(6, CAIRN_JOIN_SPARSE);
 }
 
 int main(void) {
