@@ -32,7 +32,7 @@ enum {
 /** How \ref cairn_map_merge finds the landmarks that both maps hold. */
 enum {
   CAIRN_MERGE_BY_ID = 0,      /**< those of one id */
-  CAIRN_MERGE_BY_GEOMETRY = 1 /**< by how they lie to each other; ids of the two maps have nothing to do with each other */
+  CAIRN_MERGE_BY_GEOMETRY = 1 /**< by how they lie to each other; the two maps' ids have nothing in common */
 };
 
 /** Options of \ref cairn_map_merge; \ref cairn_merge_options_init sets the defaults named here. */
@@ -44,7 +44,7 @@ typedef struct cairn_merge_options {
   size_t max_landmarks;          /**< that the merged map may hold; 0, the default: any number */
   int32_t has_transform;         /**< whether T_map_other is known beforehand, independently of both maps; 0 */
   int32_t reserved;              /**< 0 */
-  cairn_pose T_map_other;        /**< with has_transform: takes points from the other's frame into the map's; identity */
+  cairn_pose T_map_other;        /**< with has_transform: from the other's frame into the map's; identity */
   double covariance[36]; /**< of its error [dp; dtheta], 6x6 row-major, semidefinite (0: known exactly); 0 */
   double max_tilt; /**< by geometry, without has_transform: angle between both frames' z axes, rad, 0 to pi; pi */
 } cairn_merge_options;
@@ -136,9 +136,9 @@ CAIRN_API cairn_status cairn_merge_options_init(cairn_merge_options *options, si
  *  found from the landmarks that both hold (with has_transform also from what is told beforehand), and both maps'
  *  estimates become the best that follows from the two (docs/map_merging.md). A call that fails changes neither map.
  *
- *  Ids stay: those of `map` never change; a common landmark goes by the map's id. A landmark that is added keeps its id;
- *  by geometry, where the map has another one of that id, it gets the smallest free one above all ids of both (beyond
- *  the largest possible, the smallest free). \ref cairn_map_merged_ids tells.
+ *  Ids stay: those of `map` never change; a common landmark goes by the map's id. A landmark that is added keeps its
+ *  id; by geometry, where the map has another one of that id, it gets the smallest free one above all ids of both
+ *  (beyond the largest possible, the smallest free). \ref cairn_map_merged_ids tells.
  *
  *  The maps must be of independent data: two copies of one filter's map, or a merged map and one of its parts, are
  *  refused, because what they share would count twice. What a sparse `other` knows of its own frame (start pose,
@@ -146,11 +146,13 @@ CAIRN_API cairn_status cairn_merge_options_init(cairn_merge_options *options, si
  *
  *  `map` is a copy, `other` a copy or a filter's map. `options` may be NULL for the defaults. `report` may be NULL;
  *  set its struct_size first. It is filled in also where the merge is refused for what the maps hold.
+ *
  *  Threads: `map` one a handle; `other` as any const query. Errors: CAIRN_ERROR_ARGUMENT (also map == other),
- *  CAIRN_ERROR_STATE (`map` is a filter's: copy it; the kinds differ; both hold the same filter's landmarks),
- *  CAIRN_ERROR_NOT_FOUND (a map is empty, or too few landmarks are in common: one with has_transform, three without),
- *  CAIRN_ERROR_NUMERICAL (the common ones lie on a line; contradict each other, and the message and the report name
- *  the worst pair; by geometry: more than one transform fits), CAIRN_ERROR_CAPACITY (max_landmarks), CAIRN_ERROR_MEMORY.
+ *  CAIRN_ERROR_STATE (`map` is a filter's: copy it; the kinds differ; both hold the same filter's landmarks; a sparse
+ *  `other` was itself merged by has_transform: merge the other way round), CAIRN_ERROR_NOT_FOUND (a map is empty, or
+ *  too few landmarks are in common: it takes one with has_transform, three without), CAIRN_ERROR_NUMERICAL (the common
+ *  ones lie on a line; contradict each other, and the message and the report name the worst pair; by geometry: more
+ *  than one transform fits), CAIRN_ERROR_CAPACITY (max_landmarks), CAIRN_ERROR_MEMORY.
  *  Complexity, for n landmarks in both and k common ones: dense O(n^2 k + k^3); sparse as closing all of the other's
  *  submaps at once, and the test of at most 300 common landmarks jointly. By geometry besides: O(n log n) and the
  *  budget of triangles. \since 0.1.0 */

@@ -44,11 +44,11 @@ DenseLandmarks::DenseLandmarks(const Landmarks& source) {
   if (n > 0) source.joint_covariance(all.data(), n, covariance_.data());
 }
 
-// The errors e_a, e_b and those of the transform, tau, obey e_a,D - R e_b,D - G tau = -r for the common landmarks D,
-// where r = a_D - T b_D and G = [I, -hat(R b)]. With S = Cov(e_a,D - R e_b,D), V = S^-1 G and C = Cov(tau), and the
+// The errors e_a, e_b and those of the transform, tau, obey e_a,K - R e_b,K - G tau = -r for the common landmarks K,
+// where r = a_K - T b_K and G = [I, -hat(R b)]. With S = Cov(e_a,K - R e_b,K), V = S^-1 G and C = Cov(tau), and the
 // states x = [a; T b of those that only the other holds, F]:
-//   x_hat += X S^-1 r    with X = [-P_a,D; R P_b,FD R^T]
-//   P      = blkdiag(P_a, R P_b,FF R^T) - X S^-1 X^T + Q C Q^T    with Q = [P_a,D V; G_F - R P_b,FD R^T V]
+//   x_hat += X S^-1 r    with X = [-P_a,K; R P_b,FK R^T]
+//   P      = blkdiag(P_a, R P_b,FF R^T) - X S^-1 X^T + Q C Q^T    with Q = [P_a,K V; G_F - R P_b,FK R^T V]
 // T is where the distance is least, so that G^T S^-1 r = 0 without a prior, and with one what is left of it is the
 // prior's share: nothing needs to be moved twice. docs/map_merging.md.
 DenseLandmarks::DenseLandmarks(const DenseLandmarks& map, const DenseLandmarks& other, const MergePlan& plan)

@@ -109,6 +109,7 @@ class SparseMap final : public GlobalMap, private LeafSource {
   void finish(Undo& undo, JoinReport& report);
   double cost_since(const Undo& undo) const;
   Number bridge(const Submap& link, Undo& undo);
+  bool anchored() const;
   void find_worst(Number offset, MergeReport& report, const SparseMap& other, const MergePlan& plan) const;
 
   MapOptions options_;

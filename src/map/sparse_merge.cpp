@@ -52,8 +52,20 @@ SparseMap::Number SparseMap::bridge(const Submap& link, Undo& undo) {
   return number;
 }
 
+// Whether a bridge ends at a base that is fixed: parts of the map may hang together by that alone.
+bool SparseMap::anchored() const {
+  for (const auto& [base, fixes] : fixes_) {
+    const SubmapData& before = *leaves_[base - 1].data;
+    if (before.ids.empty() && before.covariance(0, 0) == kNothingPosition) return true;
+  }
+  return false;
+}
+
 void SparseMap::append(const SparseMap& other, const MergePlan& plan, const MergeOptions& options,
                        MergeReport& report) {
+  if (other.anchored())
+    throw Error(ErrorCode::state,
+                "other: it was merged by has_transform, which ties its parts to its own frame; merge the map into it");
   Undo undo(*this, ++change_);
   JoinReport joined;
   const SE3& T = plan.alignment.T_a_b;

@@ -264,6 +264,29 @@ static void a_known_transform_helps(void** state) {
   }
 }
 
+/* A sparse map that was merged by a known transform hangs together in its own frame: it takes others in, no more. */
+static void parts_tied_to_a_frame_stay_in_it(void** state) {
+  (void)state;
+  for (int kind = SINGLE; kind < KINDS; ++kind) {
+    rover west, east, middle;
+    rover_west(&west, kind, 6), rover_east(&east, kind, 6, 100), rover_middle(&middle, kind, 6);
+    cairn_map *a = rover_map(&west), *b = rover_map(&east), *c = rover_map(&middle);
+    cairn_merge_options options = new_options(CAIRN_MERGE_BY_ID);
+    options.has_transform = 1;
+    options.T_map_other = between(&west, &east);
+    assert_ok(cairn_map_merge(a, b, &options, NULL));
+    if (kind == SPARSE)
+      assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(c, a, NULL, NULL));
+    else
+      assert_ok(cairn_map_merge(c, a, NULL, NULL));
+    if (kind == SPARSE) assert_ok(cairn_map_merge(a, c, NULL, NULL));
+    const double nees = kind == SPARSE ? map_nees(a, &west.start, 100, NULL) : map_nees(c, &middle.start, 100, NULL);
+    assert_true(nees / (3.0 * (double)size_of(a)) < 1.4);
+    cairn_map_destroy(a), cairn_map_destroy(b), cairn_map_destroy(c);
+    rover_close(&west), rover_close(&east), rover_close(&middle);
+  }
+}
+
 /* --- refusals --- */
 
 typedef struct duo {
@@ -421,6 +444,7 @@ int main(void) {
       cmocka_unit_test(merged_maps_merge_on),
       cmocka_unit_test(maps_merge_by_geometry),
       cmocka_unit_test(a_known_transform_helps),
+      cmocka_unit_test(parts_tied_to_a_frame_stay_in_it),
       cmocka_unit_test(refusals_change_nothing),
       cmocka_unit_test(contradictions_are_named),
       cmocka_unit_test(structs_of_other_sizes),
