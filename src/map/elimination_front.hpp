@@ -16,7 +16,6 @@ struct EliminationTree::Front {
   Index e = 0, b = 0;                // states of both
   std::vector<double> factor;        // (e + b) x e, column-major: L_EE over L_BE
   std::vector<double> complement;    // packed lower triangle, b x b: what the boundary knows of what lies below
-  std::vector<double> weight;        // e
 
   bool leaf() const { return child[0] == nullptr; }
   double diagonal(Index i) const { return factor[i * (e + b) + i]; }

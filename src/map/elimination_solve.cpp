@@ -79,7 +79,7 @@ class Solver {
     Index at = 0;
     for (std::size_t i = 0; i < front.eliminated.size(); ++i) {
       const Variable v = front.eliminated[i];
-      active[i] = system_.solution(v, x.data() + at, front.e + front.b, front.weight.data() + at);
+      active[i] = system_.solution(v, x.data() + at, front.e + front.b);
       at += dimension(v);
     }
     for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
@@ -120,6 +120,20 @@ class Solver {
   EliminationTree::System& system_;
 };
 
+// y -= U d, for the packed lower triangle U.
+void subtract_product(const std::vector<double>& U, const Eigen::VectorXd& d, Eigen::VectorXd& y) {
+  const double* column = U.data();
+  const Index n = d.size();
+  for (Index c = 0; c < n; column += n - c, ++c) {
+    double sum = column[0] * d(c);
+    for (Index r = c + 1; r < n; ++r) {
+      y(r) -= column[r - c] * d(c);
+      sum += column[r - c] * d(r);
+    }
+    y(c) -= sum;
+  }
+}
+
 Matrix chosen(const Matrix& covariance, const std::vector<Index>& map) {
   const auto n = static_cast<Index>(map.size());
   Matrix part(n, n);
@@ -159,6 +173,160 @@ bool by_key(const Touch& a, const Touch& b) {
 }
 
 }  // namespace
+
+class EliminationTree::Relaxer {
+ public:
+  using Vector = Eigen::VectorXd;
+
+  Relaxer(EliminationTree& tree, const LeafSource& source, Relaxation& system)
+      : tree_(tree), source_(source), system_(system) {}
+
+  // The front's forces, its subtree's unknowns eliminated; null where nothing below was touched.
+  std::unique_ptr<Pass> forward(const Front& front, TouchIterator begin, TouchIterator end) const {
+    auto pass = std::make_unique<Pass>();
+    Vector b = Vector::Zero(front.e + front.b);
+    const Halves halves(front, begin, end);
+    for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
+      const Front& child = *front.child[side];
+      Vector above = Vector::Zero(child.b);
+      bool any = false;
+      if (halves.touches(child, side)) {
+        pass->child[side] = forward(child, halves.bounds[side], halves.bounds[side + 1]);
+        above = pass->child[side]->above;
+        any = true;
+      }
+      if (const Vector* kept = tree_.kept(child)) {
+        if (child.leaf()) {
+          Matrix H = Matrix::Zero(child.b, child.b);
+          source_.information(child.key.leaf, H.data(), child.b);
+          above -= H.selfadjointView<Eigen::Lower>() * *kept;
+        } else {
+          subtract_product(child.complement, *kept, above);
+        }
+        any = true;
+      }
+      if (!any) continue;
+      const std::vector<Index> map = state_map(child.boundary, front);
+      for (std::size_t i = 0; i < map.size(); ++i) b(map[i]) += above(static_cast<Index>(i));
+    }
+    Index at = 0;
+    for (const Variable v : front.eliminated) {
+      system_.right_hand_side(v, b.data() + at, front.e + front.b);
+      at += dimension(v);
+    }
+    pass->y = eliminated_block(front).triangularView<Eigen::Lower>().solve(b.head(front.e));
+    pass->above = b.tail(front.b);
+    pass->above.noalias() -= boundary_block(front) * pass->y;
+    return pass;
+  }
+
+  // `x` holds the motion of the boundary in its lower rows.
+  void backward(const Front& front, const Pass* pass, TouchIterator begin, TouchIterator end, Vector& x) {
+    Vector y = pass != nullptr ? Vector(pass->y) : Vector(Vector::Zero(front.e));
+    y.noalias() -= boundary_block(front).transpose() * x.tail(front.b);
+    eliminated_block(front).transpose().triangularView<Eigen::Upper>().solveInPlace(y);
+    x.head(front.e) = y;
+    Index at = 0;
+    for (const Variable v : front.eliminated) {
+      system_.solution(v, x.data() + at, front.e + front.b);
+      at += dimension(v);
+    }
+    const Halves halves(front, begin, end);
+    for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
+      const Front& child = *front.child[side];
+      const std::vector<Index> map = state_map(child.boundary, front);
+      Vector below(child.e + child.b);
+      for (std::size_t i = 0; i < map.size(); ++i) below(child.e + static_cast<Index>(i)) = x(map[i]);
+      if (const Vector* kept = tree_.kept(child)) below.tail(child.b) += *kept;
+      const bool touched = std::any_of(halves.bounds[side], halves.bounds[side + 1],
+                                       [&](const Touch& touch) { return touch.bit >= child.bit; });
+      bool matters = touched;
+      Index state = child.e;
+      for (std::size_t i = 0; !matters && i < child.boundary.size(); ++i) {
+        matters = system_.matters(child.boundary[i], below.data() + state);
+        state += dimension(child.boundary[i]);
+      }
+      if (!matters) {
+        tree_.kept_[&child] = std::make_shared<const Vector>(below.tail(child.b));
+        continue;
+      }
+      tree_.kept_.erase(&child);
+      if (child.leaf())
+        system_.visit(child.key.leaf);
+      else
+        backward(child, pass != nullptr ? pass->child[side].get() : nullptr, halves.bounds[side],
+                 halves.bounds[side + 1], below);
+    }
+  }
+
+  // As backward() without forces, on touched paths alone.
+  void settle(const Front& front, TouchIterator begin, TouchIterator end, const Vector& boundary) {
+    Vector x = Vector::Zero(front.e + front.b);
+    const bool moves = boundary.size() > 0 && !boundary.isZero(0.0);
+    if (moves) {
+      x.tail(front.b) = boundary;
+      Vector y = -(boundary_block(front).transpose() * boundary);
+      eliminated_block(front).transpose().triangularView<Eigen::Upper>().solveInPlace(y);
+      x.head(front.e) = y;
+      Index at = 0;
+      for (const Variable v : front.eliminated) {
+        system_.solution(v, x.data() + at, front.e + front.b);
+        at += dimension(v);
+      }
+    }
+    const Halves halves(front, begin, end);
+    for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
+      const Front& child = *front.child[side];
+      const bool touched = std::any_of(halves.bounds[side], halves.bounds[side + 1],
+                                       [&](const Touch& touch) { return touch.bit >= child.bit; });
+      if (!touched && !moves) continue;
+      Vector below = Vector::Zero(child.b);
+      if (moves) {
+        const std::vector<Index> map = state_map(child.boundary, front);
+        for (std::size_t i = 0; i < map.size(); ++i) below(static_cast<Index>(i)) = x(map[i]);
+      }
+      if (const Vector* kept = tree_.kept(child)) below += *kept;
+      if (!touched) {
+        tree_.kept_[&child] = std::make_shared<const Vector>(std::move(below));
+        continue;
+      }
+      tree_.kept_.erase(&child);
+      if (child.leaf()) {
+        if (!below.isZero(0.0)) system_.visit(child.key.leaf);
+      } else {
+        settle(child, halves.bounds[side], halves.bounds[side + 1], below);
+      }
+    }
+  }
+
+ private:
+  EliminationTree& tree_;
+  const LeafSource& source_;
+  Relaxation& system_;
+};
+
+const Eigen::VectorXd* EliminationTree::kept(const Front& front) const {
+  const auto found = kept_.find(&front);
+  return found != kept_.end() ? found->second.get() : nullptr;
+}
+
+void EliminationTree::relax(const LeafSource& source, std::vector<Touch> touches, Relaxation& system) {
+  if (crown_ == nullptr) return;
+  std::stable_sort(touches.begin(), touches.end(), by_key);
+  Relaxer relaxer(*this, source, system);
+  const auto pass = relaxer.forward(*crown_, touches.begin(), touches.end());
+  Eigen::VectorXd x(crown_->e);
+  relaxer.backward(*crown_, pass.get(), touches.begin(), touches.end(), x);
+}
+
+void EliminationTree::settle(const LeafSource& source, const Changes& changes, Relaxation& system) {
+  if (crown_ == nullptr || kept_.empty()) return;
+  std::vector<Touch> touches;
+  for (const TreeKey& key : changes.leaves) touches.push_back(touch(key));
+  for (const auto& [v, key] : changes.variables) touches.push_back(touch(v, key));
+  std::stable_sort(touches.begin(), touches.end(), by_key);
+  Relaxer(*this, source, system).settle(*crown_, touches.begin(), touches.end(), Eigen::VectorXd());
+}
 
 void EliminationTree::solve(std::vector<Touch> touches, Index columns, System& system) const {
   if (crown_ == nullptr) return;

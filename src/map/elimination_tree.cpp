@@ -172,8 +172,6 @@ class Builder {
     const Index e = front->e = dimension(front->eliminated), b = front->b = dimension(front->boundary), n = e + b;
     matrix_.assign(static_cast<std::size_t>(n * n), 0.0);
     for (int i = 0; i < children; ++i) assemble(*child[i], *front, n);
-    front->weight.resize(static_cast<std::size_t>(e));
-    for (Index i = 0; i < e; ++i) front->weight[i] = std::sqrt(std::max(0.0, matrix_[i * (n + 1)]));
     const std::size_t workspace =
         std::max({cholesky_workspace(e), solve_workspace(e), update_triangle_workspace(b, e)});
     if (workspace_.size() < workspace) workspace_.resize(workspace);
@@ -238,10 +236,8 @@ class Builder {
 };
 
 std::size_t bytes_below(const EliminationTree::Front& front) {
-  std::size_t bytes =
-      sizeof front +
-      sizeof(double) * (front.factor.capacity() + front.complement.capacity() + front.weight.capacity()) +
-      4 * (front.eliminated.capacity() + front.boundary.capacity() + front.held.capacity());
+  std::size_t bytes = sizeof front + sizeof(double) * (front.factor.capacity() + front.complement.capacity()) +
+                      4 * (front.eliminated.capacity() + front.boundary.capacity() + front.held.capacity());
   for (const auto& child : front.child)
     if (child != nullptr) bytes += bytes_below(*child);
   return bytes;

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "ekf/small_algebra.hpp"
@@ -98,11 +99,25 @@ class EliminationTree {
     virtual ~System() = default;
     // Adds to the right-hand side of a variable, dimension(v) x columns.
     virtual void right_hand_side(Variable v, double* b, Index ld) const = 0;
-    // Takes the solution of a variable; `weight` holds the square roots of the information's diagonal there, all others
-    // known. False: whoever hangs on this variable alone needs no visit.
-    virtual bool solution(Variable v, const double* x, Index ld, const double* weight) = 0;
+    // Takes the solution of a variable. False: whoever hangs on this variable alone needs no visit.
+    virtual bool solution(Variable v, const double* x, Index ld) = 0;
   };
   void solve(std::vector<Touch> touches, Index columns, System& system) const;
+
+  // One step of an iteration whose right-hand side is the force at the values that each leaf was evaluated at. Below a
+  // front whose boundary has hardly moved nothing is visited: the motion is kept there, and what it exerts on the
+  // boundary by the complement is counted in, until it has added up to something. So the parts of a map that a step
+  // only shifts a little cost nothing, and yet no force is out of balance.
+  class Relaxation : public System {
+   public:
+    // Whether a motion of this variable is worth handing down.
+    virtual bool matters(Variable v, const double* x) const = 0;
+    // All of the leaf's variables stand at their new values now.
+    virtual void visit(std::uint32_t leaf) = 0;
+  };
+  void relax(const LeafSource& source, std::vector<Touch> touches, Relaxation& system);
+  // Hands down what is kept on the way to the leaves that are about to change; before update().
+  void settle(const LeafSource& source, const Changes& changes, Relaxation& system);
 
   // Covariances by selected inversion: of all variables of each leaf asked for, in their order.
   class Covariances {
@@ -117,9 +132,13 @@ class EliminationTree {
   std::size_t memory_bytes() const;  // of the fronts
 
  private:
+  class Relaxer;
+  const Eigen::VectorXd* kept(const Front& front) const;
   int eliminated_at(Variable v) const { return eliminated_at_[v]; }
 
   FrontPointer crown_;  // above the trie: eliminates what is left
+  // Motions of fronts' boundaries that were not handed down.
+  std::unordered_map<const Front*, std::shared_ptr<const Eigen::VectorXd>> kept_;
   std::vector<std::int32_t> degree_;
   std::vector<std::int16_t> eliminated_at_;  // bit of the front that eliminates a variable; kNever
 };

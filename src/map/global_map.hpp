@@ -34,7 +34,7 @@ struct MapOptions {
   double iteration_tolerance = 0.1;
   double gate_probability = 0.99;  // of a single fused landmark
   double joint_gate_probability = 0.9999;
-  double step_tolerance = 1e-3;         // sparse: steps below so many standard deviations are not taken
+  double step_tolerance = 1e-2;         // sparse: steps below so many standard deviations are not taken
   double convergence_tolerance = 1e-2;  // sparse: and below so many are not followed by another
   int most_iterations = 6;              // sparse: linear solutions of a closing; more where the joint test asks for them
   SE3 initial_pose;

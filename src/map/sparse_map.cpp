@@ -12,12 +12,6 @@
 #include "sensor/sensor.hpp"
 
 namespace cairn {
-namespace {
-
-constexpr std::size_t kStaleAtOnce = 32;  // leaves that a closing linearises anew because their base has turned
-
-}  // namespace
-
 SparseMap::SparseMap(const MapOptions& options)
     : options_(options),
       prior_(options.initial_pose),
@@ -40,6 +34,8 @@ SparseMap::SparseMap(const SparseMap& other)
       ids_(other.ids_),
       tree_(other.tree_),
       base_covariance_(other.base_covariance_),
+      length_scale_(other.length_scale_),
+      turn_scale_(other.turn_scale_),
       stale_(other.stale_),
       unsettled_(other.unsettled_),
       change_(other.change_),
@@ -91,37 +87,95 @@ Matrix6 SparseMap::prior_information() const {
   return scale.asDiagonal() * scaled.ldlt().solve(Matrix6::Identity()) * scale.asDiagonal();
 }
 
+// The tree knows errors in axes that turn with the map: a base's in its own, a landmark's in those of the base that saw
+// it first. What a submap tells then depends on how things stand to each other alone, so that its linearisation stays
+// good when the map around it turns as a whole.
+const SO3& SparseMap::axes(Variable v) const {
+  const auto number = static_cast<Number>(v >> 1);
+  return bases_[is_landmark(v) ? landmarks_[number].submaps[0] : number].rotation();
+}
+
+void SparseMap::to_map_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& covariance) const {
+  Index state = 0;
+  for (const Variable v : variables) {
+    const Matrix3 R = axes(v).matrix();
+    for (Index d = 0; d < dimension(v); d += 3, state += 3) {
+      covariance.middleRows<3>(state) = (R * covariance.middleRows<3>(state)).eval();
+      covariance.middleCols<3>(state) = (covariance.middleCols<3>(state) * R.transpose()).eval();
+    }
+  }
+}
+
+void SparseMap::note_linearisation(Number number) {
+  Leaf& leaf = leaves_[number];
+  const SE3 T_base_map = bases_[number].inverse();
+  leaf.end_then = T_base_map * bases_[number + 1];
+  leaf.landmarks_then.clear();
+  for (const Index i : leaf.factor->shared())
+    leaf.landmarks_then.push_back(T_base_map * landmarks_[leaf.landmarks[i]].position);
+  leaf.axes_then.clear();
+  for (const Variable v : leaf.variables) leaf.axes_then.push_back(T_base_map.rotation() * axes(v));
+}
+
+// How far the leaf's landmarks and axes have moved against its base since it was linearised, in the map's scales.
+double SparseMap::strain(Number number) const {
+  const Leaf& leaf = leaves_[number];
+  if (leaf.axes_then.size() != leaf.variables.size()) return std::numeric_limits<double>::infinity();
+  const auto angle = [](const SO3& a, const SO3& b) { return 2.0 * (a * b.inverse()).quaternion().vec().norm(); };
+  const SE3 T_base_map = bases_[number].inverse();
+  double way = (T_base_map * bases_[number + 1].translation() - leaf.end_then.translation()).norm(), turn = 0.0;
+  for (std::size_t i = 0; i < leaf.landmarks_then.size(); ++i) {
+    const Vector3& l = landmarks_[leaf.landmarks[leaf.factor->shared()[i]]].position;
+    way = std::max(way, (T_base_map * l - leaf.landmarks_then[i]).norm());
+  }
+  for (std::size_t i = 0; i < leaf.variables.size(); ++i)
+    turn = std::max(turn, angle(T_base_map.rotation() * axes(leaf.variables[i]), leaf.axes_then[i]));
+  return std::max(way / length_scale_, turn / turn_scale_);
+}
+
 void SparseMap::information(std::uint32_t number, double* H, Index ld) const {
   const Leaf& leaf = leaves_[number];
-  const Eigen::MatrixXd own = leaf.factor->hessian(values(leaf));
-  for (Index c = 0; c < own.cols(); ++c)
-    for (Index r = 0; r < own.rows(); ++r)
-      if (leaf.order[r] >= leaf.order[c]) H[leaf.order[c] * ld + leaf.order[r]] = own(r, c);
+  Eigen::MatrixXd own = leaf.factor->hessian(values(leaf));
   // What tells of a base alone goes with the submap that ends there; of the first, with the one that begins there.
-  const auto add = [&](Index state, const Matrix6& block) {
-    for (Index c = 0; c < 6; ++c)
-      for (Index r = c; r < 6; ++r) H[(leaf.order[state] + c) * ld + leaf.order[state] + r] += block(r, c);
-  };
   if (number == 0) {
     const Matrix6 J = prior_jacobian();
-    add(0, J.transpose() * prior_information() * J);
+    own.block<6, 6>(0, 0) += J.transpose() * prior_information() * J;
   }
   const auto fixes = fixes_.find(number + 1);
-  if (fixes == fixes_.end()) return;
-  const SE3& T = bases_[number + 1];
-  for (const AbsoluteFix& fix : fixes->second) {
-    const int rows = fix.rows();
-    const Eigen::MatrixXd J = fix.jacobian(T).topRows(rows);
-    add(6, J.transpose() * fix.covariance().topLeftCorner(rows, rows).ldlt().solve(J));
-  }
+  if (fixes != fixes_.end())
+    for (const AbsoluteFix& fix : fixes->second) {
+      const int rows = fix.rows();
+      const Eigen::MatrixXd J = fix.jacobian(bases_[number + 1]).topRows(rows);
+      own.block<6, 6>(6, 6) += J.transpose() * fix.covariance().topLeftCorner(rows, rows).ldlt().solve(J);
+    }
+  std::vector<Matrix3> R(static_cast<std::size_t>(own.rows() / 3));  // by the factor's states
+  for (Index i = 0; i < own.rows() / 3; ++i)
+    R[i] = axes(i < 2   ? base_variable(number)
+                : i < 4 ? base_variable(number + 1)
+                        : landmark_variable(leaf.landmarks[leaf.factor->shared()[i - 4]]))
+               .matrix();
+  for (Index i = 0; i < own.rows() / 3; ++i)
+    for (Index j = 0; j <= i; ++j) {
+      const Matrix3 block = R[i].transpose() * own.block<3, 3>(3 * i, 3 * j) * R[j];
+      const Index row = leaf.order[3 * i], column = leaf.order[3 * j];
+      for (Index c = 0; c < 3; ++c)
+        for (Index r = 0; r < 3; ++r) {
+          if (row == column && r < c) continue;
+          if (row >= column)
+            H[(column + c) * ld + row + r] = block(r, c);
+          else
+            H[(row + r) * ld + column + c] = block(r, c);
+        }
+    }
 }
 
 void SparseMap::evaluate(Number number) {
   Leaf& leaf = leaves_[number];
   const SubmapFactor::Evaluation own = leaf.factor->evaluate(values(leaf));
   leaf.cost = own.cost;
-  leaf.gradient.resize(own.gradient.size());
-  for (Index i = 0; i < own.gradient.size(); ++i) leaf.gradient(leaf.order[i]) = own.gradient(i);
+  Eigen::VectorXd gradient(own.gradient.size());  // apart: a resize that fails would leave the old one torn
+  for (Index i = 0; i < own.gradient.size(); ++i) gradient(leaf.order[i]) = own.gradient(i);
+  leaf.gradient.swap(gradient);
   if (number == 0) {
     const Vector6 e = pose_error(bases_[0], prior_);
     const Vector6 weighted = prior_information() * e;
@@ -214,6 +268,10 @@ void SparseMap::roll_back(Undo& undo) noexcept {
   tree_ = std::move(undo.tree);
   fixes_ = std::move(undo.fixes);
   unsettled_ = std::move(undo.unsettled);
+  stale_ = std::move(undo.stale);
+  base_covariance_ = undo.base_covariance;
+  length_scale_ = undo.length_scale;
+  turn_scale_ = undo.turn_scale;
 }
 
 SparseMap::Undo::Undo(const SparseMap& map, Number number)
@@ -224,7 +282,11 @@ SparseMap::Undo::Undo(const SparseMap& map, Number number)
       visible(map.visible_.size()),
       tree(map.tree_),
       fixes(map.fixes_),
-      unsettled(map.unsettled_) {}
+      unsettled(map.unsettled_),
+      stale(map.stale_),
+      base_covariance(map.base_covariance_),
+      length_scale(map.length_scale_),
+      turn_scale(map.turn_scale_) {}
 
 double SparseMap::cost_since(const Undo& undo) const {
   double change = 0.0;
@@ -334,6 +396,7 @@ SparseMap::Number SparseMap::take_in(const Submap& submap, const std::vector<cha
                 report.fresh, undo.visible, options_.max_landmarks);
   shape(leaf, number);
   leaves_.push_back(std::move(leaf));
+  set_scales(submap);
   evaluate(number);
   std::sort(reshaped.begin(), reshaped.end());
   reshaped.erase(std::unique(reshaped.begin(), reshaped.end()), reshaped.end());
@@ -343,10 +406,6 @@ SparseMap::Number SparseMap::take_in(const Submap& submap, const std::vector<cha
     evaluate(old);
     changes.leaves.push_back(leaves_[old].key);
   }
-  const std::size_t linearise = std::min(stale_.size(), kStaleAtOnce);
-  for (std::size_t i = 0; i < linearise; ++i) changes.leaves.push_back(leaves_[stale_[stale_.size() - 1 - i]].key);
-  report.relinearised = linearise;
-  undo.linearised = linearise;
   // A base is held by the submap that ends there and by the one that begins there. The newest one waits for the latter,
   // and is eliminated last of all until then.
   tree_.set_degree(base_variable(number), number == 0 ? 1 : 2);
@@ -356,13 +415,20 @@ SparseMap::Number SparseMap::take_in(const Submap& submap, const std::vector<cha
   return number;
 }
 
-void SparseMap::refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report) {
-  std::size_t refactored = 0;
-  std::vector<std::uint32_t> assembled;
-  if (!tree_.update(*this, changes, refactored, assembled))
-    throw Error(ErrorCode::numerical, "submap: the map's information is not positive definite; nothing was changed");
-  report.refactored += refactored;
-  undo.assembled.insert(undo.assembled.end(), assembled.begin(), assembled.end());
+void SparseMap::set_scales(const Submap& submap) {
+  std::vector<double> sigmas;
+  double extent = 1.0;
+  for (Index i = 0; i < submap.size(); ++i) {
+    const Matrix3 P = submap.covariance.block<3, 3>(6 + 3 * i, 6 + 3 * i);
+    sigmas.push_back(std::sqrt(P.trace()));
+    extent = std::max(extent, submap.landmarks[i].norm());
+  }
+  if (sigmas.empty()) sigmas.push_back(std::sqrt(submap.covariance.topLeftCorner<3, 3>().trace()));
+  const auto median = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+  std::nth_element(sigmas.begin(), median, sigmas.end());
+  if (!(*median > 0.0)) return;
+  length_scale_ = std::min(length_scale_, *median);
+  turn_scale_ = std::min(turn_scale_, *median / extent);
 }
 
 // Whether the fused landmarks' estimates contradict each other, jointly or one by one; the latter judged from below: a
@@ -451,25 +517,27 @@ void SparseMap::gate(const Submap& submap, std::vector<char>& left_out) const {
 void SparseMap::finish(Undo& undo, JoinReport& report) {
   for (const auto& [number, leaf] : undo.leaves) place_private(number);
   for (std::size_t i = undo.leaf_count; i < leaves_.size(); ++i) place_private(static_cast<Number>(i));
-  base_covariance_ = tree_.last_covariance();
+  Eigen::MatrixXd newest = tree_.last_covariance();
+  to_map_axes({base_variable(bases_.size() - 1)}, newest);
+  base_covariance_ = newest;
   double sum = 0.0;
   for (const auto& [landmark, before] : undo.positions) {
     const double way = (landmarks_[landmark].position - before).squaredNorm();
     sum += way;
     report.moved_max = std::max(report.moved_max, std::sqrt(way));
-    if (landmarks_[landmark].slot != kNone) index_.moved(landmarks_[landmark].slot);
   }
   if (undo.landmarks > 0) report.moved_rms = std::sqrt(sum / undo.landmarks);
-  stale_.resize(stale_.size() - undo.linearised);
-  for (const Number leaf : undo.assembled) leaves_[leaf].linearised = bases_[leaf];
-  const auto turned = [&](Number number) {
-    constexpr double kTurned = 0.02;  // rad
-    return (bases_[number].rotation() * leaves_[number].linearised.rotation().inverse()).log().norm() > kTurned;
-  };
-  for (const auto& [number, leaf] : undo.leaves)
-    if (turned(number)) stale_.push_back(number);
-  std::sort(stale_.begin(), stale_.end());
-  stale_.erase(std::unique(stale_.begin(), stale_.end()), stale_.end());
+  note_moves(undo);
+}
+
+// To the spatial index, which may want memory for single moves, but none to hear that all have moved.
+void SparseMap::note_moves(const Undo& undo) noexcept {
+  try {
+    for (const auto& [landmark, before] : undo.positions)
+      if (landmarks_[landmark].slot != kNone) index_.moved(landmarks_[landmark].slot);
+  } catch (...) {
+    index_.moved_all();
+  }
 }
 
 void SparseMap::remove(std::uint64_t id) {

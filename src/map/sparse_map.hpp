@@ -3,6 +3,7 @@
 // landmarks, by damped Gauss-Newton on a factor that a closing changes only where it reaches (docs/submaps.md).
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -70,13 +71,20 @@ class SparseMap final : public GlobalMap, private LeafSource {
     std::vector<Variable> variables;  // ascending
     std::vector<Index> states;        // where each begins
     std::vector<Index> order;         // state of the variables by state of the factor
-    SE3 linearised;                   // the base when the tree took its information
+    // How all stood to the base when the tree took its information: the end, the shared landmarks, the variables' axes.
+    SE3 end_then;
+    std::vector<Vector3> landmarks_then;
+    std::vector<SO3> axes_then;
     double cost = 0.0;
     Eigen::VectorXd gradient;  // in the order of `variables`
     Number saved = 0;
   };
   struct Undo;
   class Step;
+  struct StepEntry {  // of one variable, ordinary error in map axes
+    Variable variable;
+    double value[6];
+  };
   class Columns;
   class CovarianceCache;
 
@@ -86,6 +94,10 @@ class SparseMap final : public GlobalMap, private LeafSource {
 
   bool shared(Number landmark) const { return landmarks_[landmark].submaps.size() > 1; }
   FactorValues values(const Leaf& leaf) const;
+  const SO3& axes(Variable v) const;
+  void to_map_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& covariance) const;
+  void note_linearisation(Number leaf);
+  double strain(Number leaf) const;
   void shape(Leaf& leaf, Number number) const;
   void evaluate(Number leaf);
   void place_private(Number leaf);
@@ -102,11 +114,19 @@ class SparseMap final : public GlobalMap, private LeafSource {
 
   bool try_join(const Submap& submap, const std::vector<char>& left_out, bool last, JoinReport& report);
   Number take_in(const Submap& submap, const std::vector<char>& left_out, Undo& undo, JoinReport& report);
+  void set_scales(const Submap& submap);
   void refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report);
+  void place(const std::vector<StepEntry>& entries, double factor, const std::vector<SE3>& bases,
+             const std::vector<Vector3>& positions);
+  void save_step(const Step& step, Undo& undo, std::vector<SE3>& bases, std::vector<Vector3>& positions);
+  double take_step(const Step& step, double factor, const std::vector<SE3>& bases,
+                   const std::vector<Vector3>& positions);
+  void linearise_stale(Undo& undo, JoinReport& report);
   void optimise(std::vector<Number> dirty, Undo& undo, JoinReport& report, int most_iterations);
   bool suspicious(Number leaf, const JoinReport& report) const;
   void gate(const Submap& submap, std::vector<char>& left_out) const;
   void finish(Undo& undo, JoinReport& report);
+  void note_moves(const Undo& undo) noexcept;
   double cost_since(const Undo& undo) const;
   Number bridge(const Submap& link, Undo& undo);
   bool anchored() const;
@@ -124,7 +144,10 @@ class SparseMap final : public GlobalMap, private LeafSource {
   std::unordered_map<std::uint64_t, Number> ids_;
   EliminationTree tree_;
   Matrix6 base_covariance_;
-  std::vector<Number> stale_;      // leaves whose base has turned since they were linearised
+  // What a step is measured by: the smallest typical standard deviation of a landmark in its submap, and the turn that
+  // moves the submap's farthest landmark so far.
+  double length_scale_ = std::numeric_limits<double>::infinity(), turn_scale_ = length_scale_;
+  std::vector<Number> stale_;      // leaves to be linearised anew
   std::vector<Number> unsettled_;  // leaves where the last optimisation ended before it converged
   Number change_ = 0;
   SpatialIndex index_;

@@ -158,6 +158,8 @@ void SparseMap::append(const SparseMap& other, const MergePlan& plan, const Merg
     evaluate(leaf);
     changes.leaves.push_back(leaves_[leaf].key);
   }
+  length_scale_ = std::min(length_scale_, other.length_scale_);
+  turn_scale_ = std::min(turn_scale_, other.turn_scale_);
   refactor(std::move(changes), undo, joined);
   optimise(std::move(dirty), undo, joined, options_.most_iterations);
   for (int round = 1; round < kRounds && !unsettled_.empty(); ++round)

@@ -19,8 +19,10 @@ class SparseMap::CovarianceCache final : public EliminationTree::Covariances {
  public:
   explicit CovarianceCache(const SparseMap& map) : map_(map) {}
 
-  void leaf(std::uint32_t number, const Eigen::MatrixXd& covariance) override {
+  void leaf(std::uint32_t number, const Eigen::MatrixXd& in_own_axes) override {
     const Leaf& leaf = map_.leaves_[number];
+    Eigen::MatrixXd covariance = in_own_axes;
+    map_.to_map_axes(leaf.variables, covariance);
     std::vector<Index> privates;
     for (std::size_t i = 0; i < leaf.landmarks.size(); ++i) {
       const Number landmark = leaf.landmarks[i];
@@ -29,7 +31,9 @@ class SparseMap::CovarianceCache final : public EliminationTree::Covariances {
     const std::vector<Index>& shared_ones = leaf.factor->shared();
     for (std::size_t i = 0; i < shared_ones.size(); ++i) {
       const Index at = leaf.order[12 + 3 * i];
-      keep(leaf.landmarks[shared_ones[i]], covariance.block<3, 3>(at, at));
+      // From the leaf that is asked for it alone: the others agree but for their last bits.
+      const Number landmark = leaf.landmarks[shared_ones[i]];
+      if (map_.landmarks_[landmark].submaps[0] == number) keep(landmark, covariance.block<3, 3>(at, at));
     }
     if (privates.empty()) return;
     Eigen::MatrixXd A, W, sorted(3 * static_cast<Index>(privates.size()), covariance.rows());
@@ -95,7 +99,7 @@ class SparseMap::Columns final : public EliminationTree::System {
     if (at == variables_.size()) return;
     for (Index d = 0; d < dimension(v); ++d) b[(states_[at] + d) * ld + d] += 1.0;
   }
-  bool solution(Variable v, const double* x, Index ld, const double*) override {
+  bool solution(Variable v, const double* x, Index ld) override {
     const std::size_t at = position(v);
     if (at == variables_.size()) return false;
     for (Index c = 0; c < covariance.cols(); ++c)
@@ -145,6 +149,7 @@ void SparseMap::base_joint_covariance(const std::size_t* indices, std::size_t co
   variables.erase(std::unique(variables.begin(), variables.end()), variables.end());
   Columns columns(variables);
   tree_.solve(std::move(touches), columns.columns(), columns);
+  to_map_axes(variables, columns.covariance);
 
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, columns.columns()), W = Eigen::MatrixXd::Zero(size, size);
   A.block<6, 6>(0, columns.state(newest)).setIdentity();

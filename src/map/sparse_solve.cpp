@@ -21,101 +21,176 @@ void SparseMap::for_leaves_of(Variable v, Visit&& visit) const {
   if (number < leaves_.size()) visit(number);
 }
 
+// Adds the descent in the variable's axes.
 void SparseMap::gradient_of(Variable v, double* b) const {
+  Vector6 sum = Vector6::Zero();
   for_leaves_of(v, [&](Number number) {
     const Leaf& leaf = leaves_[number];
     const auto at = std::lower_bound(leaf.variables.begin(), leaf.variables.end(), v) - leaf.variables.begin();
-    for (Index d = 0; d < dimension(v); ++d) b[d] -= leaf.gradient(leaf.states[at] + d);
+    for (Index d = 0; d < dimension(v); ++d) sum(d) -= leaf.gradient(leaf.states[at] + d);
   });
+  const SO3 own = axes(v).inverse();
+  for (Index d = 0; d < dimension(v); d += 3) Eigen::Map<Vector3>(b + d) += own * Vector3(sum.segment<3>(d));
 }
 
-// One linear solution: the steps worth taking.
-class SparseMap::Step final : public EliminationTree::System {
+// One linear solution. Lengths and turns are measured by one scale of the whole map.
+class SparseMap::Step final : public EliminationTree::Relaxation {
  public:
-  explicit Step(const SparseMap& map) : map_(map), tolerance_(map.options_.step_tolerance) {}
+  Step(const SparseMap& map, double tolerance) : map_(map), tolerance_(tolerance) {}
 
   void right_hand_side(Variable v, double* b, Index) const override { map_.gradient_of(v, b); }
-  bool solution(Variable v, const double* x, Index, const double* weight) override {
-    Entry entry{v, {}};
-    double sigmas = 0.0;
-    for (Index d = 0; d < dimension(v); ++d) {
-      entry.value[d] = x[d];
-      sigmas = std::max(sigmas, std::abs(x[d]) * weight[d]);
-    }
-    if (!(sigmas >= tolerance_)) return false;
-    largest = std::max(largest, sigmas);
+  bool solution(Variable v, const double* x, Index) override {
+    StepEntry entry{v, {}};
+    for (Index d = 0; d < dimension(v); d += 3)
+      Eigen::Map<Vector3>(entry.value + d) = map_.axes(v) * Vector3(Eigen::Map<const Vector3>(x + d));
+    largest = std::max(largest, size(v, x));
     entries.push_back(entry);
     return true;
   }
+  bool matters(Variable v, const double* x) const override { return !(size(v, x) < tolerance_); }
+  void visit(std::uint32_t leaf) override { visited.push_back(leaf); }
 
-  struct Entry {
-    Variable variable;
-    double value[6];
-  };
-  std::vector<Entry> entries;
+  std::vector<StepEntry> entries;
+  std::vector<Number> visited;
   double largest = 0.0;
 
  private:
+  double size(Variable v, const double* x) const {
+    const double way = Eigen::Map<const Vector3>(x).norm() / map_.length_scale_;
+    return is_landmark(v) ? way : std::max(way, Eigen::Map<const Vector3>(x + 3).norm() / map_.turn_scale_);
+  }
+
   const SparseMap& map_;
   double tolerance_;
 };
 
+// A rigid motion of many must stay one, whatever its size: with the turn theta of its own base, of that which saw it
+// first, a point goes by V(theta) delta, as (Exp(theta) - I) (p - c) = V(theta) (theta x (p - c)).
+void SparseMap::place(const std::vector<StepEntry>& entries, double factor, const std::vector<SE3>& bases,
+                      const std::vector<Vector3>& positions) {
+  std::unordered_map<Number, Matrix3> turned;  // V by base
+  std::size_t base = 0, position = 0;
+  for (const StepEntry& entry : entries) {
+    if (is_landmark(entry.variable)) continue;
+    const auto number = static_cast<Number>(entry.variable >> 1);
+    const Vector3 move = factor * Eigen::Map<const Vector3>(entry.value);
+    const Vector3 turn = factor * Eigen::Map<const Vector3>(entry.value + 3);
+    const Matrix3 V = SO3::translation_jacobian(turn);
+    const SE3& before = bases[base++];
+    bases_[number] = SE3(SO3::exp(turn) * before.rotation(), before.translation() + V * move);
+    turned.emplace(number, V);
+  }
+  for (const StepEntry& entry : entries) {
+    if (!is_landmark(entry.variable)) continue;
+    Landmark& landmark = landmarks_[static_cast<Number>(entry.variable >> 1)];
+    const Vector3 move = factor * Eigen::Map<const Vector3>(entry.value);
+    const auto first = turned.find(landmark.submaps[0]);
+    landmark.position = positions[position++] + (first != turned.end() ? Vector3(first->second * move) : move);
+  }
+}
+
+// Puts the step's variables where it takes them, and evaluates the leaves that it visits; returns their cost.
+double SparseMap::take_step(const Step& step, double factor, const std::vector<SE3>& bases,
+                            const std::vector<Vector3>& positions) {
+  place(step.entries, factor, bases, positions);
+  double cost = 0.0;
+  for (const Number leaf : step.visited) {
+    evaluate(leaf);
+    cost += leaves_[leaf].cost;
+  }
+  return cost;
+}
+
+// Makes the tree anew where `changes` reach; what was kept above them is handed down first.
+void SparseMap::refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report) {
+  Step step(*this, 0.0);
+  tree_.settle(*this, changes, step);
+  std::vector<SE3> bases;
+  std::vector<Vector3> positions;
+  save_step(step, undo, bases, positions);
+  take_step(step, 1.0, bases, positions);
+
+  std::size_t refactored = 0;
+  std::vector<std::uint32_t> assembled;
+  if (!tree_.update(*this, changes, refactored, assembled))
+    throw Error(ErrorCode::numerical, "submap: the map's information is not positive definite; nothing was changed");
+  report.refactored += refactored;
+  for (const Number leaf : assembled) {
+    save_leaf(undo, leaf);
+    note_linearisation(leaf);
+  }
+}
+
+// Saves what the step moves, and hands out the values before it.
+void SparseMap::save_step(const Step& step, Undo& undo, std::vector<SE3>& bases, std::vector<Vector3>& positions) {
+  for (const Number leaf : step.visited) save_leaf(undo, leaf);
+  for (const StepEntry& entry : step.entries) {
+    const auto number = static_cast<Number>(entry.variable >> 1);
+    if (is_landmark(entry.variable)) {
+      save_landmark(undo, number);
+      positions.push_back(landmarks_[number].position);
+    } else {
+      save_base(undo, number);
+      bases.push_back(bases_[number]);
+    }
+  }
+}
+
+// The newest first; what is too much for once waits for the next solution.
+void SparseMap::linearise_stale(Undo& undo, JoinReport& report) {
+  constexpr std::size_t kAtOnce = 128;
+  if (stale_.empty()) return;
+  const std::size_t count = std::min(stale_.size(), kAtOnce);
+  EliminationTree::Changes changes;
+  for (std::size_t i = stale_.size() - count; i < stale_.size(); ++i) changes.leaves.push_back(leaves_[stale_[i]].key);
+  stale_.resize(stale_.size() - count);
+  report.relinearised += count;
+  refactor(std::move(changes), undo, report);
+}
+
 // Iterates from where `dirty` leaves, and those that an earlier change left unsettled, pull.
 void SparseMap::optimise(std::vector<Number> dirty, Undo& undo, JoinReport& report, int most_iterations) {
   constexpr int kHalvings = 6;
+  constexpr double kStrained = 0.02;
+  constexpr double kSlack = 0.01;  // of the cost: leaves that were not visited lately tell that of a while ago
   dirty.insert(dirty.end(), unsettled_.begin(), unsettled_.end());
   unsettled_.clear();
+  double tolerance = options_.step_tolerance;
   for (int i = 0; i < most_iterations && !dirty.empty(); ++i) {
+    linearise_stale(undo, report);
     std::vector<EliminationTree::Touch> touches;
     for (const Number leaf : dirty) touches.push_back(tree_.touch(leaves_[leaf].key));
-    Step step(*this);
-    tree_.solve(std::move(touches), 1, step);
+    Step step(*this, tolerance);
+    const EliminationTree before_step = tree_;
+    tree_.relax(*this, touches, step);
     ++report.iterations;
-    if (step.entries.empty()) return;
-
-    std::vector<Number> pulled;
-    for (const Step::Entry& entry : step.entries)
-      for_leaves_of(entry.variable, [&](Number leaf) { pulled.push_back(leaf); });
-    std::sort(pulled.begin(), pulled.end());
-    pulled.erase(std::unique(pulled.begin(), pulled.end()), pulled.end());
     double before = 0.0;
-    for (const Number leaf : pulled) {
-      save_leaf(undo, leaf);
-      before += leaves_[leaf].cost;
-    }
+    for (const Number leaf : step.visited) before += leaves_[leaf].cost;
     std::vector<SE3> bases;
     std::vector<Vector3> positions;
-    for (const Step::Entry& entry : step.entries) {
-      const auto number = static_cast<Number>(entry.variable >> 1);
-      if (is_landmark(entry.variable)) {
-        save_landmark(undo, number);
-        positions.push_back(landmarks_[number].position);
-      } else {
-        save_base(undo, number);
-        bases.push_back(bases_[number]);
-      }
+    save_step(step, undo, bases, positions);
+    double after = take_step(step, 1.0, bases, positions);
+    if (!(after <= before + kSlack) && tolerance > 0.0) {
+      // Too far for a linear step. All that moves is visited then, and the step, a direction of descent, is halved.
+      take_step(step, 0.0, bases, positions);
+      tree_ = before_step;
+      tolerance = 0.0;
+      continue;
     }
-    // The step is a direction of descent: it is halved until the cost falls.
-    double factor = 1.0, after = 0.0;
-    for (int halving = 0; halving <= kHalvings; ++halving, factor *= 0.5) {
-      std::size_t base = 0, position = 0;
-      for (const Step::Entry& entry : step.entries) {
-        const auto number = static_cast<Number>(entry.variable >> 1);
-        if (is_landmark(entry.variable))
-          landmarks_[number].position = positions[position++] + factor * Eigen::Map<const Vector3>(entry.value);
-        else
-          bases_[number] = retract(bases[base++], Vector6(factor * Eigen::Map<const Vector6>(entry.value)));
-      }
-      after = 0.0;
-      for (const Number leaf : pulled) {
-        evaluate(leaf);
-        after += leaves_[leaf].cost;
-      }
-      if (after <= before * (1.0 + 1e-9) + 1e-9) break;
+    double factor = 1.0;
+    for (int halving = 0; !(after <= before + kSlack) && halving < kHalvings; ++halving) {
+      factor *= 0.5;
+      after = take_step(step, factor, bases, positions);
     }
     if (!std::isfinite(after))
       throw Error(ErrorCode::numerical, "submap: the map's landmarks would not stay finite; nothing was changed");
-    dirty = std::move(pulled);
+    dirty = step.visited;
+    // Leaves that the step has strained are linearised anew: what a factor of older points takes for stiff or slack
+    // would spoil the slack motions of the whole, where much has to agree.
+    for (const Number leaf : dirty)
+      if (strain(leaf) > kStrained) stale_.push_back(leaf);
+    std::sort(stale_.begin(), stale_.end());
+    stale_.erase(std::unique(stale_.begin(), stale_.end()), stale_.end());
     if (factor == 1.0 && step.largest < options_.convergence_tolerance) return;
   }
   unsettled_ = std::move(dirty);

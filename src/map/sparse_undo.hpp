@@ -14,14 +14,14 @@ struct SparseMap::Undo {
   std::size_t leaf_count, base_count, visible;
   EliminationTree tree;
   std::map<Number, std::vector<AbsoluteFix>> fixes;
-  std::vector<Number> unsettled;
+  std::vector<Number> unsettled, stale;
+  Matrix6 base_covariance;
+  double length_scale, turn_scale;
   std::vector<std::pair<Number, Vector3>> positions;
   std::vector<std::pair<Number, SE3>> bases;
   std::vector<std::pair<Number, Leaf>> leaves;
   std::vector<Number> extended;  // landmarks that got another submap
   std::vector<std::uint64_t> counts;
-  std::vector<std::uint32_t> assembled;
-  std::size_t linearised = 0;  // of the stale leaves, from the end
 };
 
 }  // namespace cairn

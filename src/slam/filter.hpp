@@ -39,7 +39,7 @@ struct FilterOptions {
   JoinKind join = JoinKind::automatic;
   double submap_distance = 0.0, submap_extent = 0.0, submap_sigma = 0.0;  // 0: no matter
 
-  double step_tolerance = 1e-3;  // of the sparse joining, see MapOptions
+  double step_tolerance = 1e-2;  // of the sparse joining, see MapOptions
 
   bool single_map() const { return submap_landmarks == 0; }
   bool sparse() const;
