@@ -180,7 +180,7 @@ CAIRN_API cairn_status cairn_filter_remove_landmark(cairn_filter *filter, uint64
  * landmarks join the map, and the next one starts at the vehicle's pose. cairn_filter_update closes after the frame that
  * filled it; if that fails (memory, capacity), the update stands all the same, the submap stays open, the report of the
  * closing says why, and later frames try again. A known pose in the map (position, attitude, heading) closes the open
- * submap first, whatever it holds; if the fix then fails, the submap stays closed. */
+ * submap first, whatever it holds. */
 
 /** What made a submap close. */
 enum {

@@ -169,7 +169,7 @@ void DenseMap::fuse_and_compose(const Submap& submap, const std::vector<Pair>& p
   ekf_.compose(handover);
 }
 
-JoinReport DenseMap::join(const Submap& submap) {
+JoinReport DenseMap::join_and_fix(const Submap& submap, FixRequest* fix) {
   JoinReport report;
   std::vector<Pair> pairs;
   std::vector<Eigen::Index> fresh;
@@ -217,6 +217,7 @@ JoinReport DenseMap::join(const Submap& submap) {
   const Ekf<SE3>::Backup backup = ekf_.backup();
   try {
     fuse_and_compose(submap, pairs, joint, slots, landmarks, handover, report);
+    if (fix != nullptr) fix->report = this->fix(fix->fix, fix->threshold);
   } catch (...) {
     ekf_.restore(backup);
     throw;

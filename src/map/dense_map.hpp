@@ -14,7 +14,7 @@ class DenseMap final : public GlobalMap {
   explicit DenseMap(const MapOptions& options);
   static std::size_t required_bytes(const MapOptions& options);
 
-  JoinReport join(const Submap& submap) override;
+  JoinReport join_and_fix(const Submap& submap, FixRequest* fix) override;
   FixReport fix(const AbsoluteFix& fix, double threshold) override;
   void remove(std::uint64_t id) override;
   SE3 base() const override { return ekf_.pose(); }

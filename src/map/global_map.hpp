@@ -26,6 +26,13 @@ struct FixReport {
   double distance = 0.0;
 };
 
+// A fix that comes with a closing, and what became of it.
+struct FixRequest {
+  const AbsoluteFix& fix;
+  double threshold;
+  FixReport report;
+};
+
 struct MapOptions {
   ErrorKind error = ErrorKind::invariant;
   std::size_t max_landmarks = 1000;
@@ -36,7 +43,7 @@ struct MapOptions {
   double joint_gate_probability = 0.9999;
   double step_tolerance = 1e-2;         // sparse: steps below so many standard deviations are not taken
   double convergence_tolerance = 1e-2;  // sparse: and below so many are not followed by another
-  int most_iterations = 6;              // sparse: linear solutions of a closing; more where the joint test asks for them
+  int most_iterations = 6;  // sparse: linear solutions of a closing; more where the joint test asks for them
   SE3 initial_pose;
   Matrix6 initial_covariance = Matrix6::Zero();  // ordinary
 };
@@ -44,8 +51,10 @@ struct MapOptions {
 // Every call that throws leaves the map as it was.
 class GlobalMap : public Landmarks {
  public:
-  // Takes in a submap that began at base(); its end is the new base.
-  virtual JoinReport join(const Submap& submap) = 0;
+  // Takes in a submap that began at base(); its end is the new base, which then gets the fix, if one comes along: both
+  // or neither.
+  virtual JoinReport join_and_fix(const Submap& submap, FixRequest* fix) = 0;
+  JoinReport join(const Submap& submap) { return join_and_fix(submap, nullptr); }
   // The base gets an absolute fix; refused where its distance exceeds `threshold`.
   virtual FixReport fix(const AbsoluteFix& fix, double threshold) = 0;
   virtual void remove(std::uint64_t id) = 0;

@@ -297,19 +297,20 @@ double SparseMap::cost_since(const Undo& undo) const {
 
 // --- joining ---
 
-JoinReport SparseMap::join(const Submap& submap) {
+JoinReport SparseMap::join_and_fix(const Submap& submap, FixRequest* fix) {
   std::vector<char> left_out(submap.ids.size(), 0);
   JoinReport report;
-  if (try_join(submap, left_out, false, report)) return report;
+  if (try_join(submap, left_out, false, fix, report)) return report;
   // Something does not fit: the exact gates, which are dearer, tell what.
   gate(submap, left_out);
   report = JoinReport();
-  try_join(submap, left_out, true, report);
+  try_join(submap, left_out, true, fix, report);
   return report;
 }
 
 // False, with nothing changed, where a landmark may contradict the map; the last try takes what it gets.
-bool SparseMap::try_join(const Submap& submap, const std::vector<char>& left_out, bool last, JoinReport& report) {
+bool SparseMap::try_join(const Submap& submap, const std::vector<char>& left_out, bool last, FixRequest* fix,
+                         JoinReport& report) {
   Undo undo(*this, ++change_);
   try {
     const Number leaf = take_in(submap, left_out, undo, report);
@@ -328,6 +329,8 @@ bool SparseMap::try_join(const Submap& submap, const std::vector<char>& left_out
         return false;
       }
     }
+    refresh_base_covariance();
+    if (fix != nullptr) fix->report = fix_base(fix->fix, fix->threshold, undo);
     finish(undo, report);
   } catch (...) {
     roll_back(undo);
@@ -514,12 +517,16 @@ void SparseMap::gate(const Submap& submap, std::vector<char>& left_out) const {
   }
 }
 
-void SparseMap::finish(Undo& undo, JoinReport& report) {
-  for (const auto& [number, leaf] : undo.leaves) place_private(number);
-  for (std::size_t i = undo.leaf_count; i < leaves_.size(); ++i) place_private(static_cast<Number>(i));
+void SparseMap::refresh_base_covariance() {
   Eigen::MatrixXd newest = tree_.last_covariance();
   to_map_axes({base_variable(bases_.size() - 1)}, newest);
   base_covariance_ = newest;
+}
+
+void SparseMap::finish(Undo& undo, JoinReport& report) {
+  for (const auto& [number, leaf] : undo.leaves) place_private(number);
+  for (std::size_t i = undo.leaf_count; i < leaves_.size(); ++i) place_private(static_cast<Number>(i));
+  refresh_base_covariance();
   double sum = 0.0;
   for (const auto& [landmark, before] : undo.positions) {
     const double way = (landmarks_[landmark].position - before).squaredNorm();

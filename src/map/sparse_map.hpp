@@ -23,7 +23,7 @@ class SparseMap final : public GlobalMap, private LeafSource {
   SparseMap(const SparseMap& other);
   SparseMap& operator=(const SparseMap&) = delete;
 
-  JoinReport join(const Submap& submap) override;
+  JoinReport join_and_fix(const Submap& submap, FixRequest* fix) override;
   FixReport fix(const AbsoluteFix& fix, double threshold) override;
   void remove(std::uint64_t id) override;
   SE3 base() const override { return bases_.back(); }
@@ -112,7 +112,8 @@ class SparseMap final : public GlobalMap, private LeafSource {
   void save_leaf(Undo& undo, Number leaf);
   void roll_back(Undo& undo) noexcept;
 
-  bool try_join(const Submap& submap, const std::vector<char>& left_out, bool last, JoinReport& report);
+  bool try_join(const Submap& submap, const std::vector<char>& left_out, bool last, FixRequest* fix,
+                JoinReport& report);
   Number take_in(const Submap& submap, const std::vector<char>& left_out, Undo& undo, JoinReport& report);
   void set_scales(const Submap& submap);
   void refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report);
@@ -122,6 +123,8 @@ class SparseMap final : public GlobalMap, private LeafSource {
   double take_step(const Step& step, double factor, const std::vector<SE3>& bases,
                    const std::vector<Vector3>& positions);
   void linearise_stale(Undo& undo, JoinReport& report);
+  FixReport fix_base(const AbsoluteFix& fix, double threshold, Undo& undo);
+  void refresh_base_covariance();
   void optimise(std::vector<Number> dirty, Undo& undo, JoinReport& report, int most_iterations);
   bool suspicious(Number leaf, const JoinReport& report) const;
   void gate(const Submap& submap, std::vector<char>& left_out) const;

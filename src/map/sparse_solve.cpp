@@ -196,8 +196,8 @@ void SparseMap::optimise(std::vector<Number> dirty, Undo& undo, JoinReport& repo
   unsettled_ = std::move(dirty);
 }
 
-// A fix of the newest base.
-FixReport SparseMap::fix(const AbsoluteFix& fix, double threshold) {
+// A fix of the newest base, within a change.
+FixReport SparseMap::fix_base(const AbsoluteFix& fix, double threshold, Undo& undo) {
   FixReport report;
   const int rows = fix.rows();
   const SE3 T = bases_.back();
@@ -217,24 +217,30 @@ FixReport SparseMap::fix(const AbsoluteFix& fix, double threshold) {
     report.iterations = 1;
     return report;
   }
-  Undo undo(*this, ++change_);
   JoinReport joined;
+  const auto leaf = static_cast<Number>(leaves_.size() - 1);
+  save_leaf(undo, leaf);
+  fixes_[leaf + 1].push_back(fix);
+  evaluate(leaf);
+  EliminationTree::Changes changes;
+  changes.leaves.push_back(leaves_[leaf].key);
+  refactor(std::move(changes), undo, joined);
+  optimise({leaf}, undo, joined, options_.most_iterations);
+  report.iterations = joined.iterations;
+  return report;
+}
+
+FixReport SparseMap::fix(const AbsoluteFix& fix, double threshold) {
+  Undo undo(*this, ++change_);
   try {
-    const auto leaf = static_cast<Number>(leaves_.size() - 1);
-    fixes_[leaf + 1].push_back(fix);
-    save_leaf(undo, leaf);
-    evaluate(leaf);
-    EliminationTree::Changes changes;
-    changes.leaves.push_back(leaves_[leaf].key);
-    refactor(std::move(changes), undo, joined);
-    optimise({leaf}, undo, joined, options_.most_iterations);
-    finish(undo, joined);
+    const FixReport report = fix_base(fix, threshold, undo);
+    JoinReport unused;
+    if (report.accepted && !leaves_.empty()) finish(undo, unused);
+    return report;
   } catch (...) {
     roll_back(undo);
     throw;
   }
-  report.iterations = joined.iterations;
-  return report;
 }
 
 }  // namespace cairn

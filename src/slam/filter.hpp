@@ -221,7 +221,7 @@ class Filter final : public Landmarks {
   void update_map_by_fix(const AbsoluteFix& fix);
   ClosedBy full() const;
   Submap take_submap() const;
-  void join_submap(ClosedBy reason);
+  void join_submap(ClosedBy reason, FixRequest* fix = nullptr);
   void close_if_full();
   void forget_local(std::int32_t slot);
   static std::unique_ptr<GlobalMap> make_map(const FilterOptions& options);

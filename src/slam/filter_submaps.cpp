@@ -85,12 +85,12 @@ Submap Filter::take_submap() const {
 }
 
 // Closes the open submap, whatever it holds, and starts anew at the vehicle's pose (Mars paper, eq. 14-16).
-void Filter::join_submap(ClosedBy reason) {
+void Filter::join_submap(ClosedBy reason, FixRequest* fix) {
   ClosingReport next;
   const auto begin = std::chrono::steady_clock::now();
   next.reason = reason;
   next.landmarks = ekf_.size();
-  next.join = map_->join(take_submap());
+  next.join = map_->join_and_fix(take_submap(), fix);
   ekf_.start(SE3(), Matrix6::Zero());
   slots_.clear();
   driven_ = 0.0;
@@ -145,11 +145,15 @@ void Filter::close_if_full() {
 void Filter::update_map_by_fix(const AbsoluteFix& fix) {
   const bool moved = ekf_.size() > 0 || driven_ > 0.0 || !ekf_.pose_covariance().isZero(0.0) ||
                      !ekf_.pose().rotation().matrix().isIdentity(0.0);
-  if (moved) join_submap(ClosedBy::fix);
   Match& match = next_matches_[0];
   match.landmark = kNoId;
   match.threshold = single_threshold(fix.rows());
-  const FixReport done = map_->fix(fix, match.threshold);
+  FixRequest request{fix, match.threshold, {}};
+  if (moved)
+    join_submap(ClosedBy::fix, &request);
+  else
+    request.report = map_->fix(fix, match.threshold);
+  const FixReport& done = request.report;
   match.distance = done.distance;
   if (done.accepted) {
     match.decision = Decision::matched;
