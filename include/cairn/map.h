@@ -37,7 +37,7 @@ enum {
 
 /** Options of \ref cairn_map_merge; \ref cairn_merge_options_init sets the defaults named here. */
 typedef struct cairn_merge_options {
-  uint32_t struct_size;
+  uint32_t struct_size; /**< sizeof(cairn_merge_options) of the caller */
   int32_t association;           /**< CAIRN_MERGE_BY_*; BY_ID */
   double gate_probability;       /**< that all common landmarks of a right merge pass their own gates; 0.9999 */
   double joint_gate_probability; /**< that they agree jointly; 0.9999 */
@@ -51,7 +51,7 @@ typedef struct cairn_merge_options {
 
 /** What \ref cairn_map_merge found, also where it refused: what it did not get to is 0. */
 typedef struct cairn_merge_report {
-  uint32_t struct_size;
+  uint32_t struct_size; /**< sizeof(cairn_merge_report) of the caller; set it before the call */
   int32_t association;    /**< as asked for */
   size_t common;          /**< landmarks that both maps hold */
   size_t added;           /**< landmarks that only the other holds */

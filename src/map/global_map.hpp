@@ -43,6 +43,7 @@ struct MapOptions {
   double joint_gate_probability = 0.9999;
   double step_tolerance = 1e-2;         // sparse: steps below so many standard deviations are not taken
   double convergence_tolerance = 1e-2;  // sparse: and below so many are not followed by another
+  double cost_tolerance = 1e-3;         // sparse: nor where the cost falls by less
   int most_iterations = 6;  // sparse: linear solutions of a closing; more where the joint test asks for them
   SE3 initial_pose;
   Matrix6 initial_covariance = Matrix6::Zero();  // ordinary

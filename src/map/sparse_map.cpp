@@ -321,7 +321,7 @@ bool SparseMap::try_join(const Submap& submap, const std::vector<char>& left_out
       report.threshold = chi_square_quantile(static_cast<double>(report.rows), options_.joint_gate_probability);
       report.distance = 2.0 * cost_since(undo);
       if (report.distance > report.threshold && !unsettled_.empty()) {  // it may be too early to tell
-        optimise({}, undo, report, 5 * options_.most_iterations);
+        optimise({}, undo, report, options_.most_iterations);
         report.distance = 2.0 * cost_since(undo);
       }
       if (!last && suspicious(leaf, report)) {

@@ -192,6 +192,7 @@ void SparseMap::optimise(std::vector<Number> dirty, Undo& undo, JoinReport& repo
     std::sort(stale_.begin(), stale_.end());
     stale_.erase(std::unique(stale_.begin(), stale_.end()), stale_.end());
     if (factor == 1.0 && step.largest < options_.convergence_tolerance) return;
+    if (i > 0 && std::abs(before - after) < options_.cost_tolerance) return;
   }
   unsettled_ = std::move(dirty);
 }

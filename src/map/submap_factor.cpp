@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map/submap_factor.hpp"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "core/error.hpp"
-#include "ekf/small_algebra.hpp"
 
 namespace cairn {
 namespace {
@@ -24,14 +24,13 @@ Matrix invert(const Matrix& covariance) {
   Vector scale(n);
   for (Index i = 0; i < n; ++i)
     scale(i) = 1.0 / std::sqrt(std::max(covariance(i, i), i >= 3 && i < 6 ? kLeastTurn : kLeastPosition));
-  std::vector<double> workspace(cholesky_workspace(n));
-  Matrix inverse(n, n);
   for (double grain = 0.0; grain < 1e-5; grain = grain == 0.0 ? 1e-12 : 100.0 * grain) {
-    Matrix L = scale.asDiagonal() * covariance * scale.asDiagonal();
-    for (Index i = 0; i < n; ++i) L(i, i) = std::max(L(i, i), 1.0) + grain;
-    if (!cholesky(L.data(), n, n, workspace.data())) continue;
-    if (L.diagonal().minCoeff() < 1e-7 && grain < 1e-8) continue;  // pivots of rounding alone
-    inverse_from_cholesky(L.data(), n, n, inverse.data(), n);
+    Matrix scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
+    for (Index i = 0; i < n; ++i) scaled(i, i) = std::max(scaled(i, i), 1.0) + grain;
+    const Eigen::LLT<Matrix> llt(scaled);
+    if (llt.info() != Eigen::Success || !llt.matrixLLT().allFinite()) continue;
+    if (llt.matrixLLT().diagonal().minCoeff() < 1e-7 && grain < 1e-8) continue;  // pivots of rounding alone
+    const Matrix inverse = llt.solve(Matrix::Identity(n, n));
     return scale.asDiagonal() * inverse * scale.asDiagonal();
   }
   throw Error(ErrorCode::numerical, "submap: its covariance is not positive definite; it stays open");

@@ -81,6 +81,7 @@ class Ring {
   }
   MapOptions options() const {
     MapOptions options;
+    options.cost_tolerance = 0.0;
     options.step_tolerance = 1e-6;  // by default small motions are not handed down, and the cost is that of a while ago
     options.error = error_;
     options.gate_probability = options.joint_gate_probability = 1.0 - 1e-9;
