@@ -20,17 +20,21 @@ Factor boundary_block(const Front& front) {
   return Factor(front.factor.data() + front.e, front.b, front.e, Eigen::OuterStride<>(front.e + front.b));
 }
 
-// The touches of each child of a front, out of those of the front, sorted by key.
+// The touches of each child of a front, out of those of the front, sorted by key. A key that no leaf has yet leaves the
+// tree somewhere: from there on it touches nothing.
 struct Halves {
-  Halves(const Front& front, TouchIterator begin, TouchIterator end) : bounds{begin, begin, end} {
-    if (front.bit == EliminationTree::kCrown)
-      bounds[1] = end;
-    else
-      bounds[1] = std::find_if(begin, end, [&](const Touch& touch) { return touch.key.bit(front.bit); });
+  Halves(const Front& front, TouchIterator begin, TouchIterator end) : bounds{begin, end, end} {
+    const auto elsewhere = [&](const Touch& touch) { return touch.key.split(front.key) < front.bit; };
+    while (bounds[0] != end && elsewhere(*bounds[0])) ++bounds[0];
+    while (bounds[2] != bounds[0] && elsewhere(*(bounds[2] - 1))) --bounds[2];
+    bounds[1] = bounds[2];
+    if (front.bit != EliminationTree::kCrown)
+      bounds[1] = std::find_if(bounds[0], bounds[2], [&](const Touch& touch) { return touch.key.bit(front.bit); });
   }
-  bool touches(const Front& child, int side) const {
-    return !child.leaf() &&
-           std::any_of(bounds[side], bounds[side + 1], [&](const Touch& touch) { return touch.bit >= child.bit; });
+  bool touch(const Front& child, int side) const {
+    return std::any_of(bounds[side], bounds[side + 1], [&](const Touch& touch) {
+      return touch.bit >= child.bit && touch.key.split(child.key) >= child.bit;
+    });
   }
   TouchIterator bounds[3];
 };
@@ -52,7 +56,7 @@ class Solver {
     const Halves halves(front, begin, end);
     for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
       const Front& child = *front.child[side];
-      if (!halves.touches(child, side)) continue;
+      if (child.leaf() || !halves.touch(child, side)) continue;
       pass->child[side] = forward(child, halves.bounds[side], halves.bounds[side + 1]);
       const std::vector<Index> map = state_map(child.boundary, front);
       for (Index c = 0; c < columns_; ++c)
@@ -178,40 +182,40 @@ class EliminationTree::Relaxer {
  public:
   using Vector = Eigen::VectorXd;
 
-  Relaxer(EliminationTree& tree, const LeafSource& source, Relaxation& system)
-      : tree_(tree), source_(source), system_(system) {}
+  Relaxer(EliminationTree& tree, Relaxation& system) : tree_(tree), system_(system) {}
 
-  // The front's forces, its subtree's unknowns eliminated; null where nothing below was touched.
+  // What all kept motions exert on their fronts' boundaries. It may reach far above, so it is counted by variable.
+  void gather_kept_forces() {
+    slots_.assign(tree_.degree_.size(), -1);
+    for (const auto& [place, kept] : tree_.kept_) {
+      Index at = 0;
+      for (const Variable v : kept.front->boundary) {
+        std::int32_t& slot = slots_[v];
+        if (slot < 0) {
+          slot = static_cast<std::int32_t>(forces_.size());
+          forces_.push_back(Vector6::Zero());
+        }
+        forces_[slot].head(dimension(v)) += kept.force.segment(at, dimension(v));
+        at += dimension(v);
+      }
+    }
+  }
+
   std::unique_ptr<Pass> forward(const Front& front, TouchIterator begin, TouchIterator end) const {
     auto pass = std::make_unique<Pass>();
     Vector b = Vector::Zero(front.e + front.b);
     const Halves halves(front, begin, end);
     for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
       const Front& child = *front.child[side];
-      Vector above = Vector::Zero(child.b);
-      bool any = false;
-      if (halves.touches(child, side)) {
-        pass->child[side] = forward(child, halves.bounds[side], halves.bounds[side + 1]);
-        above = pass->child[side]->above;
-        any = true;
-      }
-      if (const Vector* kept = tree_.kept(child)) {
-        if (child.leaf()) {
-          Matrix H = Matrix::Zero(child.b, child.b);
-          source_.information(child.key.leaf, H.data(), child.b);
-          above -= H.selfadjointView<Eigen::Lower>() * *kept;
-        } else {
-          subtract_product(child.complement, *kept, above);
-        }
-        any = true;
-      }
-      if (!any) continue;
+      if (child.leaf() || !halves.touch(child, side)) continue;
+      pass->child[side] = forward(child, halves.bounds[side], halves.bounds[side + 1]);
       const std::vector<Index> map = state_map(child.boundary, front);
-      for (std::size_t i = 0; i < map.size(); ++i) b(map[i]) += above(static_cast<Index>(i));
+      for (std::size_t i = 0; i < map.size(); ++i) b(map[i]) += pass->child[side]->above(static_cast<Index>(i), 0);
     }
     Index at = 0;
     for (const Variable v : front.eliminated) {
       system_.right_hand_side(v, b.data() + at, front.e + front.b);
+      if (slots_[v] >= 0) b.segment(at, dimension(v)) += forces_[slots_[v]].head(dimension(v));
       at += dimension(v);
     }
     pass->y = eliminated_block(front).triangularView<Eigen::Lower>().solve(b.head(front.e));
@@ -220,54 +224,18 @@ class EliminationTree::Relaxer {
     return pass;
   }
 
-  // `x` holds the motion of the boundary in its lower rows.
-  void backward(const Front& front, const Pass* pass, TouchIterator begin, TouchIterator end, Vector& x) {
-    Vector y = pass != nullptr ? Vector(pass->y) : Vector(Vector::Zero(front.e));
-    y.noalias() -= boundary_block(front).transpose() * x.tail(front.b);
-    eliminated_block(front).transpose().triangularView<Eigen::Upper>().solveInPlace(y);
-    x.head(front.e) = y;
-    Index at = 0;
-    for (const Variable v : front.eliminated) {
-      system_.solution(v, x.data() + at, front.e + front.b);
-      at += dimension(v);
-    }
-    const Halves halves(front, begin, end);
-    for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
-      const Front& child = *front.child[side];
-      const std::vector<Index> map = state_map(child.boundary, front);
-      Vector below(child.e + child.b);
-      for (std::size_t i = 0; i < map.size(); ++i) below(child.e + static_cast<Index>(i)) = x(map[i]);
-      if (const Vector* kept = tree_.kept(child)) below.tail(child.b) += *kept;
-      const bool touched = std::any_of(halves.bounds[side], halves.bounds[side + 1],
-                                       [&](const Touch& touch) { return touch.bit >= child.bit; });
-      bool matters = touched;
-      Index state = child.e;
-      for (std::size_t i = 0; !matters && i < child.boundary.size(); ++i) {
-        matters = system_.matters(child.boundary[i], below.data() + state);
-        state += dimension(child.boundary[i]);
-      }
-      if (!matters) {
-        tree_.kept_[&child] = std::make_shared<const Vector>(below.tail(child.b));
-        continue;
-      }
-      tree_.kept_.erase(&child);
-      if (child.leaf())
-        system_.visit(child.key.leaf);
-      else
-        backward(child, pass != nullptr ? pass->child[side].get() : nullptr, halves.bounds[side],
-                 halves.bounds[side + 1], below);
-    }
-  }
-
-  // As backward() without forces, on touched paths alone.
-  void settle(const Front& front, TouchIterator begin, TouchIterator end, const Vector& boundary) {
+  // Moves a front and what hangs on it: `boundary` is how its boundary moves, `pass` the forces, null where there are
+  // none. With `all`, what the motion does not matter to is left where it is, its motion kept; without, as settle() is
+  // asked to, so is whatever nothing touches.
+  void backward(const Front& front, const Pass* pass, TouchIterator begin, TouchIterator end, const Vector& boundary,
+                bool all) {
     Vector x = Vector::Zero(front.e + front.b);
-    const bool moves = boundary.size() > 0 && !boundary.isZero(0.0);
+    const bool moves = pass != nullptr || !boundary.isZero(0.0);
     if (moves) {
-      x.tail(front.b) = boundary;
-      Vector y = -(boundary_block(front).transpose() * boundary);
+      Vector y = pass != nullptr ? Vector(pass->y) : Vector(Vector::Zero(front.e));
+      y.noalias() -= boundary_block(front).transpose() * boundary;
       eliminated_block(front).transpose().triangularView<Eigen::Upper>().solveInPlace(y);
-      x.head(front.e) = y;
+      x << y, boundary;
       Index at = 0;
       for (const Variable v : front.eliminated) {
         system_.solution(v, x.data() + at, front.e + front.b);
@@ -276,56 +244,72 @@ class EliminationTree::Relaxer {
     }
     const Halves halves(front, begin, end);
     for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
-      const Front& child = *front.child[side];
-      const bool touched = std::any_of(halves.bounds[side], halves.bounds[side + 1],
-                                       [&](const Touch& touch) { return touch.bit >= child.bit; });
-      if (!touched && !moves) continue;
-      Vector below = Vector::Zero(child.b);
-      if (moves) {
-        const std::vector<Index> map = state_map(child.boundary, front);
-        for (std::size_t i = 0; i < map.size(); ++i) below(static_cast<Index>(i)) = x(map[i]);
-      }
-      if (const Vector* kept = tree_.kept(child)) below += *kept;
-      if (!touched) {
-        tree_.kept_[&child] = std::make_shared<const Vector>(std::move(below));
+      const FrontPointer& child = front.child[side];
+      const bool touched = halves.touch(*child, side);
+      if (!moves && !touched) continue;
+      const std::vector<Index> map = state_map(child->boundary, front);
+      Vector motion(child->b);
+      for (std::size_t i = 0; i < map.size(); ++i) motion(static_cast<Index>(i)) = x(map[i]);
+      if (child->leaf()) {
+        if (touched || !motion.isZero(0.0)) system_.visit(child->key.leaf);
         continue;
       }
-      tree_.kept_.erase(&child);
-      if (child.leaf()) {
-        if (!below.isZero(0.0)) system_.visit(child.key.leaf);
-      } else {
-        settle(child, halves.bounds[side], halves.bounds[side + 1], below);
-      }
+      tree_.take_kept(*child, motion);
+      if (touched || (all && matters(*child, motion)))
+        backward(*child, pass != nullptr ? pass->child[side].get() : nullptr, halves.bounds[side],
+                 halves.bounds[side + 1], motion, all);
+      else
+        tree_.keep(child, std::move(motion));
     }
   }
 
  private:
+  bool matters(const Front& front, const Vector& motion) const {
+    Index at = 0;
+    for (const Variable v : front.boundary) {
+      if (system_.matters(v, motion.data() + at)) return true;
+      at += dimension(v);
+    }
+    return false;
+  }
+
   EliminationTree& tree_;
-  const LeafSource& source_;
   Relaxation& system_;
+  std::vector<std::int32_t> slots_;  // by variable: where in forces_, -1: none
+  std::vector<Vector6> forces_;
 };
 
-const Eigen::VectorXd* EliminationTree::kept(const Front& front) const {
-  const auto found = kept_.find(&front);
-  return found != kept_.end() ? found->second.get() : nullptr;
+void EliminationTree::keep(const FrontPointer& front, Eigen::VectorXd motion) {
+  if (motion.isZero(0.0)) return;
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(front->b);
+  subtract_product(front->complement, motion, force);
+  kept_[{front->key, front->bit}] = {front, std::move(motion), std::move(force)};
 }
 
-void EliminationTree::relax(const LeafSource& source, std::vector<Touch> touches, Relaxation& system) {
+// Adds what is kept at a front to its boundary's motion, and keeps it no longer.
+void EliminationTree::take_kept(const Front& front, Eigen::VectorXd& motion) {
+  const auto found = kept_.find({front.key, front.bit});
+  if (found == kept_.end()) return;
+  motion += found->second.motion;
+  kept_.erase(found);
+}
+
+void EliminationTree::relax(std::vector<Touch> touches, Relaxation& system) {
   if (crown_ == nullptr) return;
   std::stable_sort(touches.begin(), touches.end(), by_key);
-  Relaxer relaxer(*this, source, system);
+  Relaxer relaxer(*this, system);
+  relaxer.gather_kept_forces();
   const auto pass = relaxer.forward(*crown_, touches.begin(), touches.end());
-  Eigen::VectorXd x(crown_->e);
-  relaxer.backward(*crown_, pass.get(), touches.begin(), touches.end(), x);
+  relaxer.backward(*crown_, pass.get(), touches.begin(), touches.end(), Eigen::VectorXd(0), true);
 }
 
-void EliminationTree::settle(const LeafSource& source, const Changes& changes, Relaxation& system) {
+void EliminationTree::settle(const Changes& changes, Relaxation& system) {
   if (crown_ == nullptr || kept_.empty()) return;
   std::vector<Touch> touches;
   for (const TreeKey& key : changes.leaves) touches.push_back(touch(key));
   for (const auto& [v, key] : changes.variables) touches.push_back(touch(v, key));
   std::stable_sort(touches.begin(), touches.end(), by_key);
-  Relaxer(*this, source, system).settle(*crown_, touches.begin(), touches.end(), Eigen::VectorXd());
+  Relaxer(*this, system).backward(*crown_, nullptr, touches.begin(), touches.end(), Eigen::VectorXd(0), false);
 }
 
 void EliminationTree::solve(std::vector<Touch> touches, Index columns, System& system) const {

@@ -13,8 +13,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <memory>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "ekf/small_algebra.hpp"
@@ -115,9 +116,9 @@ class EliminationTree {
     // All of the leaf's variables stand at their new values now.
     virtual void visit(std::uint32_t leaf) = 0;
   };
-  void relax(const LeafSource& source, std::vector<Touch> touches, Relaxation& system);
+  void relax(std::vector<Touch> touches, Relaxation& system);
   // Hands down what is kept on the way to the leaves that are about to change; before update().
-  void settle(const LeafSource& source, const Changes& changes, Relaxation& system);
+  void settle(const Changes& changes, Relaxation& system);
 
   // Covariances by selected inversion: of all variables of each leaf asked for, in their order.
   class Covariances {
@@ -133,12 +134,16 @@ class EliminationTree {
 
  private:
   class Relaxer;
-  const Eigen::VectorXd* kept(const Front& front) const;
+  struct Kept {  // a motion of a front's boundary that was not handed down
+    FrontPointer front;
+    Eigen::VectorXd motion, force;  // the latter on the boundary, by the front's complement
+  };
+  void keep(const FrontPointer& front, Eigen::VectorXd motion);
+  void take_kept(const Front& front, Eigen::VectorXd& motion);
   int eliminated_at(Variable v) const { return eliminated_at_[v]; }
 
   FrontPointer crown_;  // above the trie: eliminates what is left
-  // Motions of fronts' boundaries that were not handed down.
-  std::unordered_map<const Front*, std::shared_ptr<const Eigen::VectorXd>> kept_;
+  std::map<std::pair<TreeKey, int>, Kept> kept_;  // by key and bit: sums must not depend on where fronts lie in memory
   std::vector<std::int32_t> degree_;
   std::vector<std::int16_t> eliminated_at_;  // bit of the front that eliminates a variable; kNever
 };

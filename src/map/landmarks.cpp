@@ -59,9 +59,11 @@ void without_pose(const double* joint, std::size_t count, double* matrix) {
     for (std::size_t r = 0; r < size; ++r) matrix[c * size + r] = joint[(6 + c) * joint_size + 6 + r];
 }
 
-std::vector<std::size_t> all_by_id(const Landmarks& map) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  return in_box(map, Vector3::Constant(-infinity), Vector3::Constant(infinity));
+std::vector<std::size_t> all_by_id(const Landmarks& map) {  // wherever they are, be it nowhere
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < map.size(); ++i) entries.push_back({0.0, map.id(i), i});
+  std::sort(entries.begin(), entries.end());
+  return indices_of(entries);
 }
 
 std::vector<std::size_t> within(const Landmarks& map, const Vector3& centre, double radius) {

@@ -104,7 +104,7 @@ double SparseMap::take_step(const Step& step, double factor, const std::vector<S
 // Makes the tree anew where `changes` reach; what was kept above them is handed down first.
 void SparseMap::refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report) {
   Step step(*this, 0.0);
-  tree_.settle(*this, changes, step);
+  tree_.settle(changes, step);
   std::vector<SE3> bases;
   std::vector<Vector3> positions;
   save_step(step, undo, bases, positions);
@@ -162,7 +162,7 @@ void SparseMap::optimise(std::vector<Number> dirty, Undo& undo, JoinReport& repo
     for (const Number leaf : dirty) touches.push_back(tree_.touch(leaves_[leaf].key));
     Step step(*this, tolerance);
     const EliminationTree before_step = tree_;
-    tree_.relax(*this, touches, step);
+    tree_.relax(touches, step);
     ++report.iterations;
     double before = 0.0;
     for (const Number leaf : step.visited) before += leaves_[leaf].cost;
