@@ -2,11 +2,11 @@
 // Keys, and the tree's factorisation.
 #include "map/elimination_tree.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "ekf/triangle.hpp"
 #include "map/elimination_front.hpp"
 
 namespace cairn {
@@ -170,18 +170,16 @@ class Builder {
     for (int i = 0; i < children; ++i) front->child[i] = child[i];
     sort_variables(*front, children);
     const Index e = front->e = dimension(front->eliminated), b = front->b = dimension(front->boundary), n = e + b;
-    matrix_.assign(static_cast<std::size_t>(n * n + 64), 0.0);
+    matrix_.assign(static_cast<std::size_t>(n * n), 0.0);
     for (int i = 0; i < children; ++i) assemble(*child[i], *front, n);
-    Eigen::Map<Eigen::MatrixXd> F(matrix_.data(), n, n);
-    if (e > 0) {
-      Eigen::Ref<Eigen::MatrixXd> top(F.topLeftCorner(e, e));
-      const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(top);
-      if (llt.info() != Eigen::Success || !top.allFinite()) return nullptr;
-      if (b > 0) {
-        auto below = F.bottomLeftCorner(b, e);
-        F.topLeftCorner(e, e).triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
-        F.bottomRightCorner(b, b).selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
-      }
+    const std::size_t workspace =
+        std::max({cholesky_workspace(e), solve_workspace(e), update_triangle_workspace(b, e)});
+    if (workspace_.size() < workspace) workspace_.resize(workspace);
+    if (!cholesky(matrix_.data(), n, e, workspace_.data())) return nullptr;
+    if (b > 0 && e > 0) {
+      solve_right_transposed(matrix_.data(), n, e, matrix_.data() + e, n, b, workspace_.data());
+      const TriangleTerm term{matrix_.data() + e, n, matrix_.data() + e, n, e, -1.0};
+      update_triangle(matrix_.data() + e * (n + 1), n, b, &term, 1, workspace_.data());
     }
     front->factor.assign(matrix_.begin(), matrix_.begin() + e * n);
     front->complement.reserve(static_cast<std::size_t>(b * (b + 1) / 2));
@@ -233,7 +231,7 @@ class Builder {
   const std::vector<std::int32_t>& degree_;
   std::vector<std::int16_t>& eliminated_at_;
   std::vector<std::uint32_t>& assembled_;
-  std::vector<double> matrix_, leaf_;
+  std::vector<double> matrix_, leaf_, workspace_;
   std::size_t made_ = 0;
 };
 

@@ -135,37 +135,31 @@ double SparseMap::strain(Number number) const {
 
 void SparseMap::information(std::uint32_t number, double* H, Index ld) const {
   const Leaf& leaf = leaves_[number];
-  Eigen::MatrixXd own = leaf.factor->hessian(values(leaf));
+  std::vector<Matrix3> R{axes(base_variable(number)).matrix(), axes(base_variable(number + 1)).matrix()};
+  for (const Index i : leaf.factor->shared()) R.push_back(axes(landmark_variable(leaf.landmarks[i])).matrix());
+  Eigen::MatrixXd own = leaf.factor->hessian(values(leaf), R);
   // What tells of a base alone goes with the submap that ends there; of the first, with the one that begins there.
-  if (number == 0) {
-    const Matrix6 J = prior_jacobian();
-    own.block<6, 6>(0, 0) += J.transpose() * prior_information() * J;
-  }
+  const auto add = [&](Index base, Eigen::MatrixXd J, const Eigen::MatrixXd& information) {
+    for (Index d = 0; d < 6; d += 3) J.middleCols<3>(d) = (J.middleCols<3>(d) * R[base]).eval();
+    own.block<6, 6>(6 * base, 6 * base) += J.transpose() * information * J;
+  };
+  if (number == 0) add(0, prior_jacobian(), prior_information());
   const auto fixes = fixes_.find(number + 1);
   if (fixes != fixes_.end())
     for (const AbsoluteFix& fix : fixes->second) {
-      const int rows = fix.rows();
-      const Eigen::MatrixXd J = fix.jacobian(bases_[number + 1]).topRows(rows);
-      own.block<6, 6>(6, 6) += J.transpose() * fix.covariance().topLeftCorner(rows, rows).ldlt().solve(J);
+      const Eigen::MatrixXd noise = fix.covariance().topLeftCorner(fix.rows(), fix.rows());
+      add(1, fix.jacobian(bases_[number + 1]).topRows(fix.rows()),
+          noise.ldlt().solve(Eigen::MatrixXd::Identity(fix.rows(), fix.rows())));
     }
-  std::vector<Matrix3> R(static_cast<std::size_t>(own.rows() / 3));  // by the factor's states
-  for (Index i = 0; i < own.rows() / 3; ++i)
-    R[i] = axes(i < 2   ? base_variable(number)
-                : i < 4 ? base_variable(number + 1)
-                        : landmark_variable(leaf.landmarks[leaf.factor->shared()[i - 4]]))
-               .matrix();
-  for (Index i = 0; i < own.rows() / 3; ++i)
-    for (Index j = 0; j <= i; ++j) {
-      const Matrix3 block = R[i].transpose() * own.block<3, 3>(3 * i, 3 * j) * R[j];
-      const Index row = leaf.order[3 * i], column = leaf.order[3 * j];
-      for (Index c = 0; c < 3; ++c)
-        for (Index r = 0; r < 3; ++r) {
-          if (row == column && r < c) continue;
-          if (row >= column)
-            H[(column + c) * ld + row + r] = block(r, c);
-          else
-            H[(row + r) * ld + column + c] = block(r, c);
-        }
+  for (Index j = 0; j < own.cols(); j += 3)
+    for (Index i = j; i < own.rows(); i += 3) {
+      const Index row = leaf.order[i], column = leaf.order[j];
+      if (row >= column)
+        Eigen::Map<Matrix3, 0, Eigen::OuterStride<>>(H + column * ld + row, Eigen::OuterStride<>(ld)) =
+            own.block<3, 3>(i, j);
+      else
+        Eigen::Map<Matrix3, 0, Eigen::OuterStride<>>(H + row * ld + column, Eigen::OuterStride<>(ld)) =
+            own.block<3, 3>(i, j).transpose();
     }
 }
 
@@ -440,7 +434,9 @@ void SparseMap::set_scales(const Submap& submap) {
 bool SparseMap::suspicious(Number number, const JoinReport& report) const {
   if (report.distance > report.threshold) return true;
   const Leaf& leaf = leaves_[number];
-  const double bound = chi_square_quantile(3, options_.gate_probability);
+  // Of many that are as they should be, one is beyond the single gate as likely as not.
+  const double count = std::max(1.0, static_cast<double>(report.fused));
+  const double bound = chi_square_quantile(3, std::pow(options_.gate_probability, 1.0 / count));
   for (Index i = 0; i < leaf.factor->shared_count(); ++i) {
     const Number landmark = leaf.landmarks[leaf.factor->shared()[i]];
     Matrix3 old = Matrix3::Zero();

@@ -153,23 +153,33 @@ Matrix SubmapFactor::dense_jacobian(const FactorValues& values) const {
   return D;
 }
 
-Matrix SubmapFactor::hessian(const FactorValues& values) const {
-  const Index n = rows(), shared = shared_count();
-  std::vector<Index> all(static_cast<std::size_t>(n));
-  for (Index i = 0; i < n; ++i) all[i] = i;
-  const Matrix information = information_.block(all, all);
-  const Matrix D = dense_jacobian(values);
-  const Matrix3 B = D.block<3, 3>(0, 6);
-  Matrix H(columns(), columns());
-  // The poses' columns are dense, those of landmark i have the block B in its own rows alone.
-  const Matrix weighted = information * D.leftCols<12>();
-  H.topLeftCorner<12, 12>() = D.leftCols<12>().transpose() * weighted;
-  for (Index i = 0; i < shared; ++i) {
-    H.block<3, 12>(12 + 3 * i, 0) = B.transpose() * weighted.middleRows<3>(6 + 3 * i);
-    for (Index j = 0; j <= i; ++j)
-      H.block<3, 3>(12 + 3 * i, 12 + 3 * j) = B.transpose() * information.block<3, 3>(6 + 3 * i, 6 + 3 * j) * B;
+Matrix SubmapFactor::hessian(const FactorValues& values, const std::vector<Matrix3>& axes) const {
+  const Index n = rows();
+  Matrix information(n, n);  // lower triangle, its diagonal 3-blocks whole
+  for (Index c = 0; c < n; ++c) {
+    std::copy(information_.column(c) + c, information_.column(c) + n, information.col(c).data() + c);
+    for (Index r = c / 3 * 3; r < c; ++r) information(r, c) = information(c, r);
   }
-  H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
+  Matrix D = dense_jacobian(values);
+  const Matrix3 B = D.block<3, 3>(0, 6);
+  auto poses = D.leftCols<12>();
+  for (Index block = 0; block < 4; ++block)
+    poses.middleCols<3>(3 * block) = (poses.middleCols<3>(3 * block) * axes[block / 2]).eval();
+  std::vector<Matrix3> own;
+  for (Index i = 0; i < shared_count(); ++i) own.push_back(B * axes[2 + i]);
+
+  Matrix H = Matrix::Zero(columns(), columns());
+  // The poses' columns are dense, those of a landmark have one block in its own rows alone.
+  const Matrix weighted = information.selfadjointView<Eigen::Lower>() * poses;
+  H.topLeftCorner<12, 12>().noalias() = poses.transpose() * weighted;
+  Matrix column(n, 3);
+  for (Index j = 0; j < shared_count(); ++j) {
+    H.block<3, 12>(12 + 3 * j, 0).noalias() = own[j].transpose() * weighted.middleRows<3>(6 + 3 * j);
+    const Index below = n - 6 - 3 * j;
+    column.topRows(below).noalias() = information.block(6 + 3 * j, 6 + 3 * j, below, 3).lazyProduct(own[j]);
+    for (Index i = j; i < shared_count(); ++i)
+      H.block<3, 3>(12 + 3 * i, 12 + 3 * j).noalias() = own[i].transpose() * column.middleRows<3>(3 * (i - j));
+  }
   return H;
 }
 

@@ -55,8 +55,9 @@ class SubmapFactor {
     Vector gradient;    // of the cost, columns()
   };
   Evaluation evaluate(const FactorValues& values) const;
-  // J^T Sigma^-1 J, both triangles.
-  Matrix hessian(const FactorValues& values) const;
+  // J^T Sigma^-1 J, lower triangle, its diagonal 3-blocks whole; by errors in the given axes of base, end and shared
+  // landmarks.
+  Matrix hessian(const FactorValues& values, const std::vector<Matrix3>& axes) const;
   // Block of the information of a single shared landmark, in map axes.
   Matrix3 landmark_information(Eigen::Index i, const SO3& base) const;
 

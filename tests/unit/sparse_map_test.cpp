@@ -11,11 +11,13 @@
 
 #include "core/error.hpp"
 #include "numerical.hpp"
+#include "submap_hessian.hpp"
 
 namespace {
 
 using namespace cairn;
 using cairn::test::Random;
+using cairn::test::whole_hessian;
 using Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
@@ -144,7 +146,7 @@ struct Reference {
       for (Index d = 0; d < 12; ++d) at.push_back(static_cast<Index>(6 * i) + d);
       for (const std::uint64_t id : factors[i].data().ids)
         for (Index d = 0; d < 3; ++d) at.push_back(states.at(id) + d);
-      H(at, at) += factors[i].hessian(values(i));
+      H(at, at) += whole_hessian(factors[i], values(i));
       g(at) += factors[i].evaluate(values(i)).gradient;
     }
   }
