@@ -138,7 +138,7 @@ void SparseMap::save_step(const Step& step, Undo& undo, std::vector<SE3>& bases,
 
 // The newest first; what is too much for once waits for the next solution.
 void SparseMap::linearise_stale(Undo& undo, JoinReport& report) {
-  constexpr std::size_t kAtOnce = 128;
+  constexpr std::size_t kAtOnce = 512;
   if (stale_.empty()) return;
   const std::size_t count = std::min(stale_.size(), kAtOnce);
   EliminationTree::Changes changes;
@@ -151,7 +151,7 @@ void SparseMap::linearise_stale(Undo& undo, JoinReport& report) {
 // Iterates from where `dirty` leaves, and those that an earlier change left unsettled, pull.
 void SparseMap::optimise(std::vector<Number> dirty, Undo& undo, JoinReport& report, int most_iterations) {
   constexpr int kHalvings = 6;
-  constexpr double kStrained = 0.3;
+  constexpr double kStrained = 0.001;
   constexpr double kSlack = 0.01;  // of the cost: leaves that were not visited lately tell that of a while ago
   dirty.insert(dirty.end(), unsettled_.begin(), unsettled_.end());
   unsettled_.clear();
