@@ -43,6 +43,7 @@ struct Halves {
 struct Pass {
   Matrix y;      // L_EE^-1 b
   Matrix above;  // what goes up to the boundary
+  bool stirs = false;
   std::unique_ptr<Pass> child[2];
 };
 
@@ -184,18 +185,30 @@ class EliminationTree::Relaxer {
 
   Relaxer(EliminationTree& tree, Relaxation& system) : tree_(tree), system_(system) {}
 
-  // What all kept motions exert on their fronts' boundaries. It may reach far above, so it is counted by variable.
-  void gather_kept_forces() {
+  // Forces that rest at fronts which are touched are counted anew.
+  void forget(const Front& front, TouchIterator begin, TouchIterator end) {
+    const Halves halves(front, begin, end);
+    for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
+      const FrontPointer& child = front.child[side];
+      if (child->leaf() || !halves.touch(*child, side)) continue;
+      Rest rest = tree_.take_rest(*child);
+      tree_.keep_rest(child, std::move(rest.motion), Vector());
+      forget(*child, halves.bounds[side], halves.bounds[side + 1]);
+    }
+  }
+
+  // What all that rests exerts on its fronts' boundaries. It may reach far above, so it is counted by variable.
+  void gather_rests() {
     slots_.assign(tree_.degree_.size(), -1);
-    for (const auto& [place, kept] : tree_.kept_) {
+    for (const auto& [place, rest] : tree_.rests_) {
       Index at = 0;
-      for (const Variable v : kept.front->boundary) {
+      for (const Variable v : rest->front->boundary) {
         std::int32_t& slot = slots_[v];
         if (slot < 0) {
           slot = static_cast<std::int32_t>(forces_.size());
           forces_.push_back(Vector6::Zero());
         }
-        forces_[slot].head(dimension(v)) += kept.force.segment(at, dimension(v));
+        forces_[slot].head(dimension(v)) += rest->force.segment(at, dimension(v));
         at += dimension(v);
       }
     }
@@ -209,6 +222,7 @@ class EliminationTree::Relaxer {
       const Front& child = *front.child[side];
       if (child.leaf() || !halves.touch(child, side)) continue;
       pass->child[side] = forward(child, halves.bounds[side], halves.bounds[side + 1]);
+      pass->stirs = pass->stirs || pass->child[side]->stirs;
       const std::vector<Index> map = state_map(child.boundary, front);
       for (std::size_t i = 0; i < map.size(); ++i) b(map[i]) += pass->child[side]->above(static_cast<Index>(i), 0);
     }
@@ -221,18 +235,22 @@ class EliminationTree::Relaxer {
     pass->y = eliminated_block(front).triangularView<Eigen::Lower>().solve(b.head(front.e));
     pass->above = b.tail(front.b);
     pass->above.noalias() -= boundary_block(front) * pass->y;
+    if (!pass->stirs) {  // by the motion that the forces would cause here, were the boundary held
+      const Vector x = eliminated_block(front).transpose().triangularView<Eigen::Upper>().solve(Vector(pass->y));
+      pass->stirs = matters(front.eliminated, x);
+    }
     return pass;
   }
 
-  // Moves a front and what hangs on it: `boundary` is how its boundary moves, `pass` the forces, null where there are
-  // none. With `all`, what the motion does not matter to is left where it is, its motion kept; without, as settle() is
-  // asked to, so is whatever nothing touches.
-  void backward(const Front& front, const Pass* pass, TouchIterator begin, TouchIterator end, const Vector& boundary,
-                bool all) {
+  // Moves a front and what hangs on it: `boundary` is how its boundary moves, `y` and `pass` the forces, each empty where
+  // there are none. With `far`, whatever moves by what matters is visited; without, as settle() is asked to, what is
+  // touched alone.
+  void backward(const Front& front, const Vector& forces, const Pass* pass, TouchIterator begin, TouchIterator end,
+                const Vector& boundary, bool far) {
     Vector x = Vector::Zero(front.e + front.b);
-    const bool moves = pass != nullptr || !boundary.isZero(0.0);
+    const bool moves = forces.size() > 0 || !boundary.isZero(0.0);
     if (moves) {
-      Vector y = pass != nullptr ? Vector(pass->y) : Vector(Vector::Zero(front.e));
+      Vector y = forces.size() > 0 ? forces : Vector(Vector::Zero(front.e));
       y.noalias() -= boundary_block(front).transpose() * boundary;
       eliminated_block(front).transpose().triangularView<Eigen::Upper>().solveInPlace(y);
       x << y, boundary;
@@ -251,22 +269,34 @@ class EliminationTree::Relaxer {
       Vector motion(child->b);
       for (std::size_t i = 0; i < map.size(); ++i) motion(static_cast<Index>(i)) = x(map[i]);
       if (child->leaf()) {
-        if (touched || !motion.isZero(0.0)) system_.visit(child->key.leaf);
+        if (!motion.isZero(0.0)) system_.visit(child->key.leaf);
         continue;
       }
-      tree_.take_kept(*child, motion);
-      if (touched || (all && matters(*child, motion)))
-        backward(*child, pass != nullptr ? pass->child[side].get() : nullptr, halves.bounds[side],
-                 halves.bounds[side + 1], motion, all);
-      else
-        tree_.keep(child, std::move(motion));
+      Rest rest = tree_.take_rest(*child);
+      if (rest.motion.size() > 0) motion += rest.motion;
+      const Pass* below = pass != nullptr ? pass->child[side].get() : nullptr;
+      if (below != nullptr) rest.y = below->y;
+      if (far ? (below != nullptr && below->stirs) || matters(child->boundary, motion) : touched) {
+        backward(*child, far ? rest.y : Vector(), below, halves.bounds[side], halves.bounds[side + 1], motion, far);
+      } else {
+        tree_.keep_rest(child, std::move(motion), std::move(rest.y));
+        if (below != nullptr) keep_below(*child, *below);
+      }
     }
   }
 
  private:
-  bool matters(const Front& front, const Vector& motion) const {
+  void keep_below(const Front& front, const Pass& pass) {
+    for (int side = 0; side < 2; ++side) {
+      if (pass.child[side] == nullptr) continue;
+      Rest rest = tree_.take_rest(*front.child[side]);
+      tree_.keep_rest(front.child[side], std::move(rest.motion), pass.child[side]->y);
+      keep_below(*front.child[side], *pass.child[side]);
+    }
+  }
+  bool matters(const std::vector<Variable>& variables, const Vector& motion) const {
     Index at = 0;
-    for (const Variable v : front.boundary) {
+    for (const Variable v : variables) {
       if (system_.matters(v, motion.data() + at)) return true;
       at += dimension(v);
     }
@@ -279,37 +309,43 @@ class EliminationTree::Relaxer {
   std::vector<Vector6> forces_;
 };
 
-void EliminationTree::keep(const FrontPointer& front, Eigen::VectorXd motion) {
-  if (motion.isZero(0.0)) return;
+void EliminationTree::keep_rest(const FrontPointer& front, Eigen::VectorXd motion, Eigen::VectorXd y) {
+  if (motion.isZero(0.0)) motion.resize(0);
+  if (y.isZero(0.0)) y.resize(0);
+  if (motion.size() == 0 && y.size() == 0) return;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(front->b);
-  subtract_product(front->complement, motion, force);
-  kept_[{front->key, front->bit}] = {front, std::move(motion), std::move(force)};
+  if (motion.size() > 0) subtract_product(front->complement, motion, force);
+  if (y.size() > 0) force.noalias() -= boundary_block(*front) * y;
+  rests_[{front->key, front->bit}] =
+      std::make_shared<const Rest>(Rest{front, std::move(motion), std::move(y), std::move(force)});
 }
 
-// Adds what is kept at a front to its boundary's motion, and keeps it no longer.
-void EliminationTree::take_kept(const Front& front, Eigen::VectorXd& motion) {
-  const auto found = kept_.find({front.key, front.bit});
-  if (found == kept_.end()) return;
-  motion += found->second.motion;
-  kept_.erase(found);
+EliminationTree::Rest EliminationTree::take_rest(const Front& front) {
+  const auto found = rests_.find({front.key, front.bit});
+  if (found == rests_.end()) return Rest();
+  Rest rest = *found->second;
+  rests_.erase(found);
+  return rest;
 }
 
 void EliminationTree::relax(std::vector<Touch> touches, Relaxation& system) {
   if (crown_ == nullptr) return;
   std::stable_sort(touches.begin(), touches.end(), by_key);
   Relaxer relaxer(*this, system);
-  relaxer.gather_kept_forces();
+  relaxer.forget(*crown_, touches.begin(), touches.end());
+  relaxer.gather_rests();
   const auto pass = relaxer.forward(*crown_, touches.begin(), touches.end());
-  relaxer.backward(*crown_, pass.get(), touches.begin(), touches.end(), Eigen::VectorXd(0), true);
+  relaxer.backward(*crown_, pass->y, pass.get(), touches.begin(), touches.end(), Eigen::VectorXd(0), true);
 }
 
 void EliminationTree::settle(const Changes& changes, Relaxation& system) {
-  if (crown_ == nullptr || kept_.empty()) return;
+  if (crown_ == nullptr || rests_.empty()) return;
   std::vector<Touch> touches;
   for (const TreeKey& key : changes.leaves) touches.push_back(touch(key));
   for (const auto& [v, key] : changes.variables) touches.push_back(touch(v, key));
   std::stable_sort(touches.begin(), touches.end(), by_key);
-  Relaxer(*this, system).backward(*crown_, nullptr, touches.begin(), touches.end(), Eigen::VectorXd(0), false);
+  Relaxer(*this, system)
+      .backward(*crown_, Eigen::VectorXd(0), nullptr, touches.begin(), touches.end(), Eigen::VectorXd(0), false);
 }
 
 void EliminationTree::solve(std::vector<Touch> touches, Index columns, System& system) const {

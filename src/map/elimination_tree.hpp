@@ -105,10 +105,12 @@ class EliminationTree {
   };
   void solve(std::vector<Touch> touches, Index columns, System& system) const;
 
-  // One step of an iteration whose right-hand side is the force at the values that each leaf was evaluated at. Below a
-  // front whose boundary has hardly moved nothing is visited: the motion is kept there, and what it exerts on the
-  // boundary by the complement is counted in, until it has added up to something. So the parts of a map that a step
-  // only shifts a little cost nothing, and yet no force is out of balance.
+  // One step of an iteration whose right-hand side is the force at the values that each leaf was evaluated at. A front
+  // whose boundary hardly moves, and which the forces within hardly stir, is not visited: the motion and the forces rest
+  // there, and what both exert on the boundary is counted in from then on, until they have added up to something. So the
+  // parts of a map that a step only shifts a little cost nothing, and yet no force is ever out of balance. (One that is
+  // forgotten is small, but has its counterpart elsewhere: alone it bends a long chain of submaps by metres.)
+  // To be touched: every leaf that was evaluated since the last step, and every one that a change named since.
   class Relaxation : public System {
    public:
     // Whether a motion of this variable is worth handing down.
@@ -134,16 +136,19 @@ class EliminationTree {
 
  private:
   class Relaxer;
-  struct Kept {  // a motion of a front's boundary that was not handed down
+  struct Rest {  // what a front keeps back
     FrontPointer front;
-    Eigen::VectorXd motion, force;  // the latter on the boundary, by the front's complement
+    Eigen::VectorXd motion;  // of its boundary, not handed down; empty: none
+    Eigen::VectorXd y;       // L_EE^-1 times the forces on what it eliminates, not followed yet; empty: none
+    Eigen::VectorXd force;   // what both exert on the boundary
   };
-  void keep(const FrontPointer& front, Eigen::VectorXd motion);
-  void take_kept(const Front& front, Eigen::VectorXd& motion);
+  void keep_rest(const FrontPointer& front, Eigen::VectorXd motion, Eigen::VectorXd y);
+  Rest take_rest(const Front& front);
   int eliminated_at(Variable v) const { return eliminated_at_[v]; }
 
   FrontPointer crown_;  // above the trie: eliminates what is left
-  std::map<std::pair<TreeKey, int>, Kept> kept_;  // by key and bit: sums must not depend on where fronts lie in memory
+  // By key and bit: sums must not depend on where fronts lie in memory.
+  std::map<std::pair<TreeKey, int>, std::shared_ptr<const Rest>> rests_;
   std::vector<std::int32_t> degree_;
   std::vector<std::int16_t> eliminated_at_;  // bit of the front that eliminates a variable; kNever
 };

@@ -36,8 +36,9 @@ SparseMap::SparseMap(const SparseMap& other)
       base_covariance_(other.base_covariance_),
       length_scale_(other.length_scale_),
       turn_scale_(other.turn_scale_),
+      pending_(other.pending_),
+      settled_(other.settled_),
       stale_(other.stale_),
-      unsettled_(other.unsettled_),
       change_(other.change_),
       index_([this](std::size_t i) { return position(i); }) {
   for (std::size_t i = 0; i < visible_.size(); ++i) index_.add(i);
@@ -261,7 +262,8 @@ void SparseMap::roll_back(Undo& undo) noexcept {
   visible_.resize(undo.visible);
   tree_ = std::move(undo.tree);
   fixes_ = std::move(undo.fixes);
-  unsettled_ = std::move(undo.unsettled);
+  pending_ = std::move(undo.pending);
+  settled_ = undo.settled;
   stale_ = std::move(undo.stale);
   base_covariance_ = undo.base_covariance;
   length_scale_ = undo.length_scale;
@@ -276,7 +278,8 @@ SparseMap::Undo::Undo(const SparseMap& map, Number number)
       visible(map.visible_.size()),
       tree(map.tree_),
       fixes(map.fixes_),
-      unsettled(map.unsettled_),
+      pending(map.pending_),
+      settled(map.settled_),
       stale(map.stale_),
       base_covariance(map.base_covariance_),
       length_scale(map.length_scale_),
@@ -308,14 +311,14 @@ bool SparseMap::try_join(const Submap& submap, const std::vector<char>& left_out
   Undo undo(*this, ++change_);
   try {
     const Number leaf = take_in(submap, left_out, undo, report);
-    optimise({leaf}, undo, report, options_.most_iterations);
+    optimise(undo, report);
     report.rows = 3 * report.fused;
     if (report.rows > 0) {
       // To first order the cost grows by half of what the fused landmarks' two estimates have against each other.
       report.threshold = chi_square_quantile(static_cast<double>(report.rows), options_.joint_gate_probability);
       report.distance = 2.0 * cost_since(undo);
-      if (report.distance > report.threshold && !unsettled_.empty()) {  // it may be too early to tell
-        optimise({}, undo, report, options_.most_iterations);
+      if (report.distance > report.threshold && !settled_) {  // it may be too early to tell
+        optimise(undo, report);
         report.distance = 2.0 * cost_since(undo);
       }
       if (!last && suspicious(leaf, report)) {

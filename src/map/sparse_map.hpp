@@ -125,7 +125,7 @@ class SparseMap final : public GlobalMap, private LeafSource {
   void linearise_stale(Undo& undo, JoinReport& report);
   FixReport fix_base(const AbsoluteFix& fix, double threshold, Undo& undo);
   void refresh_base_covariance();
-  void optimise(std::vector<Number> dirty, Undo& undo, JoinReport& report, int most_iterations);
+  void optimise(Undo& undo, JoinReport& report);
   bool suspicious(Number leaf, const JoinReport& report) const;
   void gate(const Submap& submap, std::vector<char>& left_out) const;
   void finish(Undo& undo, JoinReport& report);
@@ -150,8 +150,9 @@ class SparseMap final : public GlobalMap, private LeafSource {
   // What a step is measured by: the smallest typical standard deviation of a landmark in its submap, and the turn that
   // moves the submap's farthest landmark so far.
   double length_scale_ = std::numeric_limits<double>::infinity(), turn_scale_ = length_scale_;
-  std::vector<Number> stale_;      // leaves to be linearised anew
-  std::vector<Number> unsettled_;  // leaves where the last optimisation ended before it converged
+  std::vector<Number> pending_;  // leaves evaluated since the tree took their forces in
+  bool settled_ = true;          // whether the last optimisation converged
+  std::vector<Number> stale_;    // leaves to be linearised anew
   Number change_ = 0;
   SpatialIndex index_;
   mutable std::mutex mutex_;  // of what follows

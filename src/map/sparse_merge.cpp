@@ -161,9 +161,8 @@ void SparseMap::append(const SparseMap& other, const MergePlan& plan, const Merg
   length_scale_ = std::min(length_scale_, other.length_scale_);
   turn_scale_ = std::min(turn_scale_, other.turn_scale_);
   refactor(std::move(changes), undo, joined);
-  optimise(std::move(dirty), undo, joined, options_.most_iterations);
-  for (int round = 1; round < kRounds && !unsettled_.empty(); ++round)
-    optimise({}, undo, joined, options_.most_iterations);
+  optimise(undo, joined);
+  for (int round = 1; round < kRounds && !settled_; ++round) optimise(undo, joined);
 
   // To first order the cost grows by half of what the two estimates of the common landmarks have against each other.
   report.distance = std::max(0.0, 2.0 * (cost() - before));

@@ -115,6 +115,9 @@ void SparseMap::refactor(EliminationTree::Changes changes, Undo& undo, JoinRepor
   if (!tree_.update(*this, changes, refactored, assembled))
     throw Error(ErrorCode::numerical, "submap: the map's information is not positive definite; nothing was changed");
   report.refactored += refactored;
+  for (const TreeKey& key : changes.leaves) pending_.push_back(key.leaf);
+  for (const auto& [v, key] : changes.variables) pending_.push_back(key.leaf);
+  pending_.insert(pending_.end(), step.visited.begin(), step.visited.end());
   for (const Number leaf : assembled) {
     save_leaf(undo, leaf);
     note_linearisation(leaf);
@@ -148,18 +151,17 @@ void SparseMap::linearise_stale(Undo& undo, JoinReport& report) {
   refactor(std::move(changes), undo, report);
 }
 
-// Iterates from where `dirty` leaves, and those that an earlier change left unsettled, pull.
-void SparseMap::optimise(std::vector<Number> dirty, Undo& undo, JoinReport& report, int most_iterations) {
+// Iterates from where the leaves pull that were evaluated since the tree took their forces in.
+void SparseMap::optimise(Undo& undo, JoinReport& report) {
   constexpr int kHalvings = 6;
-  constexpr double kStrained = 0.001;
+  constexpr double kStrained = 0.3;
   constexpr double kSlack = 0.01;  // of the cost: leaves that were not visited lately tell that of a while ago
-  dirty.insert(dirty.end(), unsettled_.begin(), unsettled_.end());
-  unsettled_.clear();
+  settled_ = false;
   double tolerance = options_.step_tolerance;
-  for (int i = 0; i < most_iterations && !dirty.empty(); ++i) {
+  for (int i = 0; i < options_.most_iterations && !settled_; ++i) {
     linearise_stale(undo, report);
     std::vector<EliminationTree::Touch> touches;
-    for (const Number leaf : dirty) touches.push_back(tree_.touch(leaves_[leaf].key));
+    for (const Number leaf : pending_) touches.push_back(tree_.touch(leaves_[leaf].key));
     Step step(*this, tolerance);
     const EliminationTree before_step = tree_;
     tree_.relax(touches, step);
@@ -182,19 +184,20 @@ void SparseMap::optimise(std::vector<Number> dirty, Undo& undo, JoinReport& repo
       factor *= 0.5;
       after = take_step(step, factor, bases, positions);
     }
-    if (!std::isfinite(after))
-      throw Error(ErrorCode::numerical, "submap: the map's landmarks would not stay finite; nothing was changed");
-    dirty = step.visited;
-    // Leaves that the step has strained are linearised anew: what a factor of older points takes for stiff or slack
-    // would spoil the slack motions of the whole, where much has to agree.
-    for (const Number leaf : dirty)
+    if (!(after <= before + kSlack)) {  // nowhere to go from here
+      take_step(step, 0.0, bases, positions);
+      tree_ = before_step;
+      break;
+    }
+    pending_ = step.visited;
+    // A submap that has been bent is linearised anew, before the next step.
+    for (const Number leaf : pending_)
       if (strain(leaf) > kStrained) stale_.push_back(leaf);
     std::sort(stale_.begin(), stale_.end());
     stale_.erase(std::unique(stale_.begin(), stale_.end()), stale_.end());
-    if (factor == 1.0 && step.largest < options_.convergence_tolerance) return;
-    if (i > 0 && std::abs(before - after) < options_.cost_tolerance) return;
+    settled_ = (factor == 1.0 && step.largest < options_.convergence_tolerance) ||
+               (i > 0 && std::abs(before - after) < options_.cost_tolerance);
   }
-  unsettled_ = std::move(dirty);
 }
 
 // A fix of the newest base, within a change.
@@ -226,7 +229,7 @@ FixReport SparseMap::fix_base(const AbsoluteFix& fix, double threshold, Undo& un
   EliminationTree::Changes changes;
   changes.leaves.push_back(leaves_[leaf].key);
   refactor(std::move(changes), undo, joined);
-  optimise({leaf}, undo, joined, options_.most_iterations);
+  optimise(undo, joined);
   report.iterations = joined.iterations;
   return report;
 }

@@ -14,7 +14,9 @@ struct SparseMap::Undo {
   std::size_t leaf_count, base_count, visible;
   EliminationTree tree;
   std::map<Number, std::vector<AbsoluteFix>> fixes;
-  std::vector<Number> unsettled, stale;
+  std::vector<Number> pending;
+  bool settled;
+  std::vector<Number> stale;
   Matrix6 base_covariance;
   double length_scale, turn_scale;
   std::vector<std::pair<Number, Vector3>> positions;
