@@ -81,6 +81,7 @@ class SparseMap final : public GlobalMap, private LeafSource {
   };
   struct Undo;
   class Step;
+  struct Before;
   struct StepEntry {  // of one variable, ordinary error in map axes
     Variable variable;
     double value[6];
@@ -117,11 +118,10 @@ class SparseMap final : public GlobalMap, private LeafSource {
   Number take_in(const Submap& submap, const std::vector<char>& left_out, Undo& undo, JoinReport& report);
   void set_scales(const Submap& submap);
   void refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report);
-  void place(const std::vector<StepEntry>& entries, double factor, const std::vector<SE3>& bases,
-             const std::vector<Vector3>& positions);
-  void save_step(const Step& step, Undo& undo, std::vector<SE3>& bases, std::vector<Vector3>& positions);
-  double take_step(const Step& step, double factor, const std::vector<SE3>& bases,
-                   const std::vector<Vector3>& positions);
+  void place(const std::vector<StepEntry>& entries, double factor, const Before& from);
+  Before save_step(const Step& step, Undo& undo);
+  double take_step(const Step& step, double factor, const Before& from);
+  void take_back(const Step& step, Before& from);
   void linearise_stale(Undo& undo, JoinReport& report);
   FixReport fix_base(const AbsoluteFix& fix, double threshold, Undo& undo);
   void refresh_base_covariance();

@@ -3,6 +3,7 @@
 // is, so that what the steps converge to is the minimum.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
@@ -64,10 +65,17 @@ class SparseMap::Step final : public EliminationTree::Relaxation {
   double tolerance_;
 };
 
+// What a step is taken from.
+struct SparseMap::Before {
+  std::vector<SE3> bases;
+  std::vector<Vector3> positions;
+  std::vector<double> costs;  // of the leaves that it visits
+  std::vector<Eigen::VectorXd> gradients;
+};
+
 // A rigid motion of many must stay one, whatever its size: with the turn theta of its own base, of that which saw it
 // first, a point goes by V(theta) delta, as (Exp(theta) - I) (p - c) = V(theta) (theta x (p - c)).
-void SparseMap::place(const std::vector<StepEntry>& entries, double factor, const std::vector<SE3>& bases,
-                      const std::vector<Vector3>& positions) {
+void SparseMap::place(const std::vector<StepEntry>& entries, double factor, const Before& from) {
   std::unordered_map<Number, Matrix3> turned;  // V by base
   std::size_t base = 0, position = 0;
   for (const StepEntry& entry : entries) {
@@ -76,7 +84,7 @@ void SparseMap::place(const std::vector<StepEntry>& entries, double factor, cons
     const Vector3 move = factor * Eigen::Map<const Vector3>(entry.value);
     const Vector3 turn = factor * Eigen::Map<const Vector3>(entry.value + 3);
     const Matrix3 V = SO3::translation_jacobian(turn);
-    const SE3& before = bases[base++];
+    const SE3& before = from.bases[base++];
     bases_[number] = SE3(SO3::exp(turn) * before.rotation(), before.translation() + V * move);
     turned.emplace(number, V);
   }
@@ -85,14 +93,13 @@ void SparseMap::place(const std::vector<StepEntry>& entries, double factor, cons
     Landmark& landmark = landmarks_[static_cast<Number>(entry.variable >> 1)];
     const Vector3 move = factor * Eigen::Map<const Vector3>(entry.value);
     const auto first = turned.find(landmark.submaps[0]);
-    landmark.position = positions[position++] + (first != turned.end() ? Vector3(first->second * move) : move);
+    landmark.position = from.positions[position++] + (first != turned.end() ? Vector3(first->second * move) : move);
   }
 }
 
 // Puts the step's variables where it takes them, and evaluates the leaves that it visits; returns their cost.
-double SparseMap::take_step(const Step& step, double factor, const std::vector<SE3>& bases,
-                            const std::vector<Vector3>& positions) {
-  place(step.entries, factor, bases, positions);
+double SparseMap::take_step(const Step& step, double factor, const Before& from) {
+  place(step.entries, factor, from);
   double cost = 0.0;
   for (const Number leaf : step.visited) {
     evaluate(leaf);
@@ -101,14 +108,21 @@ double SparseMap::take_step(const Step& step, double factor, const std::vector<S
   return cost;
 }
 
+// As if it had not been taken. The leaves get back what they were evaluated to, which may have been elsewhere: where
+// motions of other variables rest, the tree counts what these do to them.
+void SparseMap::take_back(const Step& step, Before& from) {
+  place(step.entries, 0.0, from);
+  for (std::size_t i = 0; i < step.visited.size(); ++i) {
+    leaves_[step.visited[i]].cost = from.costs[i];
+    leaves_[step.visited[i]].gradient.swap(from.gradients[i]);
+  }
+}
+
 // Makes the tree anew where `changes` reach; what was kept above them is handed down first.
 void SparseMap::refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report) {
   Step step(*this, 0.0);
   tree_.settle(changes, step);
-  std::vector<SE3> bases;
-  std::vector<Vector3> positions;
-  save_step(step, undo, bases, positions);
-  take_step(step, 1.0, bases, positions);
+  take_step(step, 1.0, save_step(step, undo));
 
   std::size_t refactored = 0;
   std::vector<std::uint32_t> assembled;
@@ -124,19 +138,25 @@ void SparseMap::refactor(EliminationTree::Changes changes, Undo& undo, JoinRepor
   }
 }
 
-// Saves what the step moves, and hands out the values before it.
-void SparseMap::save_step(const Step& step, Undo& undo, std::vector<SE3>& bases, std::vector<Vector3>& positions) {
-  for (const Number leaf : step.visited) save_leaf(undo, leaf);
+// Saves what the step moves, and hands it out besides.
+SparseMap::Before SparseMap::save_step(const Step& step, Undo& undo) {
+  Before before;
+  for (const Number leaf : step.visited) {
+    save_leaf(undo, leaf);
+    before.costs.push_back(leaves_[leaf].cost);
+    before.gradients.push_back(leaves_[leaf].gradient);
+  }
   for (const StepEntry& entry : step.entries) {
     const auto number = static_cast<Number>(entry.variable >> 1);
     if (is_landmark(entry.variable)) {
       save_landmark(undo, number);
-      positions.push_back(landmarks_[number].position);
+      before.positions.push_back(landmarks_[number].position);
     } else {
       save_base(undo, number);
-      bases.push_back(bases_[number]);
+      before.bases.push_back(bases_[number]);
     }
   }
+  return before;
 }
 
 // The newest first; what is too much for once waits for the next solution.
@@ -154,7 +174,7 @@ void SparseMap::linearise_stale(Undo& undo, JoinReport& report) {
 // Iterates from where the leaves pull that were evaluated since the tree took their forces in.
 void SparseMap::optimise(Undo& undo, JoinReport& report) {
   constexpr int kHalvings = 6;
-  constexpr double kStrained = 0.3;
+  constexpr double kStrained = 0.002;
   constexpr double kSlack = 0.01;  // of the cost: leaves that were not visited lately tell that of a while ago
   settled_ = false;
   double tolerance = options_.step_tolerance;
@@ -166,15 +186,12 @@ void SparseMap::optimise(Undo& undo, JoinReport& report) {
     const EliminationTree before_step = tree_;
     tree_.relax(touches, step);
     ++report.iterations;
-    double before = 0.0;
-    for (const Number leaf : step.visited) before += leaves_[leaf].cost;
-    std::vector<SE3> bases;
-    std::vector<Vector3> positions;
-    save_step(step, undo, bases, positions);
-    double after = take_step(step, 1.0, bases, positions);
+    Before from = save_step(step, undo);
+    const double before = std::accumulate(from.costs.begin(), from.costs.end(), 0.0);
+    double after = take_step(step, 1.0, from);
     if (!(after <= before + kSlack) && tolerance > 0.0) {
       // Too far for a linear step. All that moves is visited then, and the step, a direction of descent, is halved.
-      take_step(step, 0.0, bases, positions);
+      take_back(step, from);
       tree_ = before_step;
       tolerance = 0.0;
       continue;
@@ -182,10 +199,10 @@ void SparseMap::optimise(Undo& undo, JoinReport& report) {
     double factor = 1.0;
     for (int halving = 0; !(after <= before + kSlack) && halving < kHalvings; ++halving) {
       factor *= 0.5;
-      after = take_step(step, factor, bases, positions);
+      after = take_step(step, factor, from);
     }
     if (!(after <= before + kSlack)) {  // nowhere to go from here
-      take_step(step, 0.0, bases, positions);
+      take_back(step, from);
       tree_ = before_step;
       break;
     }
