@@ -174,7 +174,8 @@ void SparseMap::linearise_stale(Undo& undo, JoinReport& report) {
 // Iterates from where the leaves pull that were evaluated since the tree took their forces in.
 void SparseMap::optimise(Undo& undo, JoinReport& report) {
   constexpr int kHalvings = 6;
-  constexpr double kStrained = 0.002;
+  // A chain's slackness grows by the cube of its length, and so does what stiffness of another shape does to it.
+  const double borne = std::clamp(10.0 * std::pow(static_cast<double>(leaves_.size()), -1.5), 1e-3, 0.3);
   constexpr double kSlack = 0.01;  // of the cost: leaves that were not visited lately tell that of a while ago
   settled_ = false;
   double tolerance = options_.step_tolerance;
@@ -209,7 +210,7 @@ void SparseMap::optimise(Undo& undo, JoinReport& report) {
     pending_ = step.visited;
     // A submap that has been bent is linearised anew, before the next step.
     for (const Number leaf : pending_)
-      if (strain(leaf) > kStrained) stale_.push_back(leaf);
+      if (strain(leaf) > borne) stale_.push_back(leaf);
     std::sort(stale_.begin(), stale_.end());
     stale_.erase(std::unique(stale_.begin(), stale_.end()), stale_.end());
     settled_ = (factor == 1.0 && step.largest < options_.convergence_tolerance) ||
