@@ -28,16 +28,7 @@ while (($# > 0)); do
   esac
 done
 
-if [[ -z $program ]]; then
-  say "Build (build/bench)" >&2
-  {
-    need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libnanoflann-dev libmatio-dev \
-      libbenchmark-dev libopenblas-dev
-    configure "$root/build/bench" --preset bench
-    cmake --build "$root/build/bench" --parallel "$jobs" --target cairn_program
-  } >&2
-  program=$root/build/bench/bin/cairn
-fi
+[[ -n $program ]] || bench_program
 
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT

@@ -52,3 +52,15 @@ configure() {
   fi
   cmake -S "$root" -B "$folder" -G Ninja "$@"
 }
+
+# Builds the program cairn with the flags of the benchmarks; its path is in $program then. Talks on stderr alone.
+bench_program() {
+  say "Build (build/bench)" >&2
+  {
+    need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libnanoflann-dev libmatio-dev \
+      libbenchmark-dev libopenblas-dev
+    configure "$root/build/bench" --preset bench
+    cmake --build "$root/build/bench" --parallel "$jobs" --target cairn_program
+  } >&2
+  program=$root/build/bench/bin/cairn
+}
