@@ -175,7 +175,7 @@ void SparseMap::linearise_stale(Undo& undo, JoinReport& report) {
 void SparseMap::optimise(Undo& undo, JoinReport& report) {
   constexpr int kHalvings = 6;
   // A chain's slackness grows by the cube of its length, and so does what stiffness of another shape does to it.
-  const double borne = std::clamp(10.0 * std::pow(static_cast<double>(leaves_.size()), -1.5), 1e-3, 0.3);
+  const double borne = std::clamp(10.0 * std::pow(static_cast<double>(leaves_.size()), -1.5), 2e-3, 0.3);
   constexpr double kSlack = 0.01;  // of the cost: leaves that were not visited lately tell that of a while ago
   settled_ = false;
   double tolerance = options_.step_tolerance;
