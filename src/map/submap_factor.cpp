@@ -17,23 +17,35 @@ using Vector = Eigen::VectorXd;
 // by zero. A micrometre and a tenth of a microradian.
 constexpr double kLeastPosition = 1e-12, kLeastTurn = 1e-14;
 
-// Sigma^-1, scaled to unit diagonal on the way. Where the rest is singular, a grain of independent noise makes it
-// regular.
-Matrix invert(const Matrix& covariance) {
+// A covariance scaled to unit diagonal, and its factor. Where it is singular, a grain of independent noise makes it
+// regular; so does the same grain all of its principal parts.
+struct ScaledFactor {
+  Vector scale;
+  Eigen::LLT<Matrix> llt;
+};
+
+ScaledFactor factor(const Matrix& covariance) {
   const Index n = covariance.rows();
-  Vector scale(n);
+  ScaledFactor out;
+  out.scale.resize(n);
   for (Index i = 0; i < n; ++i)
-    scale(i) = 1.0 / std::sqrt(std::max(covariance(i, i), i >= 3 && i < 6 ? kLeastTurn : kLeastPosition));
+    out.scale(i) = 1.0 / std::sqrt(std::max(covariance(i, i), i >= 3 && i < 6 ? kLeastTurn : kLeastPosition));
   for (double grain = 0.0; grain < 1e-5; grain = grain == 0.0 ? 1e-12 : 100.0 * grain) {
-    Matrix scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
+    Matrix scaled = out.scale.asDiagonal() * covariance * out.scale.asDiagonal();
     for (Index i = 0; i < n; ++i) scaled(i, i) = std::max(scaled(i, i), 1.0) + grain;
-    const Eigen::LLT<Matrix> llt(scaled);
-    if (llt.info() != Eigen::Success || !llt.matrixLLT().allFinite()) continue;
-    if (llt.matrixLLT().diagonal().minCoeff() < 1e-7 && grain < 1e-8) continue;  // pivots of rounding alone
-    const Matrix inverse = llt.solve(Matrix::Identity(n, n));
-    return scale.asDiagonal() * inverse * scale.asDiagonal();
+    out.llt.compute(scaled);
+    if (out.llt.info() != Eigen::Success || !out.llt.matrixLLT().allFinite()) continue;
+    if (out.llt.matrixLLT().diagonal().minCoeff() < 1e-7 && grain < 1e-8) continue;  // pivots of rounding alone
+    return out;
   }
   throw Error(ErrorCode::numerical, "submap: its covariance is not positive definite; it stays open");
+}
+
+Matrix invert(const Matrix& covariance) {
+  const ScaledFactor scaled = factor(covariance);
+  const Index n = covariance.rows();
+  const Matrix inverse = scaled.llt.solve(Matrix::Identity(n, n));
+  return scaled.scale.asDiagonal() * inverse * scaled.scale.asDiagonal();
 }
 
 }  // namespace
@@ -43,7 +55,10 @@ SubmapData::SubmapData(const Submap& submap)
       T_base_end(submap.T_base_end),
       ids(submap.ids),
       landmarks(submap.landmarks),
-      covariance(submap.covariance) {}
+      covariance(submap.covariance) {
+  // The whole, so that no landmark that is private today can stop a closing some day, when another submap sees it.
+  factor(submap.covariance);
+}
 
 SubmapFactor::SubmapFactor(std::shared_ptr<const SubmapData> data, std::vector<Index> shared)
     : data_(std::move(data)), shared_(std::move(shared)) {

@@ -256,6 +256,7 @@ TEST_CASE("submap factor: exact knowledge is no division by zero, and no covaria
     CHECK(factor.evaluate(values).cost == doctest::Approx(0.5e6).epsilon(0.1));  // a micrometre counts as exact
     submap.covariance(7, 7) = -1.0;
     CHECK_THROWS_AS(SubmapFactor(std::make_shared<SubmapData>(submap), {0, 1}), Error);
+    CHECK_THROWS_AS(SubmapFactor(std::make_shared<SubmapData>(submap), {1}), Error);  // whoever is shared so far
     submap.covariance = Matrix::Ones(12, 12);  // all one error: singular, which a grain of noise repairs
     CHECK(whole_hessian(SubmapFactor(std::make_shared<SubmapData>(submap), {0, 1}), values).allFinite());
     submap.covariance(8, 7) = submap.covariance(7, 8) = 2.0;  // no covariance
