@@ -242,9 +242,9 @@ class EliminationTree::Relaxer {
     return pass;
   }
 
-  // Moves a front and what hangs on it: `boundary` is how its boundary moves, `y` and `pass` the forces, each empty where
-  // there are none. With `far`, whatever moves by what matters is visited; without, as settle() is asked to, what is
-  // touched alone.
+  // Moves a front and what hangs on it: `boundary` is how its boundary moves; `forces` (a y) and `pass` are empty where
+  // nothing pulls. With `far`, whatever the motion matters to is visited; without, as settle() asks for, what is
+  // touched.
   void backward(const Front& front, const Vector& forces, const Pass* pass, TouchIterator begin, TouchIterator end,
                 const Vector& boundary, bool far) {
     Vector x = Vector::Zero(front.e + front.b);

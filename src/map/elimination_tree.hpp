@@ -106,10 +106,10 @@ class EliminationTree {
   void solve(std::vector<Touch> touches, Index columns, System& system) const;
 
   // One step of an iteration whose right-hand side is the force at the values that each leaf was evaluated at. A front
-  // whose boundary hardly moves, and which the forces within hardly stir, is not visited: the motion and the forces rest
-  // there, and what both exert on the boundary is counted in from then on, until they have added up to something. So the
-  // parts of a map that a step only shifts a little cost nothing, and yet no force is ever out of balance. (One that is
-  // forgotten is small, but has its counterpart elsewhere: alone it bends a long chain of submaps by metres.)
+  // whose boundary hardly moves, and which the forces within hardly stir, is not visited: the motion and the forces
+  // rest there, and what both exert on the boundary is counted in from then on, until they have added up to something.
+  // So the parts of a map that a step only shifts a little cost nothing, and yet no force is ever out of balance. (One
+  // that is forgotten is small, but has its counterpart elsewhere: alone it bends a long chain of submaps by metres.)
   // To be touched: every leaf that was evaluated since the last step, and every one that a change named since.
   class Relaxation : public System {
    public:

@@ -102,7 +102,8 @@ class Blocks final : public EliminationTree::Covariances {
   std::map<std::uint32_t, Matrix> of;
 };
 
-// Leaves that pull towards a point each: values of all variables, and the force of each leaf where it was last looked at.
+// Leaves that pull towards a point each: values of all variables, and the force of each leaf where it was last looked
+// at.
 class Springs final : public EliminationTree::Relaxation {
  public:
   explicit Springs(const Leaves& leaves) : leaves_(leaves) {}
