@@ -12,10 +12,10 @@ namespace cairn::cli {
 // What is not set stays as the library has it.
 struct FilterChoices {
   std::int32_t error = CAIRN_ERROR_INVARIANT;
-  std::uint32_t submap_landmarks = 60;  // 0: a single map
-  double submap_distance = 0;           // m; 0: no matter
-  double submap_extent = 0;             // m; 0: no matter
-  double submap_sigma = 0;              // m; 0: no matter
+  std::optional<std::uint32_t> submap_landmarks;  // 0: a single map
+  double submap_distance = 0;                     // m; 0: no matter
+  double submap_extent = 0;                       // m; 0: no matter
+  double submap_sigma = 0;                        // m; 0: no matter
   std::int32_t join = CAIRN_JOIN_AUTO;
   std::uint64_t forget_after = 0;  // frames; 0: never
   std::optional<double> gate;

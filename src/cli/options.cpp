@@ -34,7 +34,9 @@ Option preset_option(SimulateOptions& o) {
   return {"--preset", true, [&o](const std::string& v) {
             std::int32_t preset = 0;
             choice("--preset", {"paper", "row1", "row2", "row3", "row4"}, preset).set(v);
-            check_sim(cairn_world_options_preset(&o.world, preset, &o.filter.submap_landmarks));
+            std::uint32_t submap_landmarks = 0;
+            check_sim(cairn_world_options_preset(&o.world, preset, &submap_landmarks));
+            o.filter.submap_landmarks = submap_landmarks;
           }};
 }
 
@@ -107,7 +109,7 @@ SimulateOptions parse_simulate_options(const std::vector<std::string>& arguments
       "--preset");
   if (options.common.help) return options;
   if (scenario.empty()) throw UsageError("no scenario given (usage: cairn simulate mars [options])");
-  if (options.compare && options.filter.submap_landmarks == 0)
+  if (options.compare && options.filter.submap_landmarks == 0u)
     throw UsageError("option --compare runs a single map and submaps: it can't be had with --single-map");
   return options;
 }

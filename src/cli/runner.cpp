@@ -32,7 +32,11 @@ void Runner::create() {
   options.error = choices_.error;
   options.max_landmarks = choices_.max_landmarks.value_or(static_cast<std::uint32_t>(needed));
   options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
-  options.submap_landmarks = choices_.submap_landmarks;
+  // A submap that one frame fills is not worth its closing.
+  constexpr std::uint32_t kSubmap = 60, kFrames = 2, kLargestSubmap = 4096;
+  options.submap_landmarks = choices_.submap_landmarks.value_or(
+      std::min(kLargestSubmap, std::max(kSubmap, kFrames * options.max_observations)));
+  has_submaps_ = options.submap_landmarks > 0;
   options.submap_distance = choices_.submap_distance;
   options.submap_extent = choices_.submap_extent;
   options.submap_sigma = choices_.submap_sigma;
@@ -93,7 +97,7 @@ void Runner::forget() {
     if (step_.index - entry->second >= choices_.forget_after) {
       const cairn_status status = cairn_filter_remove_landmark(filter_.get(), entry->first);
       // A closing may have refused it before.
-      if (status != CAIRN_ERROR_NOT_FOUND || choices_.submap_landmarks == 0) check(status);
+      if (status != CAIRN_ERROR_NOT_FOUND || !has_submaps_) check(status);
       entry = last_seen_.erase(entry);
     } else {
       ++entry;
@@ -125,7 +129,7 @@ std::optional<cairn_closing_report> Runner::new_closing() {
 }
 
 std::optional<cairn_closing_report> Runner::finish() {
-  if (choices_.submap_landmarks == 0) return std::nullopt;
+  if (!has_submaps_) return std::nullopt;
   std::size_t open = 0;
   check(cairn_map_size(cairn_filter_local_map(filter_.get()), &open));
   if (open == 0) return std::nullopt;

@@ -64,6 +64,7 @@ class Runner {
   LastSeen last_seen_;
   std::size_t closings_ = 0;
   bool started_ = false;
+  bool has_submaps_ = false;
 };
 
 }  // namespace cairn::cli

@@ -197,10 +197,12 @@ void Filter::pose_joint_covariance(const std::size_t* indices, std::size_t count
   map_->base_joint_covariance(indices, count, matrix);
   Eigen::Map<Eigen::MatrixXd> joint(matrix, static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
   const Matrix6 J = base_to_pose();
-  joint.topRows<6>() = (J * joint.topRows<6>()).eval();
-  joint.leftCols<6>() = joint.topRows<6>().transpose();
-  const Matrix6 pose = joint.topLeftCorner<6, 6>() * J.transpose() + local_part();
+  const auto landmarks = static_cast<Eigen::Index>(3 * count);
+  const Matrix6 pose = J * joint.topLeftCorner<6, 6>() * J.transpose() + local_part();
+  const Eigen::MatrixXd across = joint.bottomLeftCorner(landmarks, 6) * J.transpose();
   joint.topLeftCorner<6, 6>() = pose.selfadjointView<Eigen::Lower>();
+  joint.bottomLeftCorner(landmarks, 6) = across;
+  joint.topRightCorner(6, landmarks) = across.transpose();
 }
 
 double Filter::pose_nees(const SE3& truth) const {
