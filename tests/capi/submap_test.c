@@ -325,6 +325,37 @@ static void older_structs(void **state) {
   cairn_filter_destroy(f);
 }
 
+/* The pose's block is the pose's covariance, the landmarks' block the map's; across, no correlation exceeds one. */
+static void pose_and_map_jointly(void **state) {
+  (void)state;
+  for (int32_t join = CAIRN_JOIN_DENSE; join <= CAIRN_JOIN_SPARSE; ++join) {
+    ring course;
+    ring_init(&course, 12);
+    const cairn_filter_options o = ring_options(&course, 7, join);
+    cairn_filter *f = ring_filter(&o);
+    ring_drive(&course, &f, 1, 23);
+    cairn_landmark some[3];
+    size_t needed = 0;
+    const cairn_map *map = cairn_filter_map(f);
+    cairn_pose pose;
+    double P[36], joint[225], of_map[81];
+    assert_ok(cairn_filter_pose(f, &pose, P));
+    assert_ok(cairn_map_nearest(map, pose.position, 3, some, 3, &needed));
+    const uint64_t ids[3] = {some[0].id, some[1].id, some[2].id};
+    assert_ok(cairn_filter_joint_covariance(f, ids, 3, joint, LENGTH(joint), &needed));
+    assert_ok(cairn_map_joint_covariance(map, ids, 3, of_map, LENGTH(of_map), &needed));
+    for (int r = 0; r < 15; ++r)
+      for (int c = 0; c < 15; ++c) {
+        const double scale = sqrt(joint[16 * r] * joint[16 * c]);
+        assert_true(joint[15 * r + c] == joint[15 * c + r]);
+        assert_true(fabs(joint[15 * r + c]) <= scale * (1 + 1e-9));
+        if (r < 6 && c < 6) assert_true(fabs(joint[15 * r + c] - P[6 * r + c]) <= 1e-9 * scale);
+        if (r >= 6 && c >= 6) assert_true(fabs(joint[15 * r + c] - of_map[9 * (r - 6) + c - 6]) <= 1e-9 * scale);
+      }
+    cairn_filter_destroy(f);
+  }
+}
+
 static void auto_picks_by_capacity(void **state) {
   (void)state;
   for (int large = 0; large < 2; ++large) {
@@ -419,6 +450,7 @@ int main(void) {
       cmocka_unit_test(maps_while_a_submap_is_open),
       cmocka_unit_test(a_single_map_has_no_submaps),
       cmocka_unit_test(older_structs),
+      cmocka_unit_test(pose_and_map_jointly),
       cmocka_unit_test(auto_picks_by_capacity),
       cmocka_unit_test(the_same_bits_twice),
       cmocka_unit_test(submaps_and_a_single_map_agree),
