@@ -9,6 +9,8 @@
 
 namespace cairn::cli {
 
+constexpr std::uint32_t kUsualSubmap = 60;  // landmarks
+
 // What is not set stays as the library has it.
 struct FilterChoices {
   std::int32_t error = CAIRN_ERROR_INVARIANT;

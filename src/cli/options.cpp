@@ -92,6 +92,7 @@ SimulateOptions parse_simulate_options(const std::vector<std::string>& arguments
   SimulateOptions options;
   check_sim(cairn_world_options_init(&options.world, sizeof options.world));
   options.filter.gate = options.filter.batch_gate = 1;  // a world has no outliers
+  options.filter.submap_landmarks = kUsualSubmap;       // what a frame may hold at most says little of what it does
   OptionTable table;
   add_common_options(table, options.common);
   add_filter_options(table, options.filter);

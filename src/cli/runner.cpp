@@ -33,9 +33,9 @@ void Runner::create() {
   options.max_landmarks = choices_.max_landmarks.value_or(static_cast<std::uint32_t>(needed));
   options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
   // A submap that one frame fills is not worth its closing.
-  constexpr std::uint32_t kSubmap = 60, kFrames = 2, kLargestSubmap = 4096;
+  constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
   options.submap_landmarks = choices_.submap_landmarks.value_or(
-      std::min(kLargestSubmap, std::max(kSubmap, kFrames * options.max_observations)));
+      std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations)));
   has_submaps_ = options.submap_landmarks > 0;
   options.submap_distance = choices_.submap_distance;
   options.submap_extent = choices_.submap_extent;
