@@ -18,7 +18,6 @@ struct EliminationTree::Front {
   std::vector<double> complement;    // packed lower triangle, b x b: what the boundary knows of what lies below
 
   bool leaf() const { return child[0] == nullptr; }
-  double diagonal(Index i) const { return factor[i * (e + b) + i]; }
 };
 
 // Where the states of some of a front's variables (ascending) stand among its own: the eliminated ones, then the

@@ -45,7 +45,29 @@ struct Pass {
   Matrix above;  // what goes up to the boundary
   bool stirs = false;
   std::unique_ptr<Pass> child[2];
+
+  // Takes in what the child on a side hands up.
+  template <class Columns>
+  void add_child(const Front& front, int side, Columns& b) const {
+    const Matrix& up = child[side]->above;
+    const std::vector<Index> map = state_map(front.child[side]->boundary, front);
+    for (Index c = 0; c < b.cols(); ++c)
+      for (std::size_t i = 0; i < map.size(); ++i) b(map[i], c) += up(static_cast<Index>(i), c);
+  }
+  template <class Columns>
+  void eliminate(const Front& front, const Columns& b) {
+    y = eliminated_block(front).triangularView<Eigen::Lower>().solve(b.topRows(front.e));
+    above = b.bottomRows(front.b);
+    above.noalias() -= boundary_block(front) * y;
+  }
 };
+
+// From y to the solution of what a front eliminates, by that of its boundary.
+template <class Columns, class Boundary>
+void substitute(const Front& front, const Boundary& boundary, Columns& y) {
+  y.noalias() -= boundary_block(front).transpose() * boundary;
+  eliminated_block(front).transpose().triangularView<Eigen::Upper>().solveInPlace(y);
+}
 
 class Solver {
  public:
@@ -59,18 +81,14 @@ class Solver {
       const Front& child = *front.child[side];
       if (child.leaf() || !halves.touch(child, side)) continue;
       pass->child[side] = forward(child, halves.bounds[side], halves.bounds[side + 1]);
-      const std::vector<Index> map = state_map(child.boundary, front);
-      for (Index c = 0; c < columns_; ++c)
-        for (std::size_t i = 0; i < map.size(); ++i) b(map[i], c) += pass->child[side]->above(static_cast<Index>(i), c);
+      pass->add_child(front, side, b);
     }
     Index at = 0;
     for (const Variable v : front.eliminated) {
       system_.right_hand_side(v, b.data() + at, front.e + front.b);
       at += dimension(v);
     }
-    pass->y = eliminated_block(front).triangularView<Eigen::Lower>().solve(b.topRows(front.e));
-    pass->above = b.bottomRows(front.b);
-    pass->above.noalias() -= boundary_block(front) * pass->y;
+    pass->eliminate(front, b);
     return pass;
   }
 
@@ -78,8 +96,7 @@ class Solver {
   // make it worth to go on below.
   void backward(const Front& front, const Pass* pass, Matrix& x, std::vector<char>& active) {
     Matrix y = pass != nullptr ? pass->y : Matrix(Matrix::Zero(front.e, columns_));
-    y.noalias() -= boundary_block(front).transpose() * x.bottomRows(front.b);
-    eliminated_block(front).transpose().triangularView<Eigen::Upper>().solveInPlace(y);
+    substitute(front, x.bottomRows(front.b), y);
     x.topRows(front.e) = y;
     Index at = 0;
     for (std::size_t i = 0; i < front.eliminated.size(); ++i) {
@@ -223,8 +240,7 @@ class EliminationTree::Relaxer {
       if (child.leaf() || !halves.touch(child, side)) continue;
       pass->child[side] = forward(child, halves.bounds[side], halves.bounds[side + 1]);
       pass->stirs = pass->stirs || pass->child[side]->stirs;
-      const std::vector<Index> map = state_map(child.boundary, front);
-      for (std::size_t i = 0; i < map.size(); ++i) b(map[i]) += pass->child[side]->above(static_cast<Index>(i), 0);
+      pass->add_child(front, side, b);
     }
     Index at = 0;
     for (const Variable v : front.eliminated) {
@@ -232,9 +248,7 @@ class EliminationTree::Relaxer {
       if (slots_[v] >= 0) b.segment(at, dimension(v)) += forces_[slots_[v]].head(dimension(v));
       at += dimension(v);
     }
-    pass->y = eliminated_block(front).triangularView<Eigen::Lower>().solve(b.head(front.e));
-    pass->above = b.tail(front.b);
-    pass->above.noalias() -= boundary_block(front) * pass->y;
+    pass->eliminate(front, b);
     if (!pass->stirs) {  // by the motion that the forces would cause here, were the boundary held
       const Vector x = eliminated_block(front).transpose().triangularView<Eigen::Upper>().solve(Vector(pass->y));
       pass->stirs = matters(front.eliminated, x);
@@ -251,8 +265,7 @@ class EliminationTree::Relaxer {
     const bool moves = forces.size() > 0 || !boundary.isZero(0.0);
     if (moves) {
       Vector y = forces.size() > 0 ? forces : Vector(Vector::Zero(front.e));
-      y.noalias() -= boundary_block(front).transpose() * boundary;
-      eliminated_block(front).transpose().triangularView<Eigen::Upper>().solveInPlace(y);
+      substitute(front, boundary, y);
       x << y, boundary;
       Index at = 0;
       for (const Variable v : front.eliminated) {

@@ -276,11 +276,9 @@ bool EliminationTree::update(const LeafSource& source, const Changes& changes, s
 Eigen::MatrixXd EliminationTree::last_covariance() const {
   const Front& front = *crown_;
   const Index d = dimension(front.eliminated.back()), n = front.e;
-  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(d, d);
-  for (Index c = 0; c < d; ++c)
-    for (Index r = c; r < d; ++r) L(r, c) = front.factor[(n - d + c) * n + n - d + r];
-  const Eigen::MatrixXd inverse = L.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(d, d));
-  return inverse.transpose() * inverse;
+  Eigen::MatrixXd inverse(d, d);
+  inverse_from_cholesky(front.factor.data() + (n - d) * (n + 1), n, d, inverse.data(), d);
+  return inverse;
 }
 
 std::size_t EliminationTree::memory_bytes() const {

@@ -326,8 +326,10 @@ bool SparseMap::try_join(const Submap& submap, const std::vector<char>& left_out
         return false;
       }
     }
-    refresh_base_covariance();
-    if (fix != nullptr) fix->report = fix_base(fix->fix, fix->threshold, undo);
+    if (fix != nullptr) {
+      refresh_base_covariance();  // of what the fix comes upon
+      fix->report = fix_base(fix->fix, fix->threshold, undo);
+    }
     finish(undo, report);
   } catch (...) {
     roll_back(undo);

@@ -2,6 +2,7 @@
 #include "map/submap_factor.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
