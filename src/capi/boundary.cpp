@@ -42,6 +42,10 @@ void check_pointer(const void* pointer, const char* name) {
   if (pointer == nullptr) throw Error(ErrorCode::argument, "%s is NULL; pass a valid pointer", name);
 }
 
+bool all_finite(const double* values, std::size_t count) {
+  return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
+}
+
 void check_finite(double value, const char* name) {
   if (!std::isfinite(value)) throw Error(ErrorCode::argument, "%s is not finite (%g)", name, value);
 }

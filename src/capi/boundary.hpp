@@ -42,6 +42,7 @@ cairn_status guard(Function&& function) noexcept {
 
 // --- checks --- each throws an Error that names the argument.
 void check_pointer(const void* pointer, const char* name);
+bool all_finite(const double* values, std::size_t count);
 void check_finite(double value, const char* name);
 void check_finite(const double* values, std::size_t count, const char* name);
 void check_positive(double value, const char* name);

@@ -42,16 +42,20 @@ void write_matches(const Filter& filter, std::size_t count, cairn_match* matches
 }
 
 void read_observation(const cairn_observation& from, std::size_t number, std::size_t rows, Observation& to) {
-  char name[64];
   if (from.id == CAIRN_ID_NONE)
     throw Error(ErrorCode::argument, "observations[%zu].id is CAIRN_ID_NONE, which no landmark has", number);
-  std::snprintf(name, sizeof name, "observations[%zu].z", number);
-  check_finite(from.z, rows, name);
-  std::snprintf(name, sizeof name, "observations[%zu].covariance", number);
-  check_finite(from.covariance, rows * rows, name);
+  // Names are written where they are needed: that takes longer than the checks.
+  char name[64];
+  if (!all_finite(from.z, rows)) {
+    std::snprintf(name, sizeof name, "observations[%zu].z", number);
+    check_finite(from.z, rows, name);
+  }
   bool given = false;
   for (std::size_t i = 0; i < rows * rows; ++i) given = given || from.covariance[i] != 0.0;
-  if (given) check_covariance(from.covariance, rows, false, name);
+  if (given) {
+    std::snprintf(name, sizeof name, "observations[%zu].covariance", number);
+    check_covariance(from.covariance, rows, false, name);
+  }
   to.id = from.id;
   std::fill_n(to.z, 3, 0.0);
   std::copy_n(from.z, rows, to.z);

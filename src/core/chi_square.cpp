@@ -9,6 +9,7 @@ namespace cairn {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kLogTwo = 0.693147180559945309417;
 
 // std::lgamma writes the global `signgam`, which is a data race; Stirling's series with a shift is as exact here.
 double log_gamma(double a) {
@@ -74,13 +75,19 @@ double chi_square_quantile(double dof, double probability) {
   double lower = 0.0;
   double upper = dof + 10.0;
   while (excess(dof, upper, probability) < 0.0) lower = upper, upper *= 2.0;
-  // Bisection: 100 halvings exhaust the digits, need no start value and are the same on every machine.
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (lower + upper);
-    if (middle <= lower || middle >= upper) break;
-    (excess(dof, middle, probability) < 0.0 ? lower : upper) = middle;
+  // Newton's steps, kept inside a bracket that bisection halves wherever they would leave it.
+  double x = 0.5 * (lower + upper);
+  for (int i = 0; i < 200; ++i) {
+    const double off = excess(dof, x, probability);
+    (off < 0.0 ? lower : upper) = x;
+    const double density =
+        std::exp((0.5 * dof - 1.0) * std::log(x) - 0.5 * x - 0.5 * dof * kLogTwo - log_gamma(0.5 * dof));
+    double next = x - off / density;
+    if (!(next > lower && next < upper)) next = 0.5 * (lower + upper);
+    if (std::abs(next - x) <= kEpsilon * x || next <= lower || next >= upper) return next;
+    x = next;
   }
-  return 0.5 * (lower + upper);
+  return x;
 }
 
 }  // namespace cairn

@@ -45,28 +45,23 @@ class Batch {
       const Block& block = jacobian_[b];
       const bool fresh = block.row + block.rows > done;
       done = block.row + block.rows;
-      for (Index r = 0; r < block.rows; ++r)
-        accumulate(P + block.column * ldp, ldp, n, block.value + r, block.rows, block.columns, fresh,
-                   Y + (block.row + r) * ldy);
+      add_block(block, P + block.column * ldp, ldp, n, fresh, Y + block.row * ldy, ldy);
     }
   }
 
-  // Lower triangle of S = H T + R, for T = P H^T.
-  void innovation_covariance(const double* T, Index ldt, double* S, Index lds) const {
-    for (Index j = 0; j < rows_; ++j) std::fill(S + j * lds + j, S + j * lds + rows_, 0.0);
+  // Lower triangle of S = H P H^T + R, for the rows x columns matrix H P.
+  void innovation_covariance(const double* HP, Index ld, double* S, Index lds) const {
+    Index done = 0;
     for (Index b = 0; b < jacobian_count_; ++b) {
       const Block& block = jacobian_[b];
-      for (Index j = 0; j < block.row + block.rows; ++j)
-        for (Index c = 0; c < block.columns; ++c) {
-          const double t = T[j * ldt + block.column + c];
-          const double* J = block.value + c * block.rows;
-          double* target = S + j * lds + block.row;
-          for (Index r = std::max<Index>(0, j - block.row); r < block.rows; ++r) target[r] += J[r] * t;
-        }
+      const bool fresh = block.row + block.rows > done;
+      done = block.row + block.rows;
+      add_block(block, HP + block.column * ld + block.row, ld, rows_ - block.row, fresh, S + block.row * (lds + 1),
+                lds);
     }
     for (Index b = 0; b < noise_count_; ++b) {
       const Block& block = noise_[b];
-      for (Index c = 0; c < block.columns; ++c)
+      for (Index c = 0; c < block.rows; ++c)
         for (Index r = c; r < block.rows; ++r)
           S[(block.row + c) * lds + block.row + r] += block.value[c * block.rows + r];
     }
@@ -105,28 +100,46 @@ class Batch {
     return value;
   }
 
-  // y += P(:, 0..columns) j, with the entries of j `stride` apart; y = it where `fresh`. Three columns a pass: a
-  // landmark, half a pose.
-  static void accumulate(const double* P, Index ldp, Index n, const double* j, Index stride, Index columns, bool fresh,
-                         double* y) {
+  // Y(:, 0..block.rows) += P(:, 0..block.columns) J^T; Y = it where `fresh`.
+  static void add_block(const Block& block, const double* P, Index ldp, Index n, bool fresh, double* Y, Index ldy) {
     Index c = 0;
-    if (fresh && columns >= 3) {
-      const double a = j[0], b = j[stride], d = j[2 * stride];
-      const double *p = P, *q = P + ldp, *r = P + 2 * ldp;
-      for (Index i = 0; i < n; ++i) y[i] = a * p[i] + b * q[i] + d * r[i];
-      c = 3;
+    if (fresh && block.columns < 3) {
+      for (Index r = 0; r < block.rows; ++r) std::fill_n(Y + r * ldy, n, 0.0);
     } else if (fresh) {
-      std::fill_n(y, n, 0.0);
+      add_columns<true>(block.value, block.rows, P, ldp, n, Y, ldy);
+      c = 3;
     }
-    for (; c + 3 <= columns; c += 3) {
-      const double a = j[c * stride], b = j[(c + 1) * stride], d = j[(c + 2) * stride];
-      const double *p = P + c * ldp, *q = p + ldp, *r = q + ldp;
-      for (Index i = 0; i < n; ++i) y[i] += a * p[i] + b * q[i] + d * r[i];
+    for (; c + 3 <= block.columns; c += 3)
+      add_columns<false>(block.value + c * block.rows, block.rows, P + c * ldp, ldp, n, Y, ldy);
+    for (; c < block.columns; ++c)
+      for (Index r = 0; r < block.rows; ++r) {
+        const double factor = block.value[c * block.rows + r];
+        for (Index i = 0; i < n; ++i) Y[r * ldy + i] += factor * P[c * ldp + i];
+      }
+  }
+
+  // Three columns of P a pass (a landmark, half a pose), read once for all rows of the block.
+  template <bool kFresh>
+  static void add_columns(const double* J, Index rows, const double* P, Index ldp, Index n, double* Y, Index ldy) {
+    if (rows == 3) return add_columns<kFresh, 3>(J, P, ldp, n, Y, ldy);
+    if (rows == 2) return add_columns<kFresh, 2>(J, P, ldp, n, Y, ldy);
+    for (Index r = 0; r < rows; ++r) {
+      const double single[3] = {J[r], J[rows + r], J[2 * rows + r]};
+      add_columns<kFresh, 1>(single, P, ldp, n, Y + r * ldy, ldy);
     }
-    for (; c < columns; ++c) {
-      const double a = j[c * stride];
-      const double* p = P + c * ldp;
-      for (Index i = 0; i < n; ++i) y[i] += a * p[i];
+  }
+
+  template <bool kFresh, int kRows>
+  static void add_columns(const double* J, const double* __restrict P, Index ldp, Index n, double* __restrict Y,
+                          Index ldy) {
+    double j[3 * kRows];
+    std::copy_n(J, 3 * kRows, j);
+    for (Index i = 0; i < n; ++i) {
+      const double p = P[i], q = P[ldp + i], r = P[2 * ldp + i];
+      for (int k = 0; k < kRows; ++k) {
+        const double sum = j[k] * p + j[kRows + k] * q + j[2 * kRows + k] * r;
+        Y[k * ldy + i] = kFresh ? sum : Y[k * ldy + i] + sum;
+      }
     }
   }
 

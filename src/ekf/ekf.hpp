@@ -81,6 +81,7 @@ class Ekf {
   // The window: the pose, the mount's angles, the chosen landmarks; its iterate starts at the estimate.
   void open(const Index* slots, Index count, const Eigen::Matrix<double, kMount, kMount>* mount_noise);
   Batch& batch() { return batch_; }
+  bool iterating() const { return iterating_; }  // the iterate has left the estimate
   Pose iterate_pose() const { return Pose(iterate_pose_.rotation(), iterate_pose_.translation() + origin_); }
   Point iterate_landmark(Index a) const { return local_iterate(a) + origin_; }
   Eigen::Matrix<double, kMount, 1> iterate_mount() const { return iterate_mount_; }
@@ -206,23 +207,23 @@ class Ekf {
   Index slot_count_ = 0;
   Index mount_ = 0;  // kMount or 0
   Index window_ = 0;
+  bool iterating_ = false;
   Pose iterate_pose_;
   Eigen::Matrix<double, kMount, 1> iterate_mount_ = Eigen::Matrix<double, kMount, 1>::Zero();
   double* iterate_landmarks_;
   Batch batch_;
-  double* P_window_;  // window x window, both triangles
-  double* T_;         // P_window H^T
-  double* S_;         // innovation covariance, then its factor
+  double* HP_;  // the window's columns of H P
+  double* S_;   // innovation covariance, then its factor
   double* S_inverse_;
   double* innovation_;  // r + H xi at the last linearisation, then L^-1 of it
   double* weights_;     // S^-1 (r + H xi)
   double* error_window_;
   double* foreseen_;      // residual that solve() foresees at its own iterate
-  double* columns_;       // the window's columns of P_now, a row a state
+  double* columns_;       // the window's columns of P_now, a row a state, then one for each angle of the mount
   Index noise_rank_ = 0;  // columns of U N and U of the motion held back
   double* noise_left_;
   double* noise_right_;
-  double* W_;  // P H^T L^-T; the mount's rows of it behind those of the states
+  double* W_;  // P H^T of the batch, with commit() times L^-T; rows as those of columns_
   double* error_state_;
   double* shrunk_;  // what an update takes off the diagonal
   double* diagonal_;

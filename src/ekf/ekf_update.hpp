@@ -21,31 +21,18 @@ void Ekf<Pose>::open(const Index* slots, Index count, const Eigen::Matrix<double
   slot_count_ = count;
   mount_ = mount_noise != nullptr ? kMount : 0;
   window_ = kDof + mount_ + kDim * count;
+  iterating_ = false;
   iterate_pose_ = pose_;
   iterate_mount_.setZero();
   for (Index a = 0; a < count; ++a) {
     slots_[a] = slots[a];
     Eigen::Map<Point>(iterate_landmarks_ + kDim * a) = local(slots[a]);
   }
-  // The mount's angles are states for as long as the frame lasts, independent of all others before it.
-  gather(slots, count, P_window_, window_);
   if (mount_ != 0) {
-    const Index known = window_ - mount_;
-    for (Index c = known - 1; c >= 0; --c) {
-      double* from = P_window_ + c * window_;
-      double* to = P_window_ + (c < kDof ? c : c + mount_) * window_;
-      std::memmove(to + kDof + mount_, from + kDof, (known - kDof) * sizeof(double));
-      std::memmove(to, from, kDof * sizeof(double));
-      std::fill_n(to + kDof, mount_, 0.0);
-    }
-    for (Index c = 0; c < mount_; ++c) {
-      double* column = P_window_ + (kDof + c) * window_;
-      std::fill_n(column, window_, 0.0);
-      for (Index r = 0; r < mount_; ++r) column[kDof + r] = (*mount_noise)(r, c);
-    }
     mount_covariance_ = *mount_noise;
     for (Index c = 0; c < kMount; ++c) std::fill_n(mount_cross_ + c * ld_, states(), 0.0);
   }
+  gather_columns();
   std::fill_n(error_window_, window_, 0.0);
   batch_.clear();
 }
@@ -59,9 +46,16 @@ void Ekf<Pose>::add_mount_block(Index row, Index rows, const PointByMount& J_mou
 
 template <class Pose>
 void Ekf<Pose>::compute_innovation() {
-  const Index m = batch_.rows();
-  batch_.times_transposed(P_window_, window_, window_, T_, window_);
-  batch_.innovation_covariance(T_, window_, S_, m);
+  const Index m = batch_.rows(), n = states();
+  batch_.times_transposed(columns_, ld_, n + mount_, W_, ld_);
+  const auto take_rows = [&](Index row, Index count, Index column) {
+    for (Index j = 0; j < m; ++j)
+      for (Index k = 0; k < count; ++k) HP_[(column + k) * m + j] = W_[j * ld_ + row + k];
+  };
+  take_rows(0, kDof, 0);
+  take_rows(n, mount_, kDof);
+  for (Index a = 0; a < slot_count_; ++a) take_rows(state(slots_[a]), kDim, landmark_column(a));
+  batch_.innovation_covariance(HP_, m, S_, m);
   std::copy_n(batch_.residual(), m, innovation_);
 }
 
@@ -104,9 +98,7 @@ void Ekf<Pose>::solve() {
   const Index m = batch_.rows();
   std::copy_n(innovation_, m, weights_);
   solve_lower_transposed(S_, m, m, weights_);
-  std::fill_n(error_window_, window_, 0.0);
-  for (Index j = 0; j < m; ++j)
-    for (Index i = 0; i < window_; ++i) error_window_[i] += T_[j * window_ + i] * weights_[j];
+  for (Index c = 0; c < window_; ++c) error_window_[c] = dot(HP_ + c * m, weights_, m);
   batch_.add_product(-1.0, error_window_, foreseen_);
 }
 
@@ -123,6 +115,7 @@ void Ekf<Pose>::retract(const Tangent& error, Pose& pose) const {
 template <class Pose>
 void Ekf<Pose>::step() {
   const Tangent error = Eigen::Map<const Tangent>(error_window_);
+  iterating_ = true;
   iterate_pose_ = pose_;
   retract(error, iterate_pose_);
   for (Index i = 0; i < mount_; ++i) iterate_mount_(i) = error_window_[kDof + i];
@@ -155,12 +148,13 @@ void Ekf<Pose>::prepare_pending() {
   }
   for (Index slot = 0; slot < size_; ++slot) {
     const typename Rotation::Turn U = -Rotation::turn(local(slot));
-    const typename Rotation::Turn UN = U * N;
     for (Index t = 0; t < kTurn; ++t)
-      for (Index r = 0; r < kDim; ++r) {
-        noise_left_[t * ld_ + state(slot) + r] = UN(r, t);
-        noise_right_[t * ld_ + state(slot) + r] = U(r, t);
-      }
+      for (Index r = 0; r < kDim; ++r) noise_right_[t * ld_ + state(slot) + r] = U(r, t);
+  }
+  // Down whole columns: a product a landmark would wait for its own small matrices to leave the store buffer.
+  for (Index t = 0; t < kTurn; ++t) {
+    std::fill(noise_left_ + t * ld_ + kDof, noise_left_ + t * ld_ + states(), 0.0);
+    add_noise(noise_right_, N.col(t).data(), 1, states(), noise_left_ + t * ld_);
   }
 }
 
@@ -222,17 +216,29 @@ void Ekf<Pose>::gather_columns() {
   const Index n = states();
   prepare_pending();
   pending_pose_columns(columns_);
-  for (Index i = 0; i < mount_; ++i) std::fill_n(columns_ + (kDof + i) * ld_, n, 0.0);
-  // What stands left of a landmark's diagonal block lies along rows of P: a cache line a column. All landmarks of one
-  // column in turn keep to its few pages, and the line of some columns ahead is fetched meanwhile.
-  for (Index c = kDof; c < n; ++c) {
-    const double* column = P_ + c * ld_;
+  // The mount's angles are states for as long as the frame lasts, independent of all others before it; their rows stand
+  // behind those of the states.
+  for (Index i = 0; i < mount_; ++i) {
+    for (Index c = 0; c < window_; ++c) columns_[c * ld_ + n + i] = 0.0;
+    std::fill_n(columns_ + (kDof + i) * ld_, n, 0.0);
+    for (Index r = 0; r < mount_; ++r) columns_[(kDof + i) * ld_ + n + r] = mount_covariance_(r, i);
+  }
+  // What stands left of a landmark's diagonal block lies along rows of P: a cache line a column. All landmarks of a few
+  // columns in turn keep to their few pages, and the lines of those ahead are fetched meanwhile.
+  for (Index c = kDof; c < n; c += kAhead) {
+    const double* columns = P_ + c * ld_;
     for (Index a = 0; a < slot_count_; ++a) {
       const Index from = state(slots_[a]);
       if (c >= from) continue;
-      __builtin_prefetch(column + kAhead * ld_ + from);
       double* to = columns_ + landmark_column(a) * ld_ + c;
-      for (Index d = 0; d < kDim; ++d) to[d * ld_] = column[from + d];
+      if (c + kAhead > from) {
+        for (Index k = 0; c + k < from; ++k)
+          for (Index d = 0; d < kDim; ++d) to[d * ld_ + k] = columns[k * ld_ + from + d];
+        continue;
+      }
+      for (Index k = 0; k < kAhead; ++k) __builtin_prefetch(columns + (kAhead + k) * ld_ + from);
+      for (Index d = 0; d < kDim; ++d)
+        for (Index k = 0; k < kAhead; ++k) to[d * ld_ + k] = columns[k * ld_ + from + d];
     }
   }
   for (Index a = 0; a < slot_count_; ++a) {
@@ -253,12 +259,8 @@ template <class Pose>
 bool Ekf<Pose>::commit() {
   constexpr double kLeast = 1e-14;
   const Index n = states(), m = batch_.rows();
-  gather_columns();
-  batch_.times_transposed(columns_, ld_, n, W_, ld_);
-  for (Index j = 0; j < m; ++j)  // the mount's rows stand behind the states
-    for (Index i = 0; i < mount_; ++i) W_[j * ld_ + n + i] = T_[j * window_ + kDof + i];
-  // W = P H^T L^-T, the error xi = W L^-1 r, and what P_new = P - W W^T (Mars paper, eq. 13) takes off the diagonal,
-  // before anything is changed.
+  // P H^T of the last linearisation becomes W = P H^T L^-T; the error xi = W L^-1 r, and what P_new = P - W W^T (Mars
+  // paper, eq. 13) takes off the diagonal, before anything is changed.
   const RowSums sums{innovation_, shrunk_, error_state_};
   solve_right_transposed(S_, m, m, W_, ld_, n + mount_, scratch_, &sums);
 

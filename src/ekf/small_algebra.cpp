@@ -56,18 +56,56 @@ void solve_strip(const double* rows_of_L, Index m, double* strip) {
   if (j < m) solve_columns<1>(rows_of_L, m, j, strip);
 }
 
-// Right-looking, one column a time.
+// The first `rows` rows of m columns. A full strip needs no call of memmove a column.
+void copy_strip(const double* from, Index ld_from, double* to, Index ld_to, Index rows, Index m) {
+  if (rows < kRows) {
+    for (Index j = 0; j < m; ++j) std::copy_n(from + j * ld_from, rows, to + j * ld_to);
+    return;
+  }
+  for (Index j = 0; j < m; ++j, from += ld_from, to += ld_to)
+    for (int q = 0; q < 4; ++q) store(to + 4 * q, load(from + 4 * q));
+}
+
+// Sums over the columns of a strip, for its rows that begin at `first`.
+void sum_strip(const double* strip, Index m, const RowSums& sums, Index first, Index rows) {
+  Four squares[4] = {}, products[4] = {};
+  for (Index j = 0; j < m; ++j)
+    for (int q = 0; q < 4; ++q) {
+      const Four solved = load(strip + j * kRows + 4 * q);
+      squares[q] += solved * solved;
+      products[q] += solved * sums.y[j];
+    }
+  double out[2 * kRows];
+  for (int q = 0; q < 4; ++q) {
+    store(out + 4 * q, squares[q]);
+    store(out + kRows + 4 * q, products[q]);
+  }
+  std::copy_n(out, rows, sums.squares + first);
+  std::copy_n(out + kRows, rows, sums.products + first);
+}
+
+// Right-looking: kWidth columns are solved, then what follows them is updated by all of them in one pass.
 bool factor_small(double* S, Index ld, Index m) {
-  for (Index j = 0; j < m; ++j) {
-    double* column = S + j * ld;
-    const double pivot = column[j];
-    if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
-    const double inverse = 1.0 / std::sqrt(pivot);
-    for (Index i = j; i < m; ++i) column[i] *= inverse;
-    for (Index k = j + 1; k < m; ++k) {
-      const double factor = column[k];
+  constexpr Index kWidth = 4;
+  for (Index first = 0; first < m; first += kWidth) {
+    const Index last = std::min(first + kWidth, m);
+    for (Index j = first; j < last; ++j) {
+      double* column = S + j * ld;
+      const double pivot = column[j];
+      if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
+      const double inverse = 1.0 / std::sqrt(pivot);
+      for (Index i = j; i < m; ++i) column[i] *= inverse;
+      for (Index k = j + 1; k < last; ++k) {
+        const double factor = column[k];
+        double* target = S + k * ld;
+        for (Index i = k; i < m; ++i) target[i] -= factor * column[i];
+      }
+    }
+    const double *a = S + first * ld, *b = a + ld, *c = b + ld, *d = c + ld;
+    for (Index k = last; k < m; ++k) {
+      const double fa = a[k], fb = b[k], fc = c[k], fd = d[k];
       double* target = S + k * ld;
-      for (Index i = k; i < m; ++i) target[i] -= factor * column[i];
+      for (Index i = k; i < m; ++i) target[i] -= fa * a[i] + fb * b[i] + (fc * c[i] + fd * d[i]);
     }
   }
   return true;
@@ -94,6 +132,19 @@ bool cholesky(double* S, Index ld, Index m, double* workspace) {
   return true;
 }
 
+double dot(const double* x, const double* y, Index n) {
+  Four even{}, odd{};
+  Index i = 0;
+  for (; i + 8 <= n; i += 8) {
+    even += load(x + i) * load(y + i);
+    odd += load(x + i + 4) * load(y + i + 4);
+  }
+  double sum = 0.0;
+  for (Index k = i; k < n; ++k) sum += x[k] * y[k];
+  const Four all = even + odd;
+  return sum + ((all[0] + all[1]) + (all[2] + all[3]));
+}
+
 void solve_lower(const double* L, Index ld, Index m, double* x) {
   for (Index j = 0; j < m; ++j) {
     const double* column = L + j * ld;
@@ -105,9 +156,7 @@ void solve_lower(const double* L, Index ld, Index m, double* x) {
 void solve_lower_transposed(const double* L, Index ld, Index m, double* x) {
   for (Index j = m - 1; j >= 0; --j) {
     const double* column = L + j * ld;
-    double sum = x[j];
-    for (Index i = j + 1; i < m; ++i) sum -= column[i] * x[i];
-    x[j] = sum / column[j];
+    x[j] = (x[j] - dot(column + j + 1, x + j + 1, m - j - 1)) / column[j];
   }
 }
 
@@ -125,24 +174,12 @@ void solve_right_transposed(const double* L, Index ld, Index m, double* W, Index
   }
   for (Index first = 0; first < n; first += kRows) {
     const Index rows = std::min(kRows, n - first);
-    for (Index j = 0; j < m; ++j) {
-      const double* from = W + j * ldw + first;
-      double* to = strip + j * kRows;
-      std::fill(std::copy_n(from, rows, to), to + kRows, 0.0);
-    }
+    copy_strip(W + first, ldw, strip, kRows, rows, m);
+    if (rows < kRows)
+      for (Index j = 0; j < m; ++j) std::fill(strip + j * kRows + rows, strip + (j + 1) * kRows, 0.0);
     solve_strip(rows_of_L, m, strip);
-    for (Index j = 0; j < m; ++j) std::copy_n(strip + j * kRows, rows, W + j * ldw + first);
-    if (sums == nullptr) continue;
-    double squares[kRows] = {}, products[kRows] = {};
-    for (Index j = 0; j < m; ++j) {
-      const double* solved = strip + j * kRows;
-      for (Index r = 0; r < kRows; ++r) {
-        squares[r] += solved[r] * solved[r];
-        products[r] += solved[r] * sums->y[j];
-      }
-    }
-    std::copy_n(squares, rows, sums->squares + first);
-    std::copy_n(products, rows, sums->products + first);
+    copy_strip(strip, kRows, W + first, ldw, rows, m);
+    if (sums != nullptr) sum_strip(strip, m, *sums, first, rows);
   }
 }
 

@@ -15,6 +15,9 @@ using Index = std::ptrdiff_t;
 bool cholesky(double* S, Index ld, Index m, double* workspace = nullptr);
 std::size_t cholesky_workspace(Index m);
 
+// x^T y, in several sums at once: the compiler may not reorder one.
+double dot(const double* x, const double* y, Index n);
+
 // x <- L^-1 x and x <- L^-T x.
 void solve_lower(const double* L, Index ld, Index m, double* x);
 void solve_lower_transposed(const double* L, Index ld, Index m, double* x);
@@ -34,8 +37,8 @@ std::size_t solve_workspace(Index m);
 // Full symmetric inverse (both triangles) of L L^T into `inverse`, m x m.
 void inverse_from_cholesky(const double* L, Index ld, Index m, double* inverse, Index ld_inverse);
 
-// Takes `rows` (up to 3) rows and columns out of a batch whose full S^-1 (m x m) and u = S^-1 r are given; what belongs to
-// them is zero then. Block inversion: with S^-1 = [A B; B^T D], the inverse of S without D's rows is A - B D^-1 B^T.
+// Takes `rows` (up to 3) rows and columns out of a batch whose full S^-1 (m x m) and u = S^-1 r are given; what belongs
+// to them is zero then. Block inversion: with S^-1 = [A B; B^T D], the inverse of S without D's rows is A - B D^-1 B^T.
 // `workspace` holds rows (rows + m) doubles.
 void leave_out(double* S_inverse, Index m, Index row, Index rows, double* u, double* workspace);
 

@@ -51,9 +51,13 @@ CAIRN_INLINE Vector load(const double* from) {
   return v;
 }
 
-CAIRN_INLINE void store(double* to, Vector v) { std::memcpy(to, &v, sizeof v); }
+CAIRN_INLINE void store(double* to, Vector v) {
+  std::memcpy(to, &v, sizeof v);
+}
 
-constexpr Index round_up(Index value, Index step) { return (value + step - 1) / step * step; }
+constexpr Index round_up(Index value, Index step) {
+  return (value + step - 1) / step * step;
+}
 
 // A column of A or of B, from its first row, and the factor that it is packed with.
 struct Column {

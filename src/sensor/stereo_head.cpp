@@ -50,7 +50,7 @@ bool StereoHead::predict(const SE3& T_map_body, const Vector3& p_map, const Vect
   // Comparisons that a NaN fails.
   const double range = m_c.norm();
   if (!(range >= parameters_.near_range && std::isfinite(range))) return false;
-  const double horizontal = std::hypot(m_c.x(), m_c.y());
+  const double horizontal = m_c.head<2>().norm();
   const double elevation = std::atan2(m_c.z(), horizontal);
   if (!(std::abs(elevation) <= parameters_.max_elevation)) return false;
   out.z << range, std::atan2(m_c.y(), m_c.x()), elevation;

@@ -185,6 +185,7 @@ class Filter final : public Landmarks {
     Index observation;
     Index slot;
     Matrix3 noise;
+    Prediction prediction;  // at the estimate
   };
 
   // Numerical refusals are worth a line in the log.

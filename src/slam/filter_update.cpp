@@ -71,7 +71,7 @@ void Filter::sort_out(const Sensor& sensor, Index count) {
       match.landmark = observation.id;
       Prediction prediction;
       if (sensor.predict(ekf_.pose(), ekf_.landmark(slot), Vector2::Zero(), prediction))
-        candidates_[candidate_count_++] = {i, slot, noise_of(sensor, observation)};
+        candidates_[candidate_count_++] = {i, slot, noise_of(sensor, observation), prediction};
       else
         match.reason = Reason::no_image;
     } else {
@@ -106,8 +106,10 @@ bool Filter::linearise(const Sensor& sensor, double* residual_only) {
   if (residual_only == nullptr) ekf_.batch().clear();
   for (Index a = 0; a < candidate_count_; ++a) {
     const Candidate& candidate = candidates_[a];
-    Prediction prediction;
-    if (!sensor.predict(ekf_.iterate_pose(), ekf_.iterate_landmark(a), ekf_.iterate_mount(), prediction)) return false;
+    Prediction moved;
+    if (ekf_.iterating() && !sensor.predict(ekf_.iterate_pose(), ekf_.iterate_landmark(a), ekf_.iterate_mount(), moved))
+      return false;
+    const Prediction& prediction = ekf_.iterating() ? moved : candidate.prediction;
     const Vector3 residual = sensor.residual(Vector3(observations_[candidate.observation].z), prediction.z);
     double* target = residual_only != nullptr ? residual_only : ekf_.batch().residual();
     for (Index r = 0; r < rows; ++r) target[a * rows + r] = residual(r);
