@@ -34,6 +34,14 @@ class Batch {
     return add(noise_, noise_count_, noise_pool_, noise_used_, row, rows, row, rows);
   }
 
+  // Leaves the given blocks of `rows` rows, in rising order, which close up. None of the batch's reaches over two.
+  void keep(const Index* blocks, Index count, Index rows) {
+    for (Index k = 0; k < count; ++k) std::copy_n(residual_ + blocks[k] * rows, rows, residual_ + k * rows);
+    keep(blocks, count, rows, jacobian_, jacobian_count_);
+    keep(blocks, count, rows, noise_, noise_count_);
+    rows_ = count * rows;
+  }
+
   Index rows() const { return rows_; }
   double* residual() { return residual_; }
   const double* residual() const { return residual_; }
@@ -91,6 +99,18 @@ class Batch {
     Index row, rows, column, columns;
     double* value;
   };
+
+  static void keep(const Index* blocks, Index count, Index rows, Block* all, Index& all_count) {
+    Index kept = 0, k = 0;
+    for (Index b = 0; b < all_count; ++b) {
+      const Index number = all[b].row / rows;
+      while (k < count && blocks[k] < number) ++k;
+      if (k == count || blocks[k] != number) continue;
+      all[kept] = all[b];
+      all[kept++].row += (k - number) * rows;
+    }
+    all_count = kept;
+  }
 
   static double* add(Block* blocks, Index& count, double* pool, Index& used, Index row, Index rows, Index column,
                      Index columns) {

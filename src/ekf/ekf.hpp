@@ -101,7 +101,10 @@ class Ekf {
   void add_landmark_block(Index row, Index rows, const JLandmark& J_landmark, Index a, const PoseBlock& pose);
   void add_mount_block(Index row, Index rows, const PointByMount& J_mount);
 
-  void compute_innovation();                       // S of the batch
+  void compute_innovation();  // S of the batch
+  void form_innovation();     // the same once more, of a batch that has not changed
+  // Leaves these of the batch's blocks of `rows` rows, in rising order, and their S; the window stays.
+  void keep(const Index* blocks, Index count, Index rows);
   const double* innovation() const { return S_; }  // column-major, lower triangle, leading dimension rows()
   // Full S^-1, column-major, or null where S is not positive definite; only before factor().
   double* inverse_innovation();

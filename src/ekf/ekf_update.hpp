@@ -49,14 +49,37 @@ void Ekf<Pose>::compute_innovation() {
   const Index m = batch_.rows(), n = states();
   batch_.times_transposed(columns_, ld_, n + mount_, W_, ld_);
   const auto take_rows = [&](Index row, Index count, Index column) {
-    for (Index j = 0; j < m; ++j)
+    constexpr Index kAtOnce = 4;
+    Index j = 0;
+    for (; j + kAtOnce <= m; j += kAtOnce)
+      for (Index k = 0; k < count; ++k)
+        for (Index i = 0; i < kAtOnce; ++i) HP_[(column + k) * m + j + i] = W_[(j + i) * ld_ + row + k];
+    for (; j < m; ++j)
       for (Index k = 0; k < count; ++k) HP_[(column + k) * m + j] = W_[j * ld_ + row + k];
   };
   take_rows(0, kDof, 0);
   take_rows(n, mount_, kDof);
   for (Index a = 0; a < slot_count_; ++a) take_rows(state(slots_[a]), kDim, landmark_column(a));
+  form_innovation();
+}
+
+template <class Pose>
+void Ekf<Pose>::form_innovation() {
+  const Index m = batch_.rows();
   batch_.innovation_covariance(HP_, m, S_, m);
   std::copy_n(batch_.residual(), m, innovation_);
+}
+
+template <class Pose>
+void Ekf<Pose>::keep(const Index* blocks, Index count, Index rows) {
+  const Index before = batch_.rows(), m = count * rows, height = states() + mount_;
+  for (Index k = 0; k < count; ++k)
+    for (Index r = 0; r < rows && blocks[k] != k; ++r)
+      std::copy_n(W_ + (blocks[k] * rows + r) * ld_, height, W_ + (k * rows + r) * ld_);
+  for (Index c = 0; c < window_; ++c)
+    for (Index k = 0; k < count; ++k) std::copy_n(HP_ + c * before + blocks[k] * rows, rows, HP_ + c * m + k * rows);
+  batch_.keep(blocks, count, rows);
+  form_innovation();
 }
 
 template <class Pose>

@@ -117,7 +117,7 @@ Index gate_jointly(Ekf<Pose>& ekf, Index count, Index rows, double* u, Bound&& b
                    Refuse&& refuse) {
   if (!ekf.factor()) throw_not_definite();
   if (ekf.nis() <= bound(count * rows)) return count;
-  ekf.compute_innovation();  // the factor stands where it was
+  ekf.form_innovation();  // the factor stands where it was
   double* inverse = ekf.inverse_innovation();
   if (inverse == nullptr) throw_not_definite();
   const double distance = ekf.distance_by_inverse(u);

@@ -12,7 +12,8 @@ namespace {
 // Four doubles: one AVX2 register, two of SSE2. GCC's vectors keep the sums of a strip in registers, where a loop over
 // an array of them went through memory.
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
-constexpr Index kRows = 16;   // rows that the right solve takes at once, four registers
+constexpr int kFours = 3;            // registers for a column of a strip
+constexpr Index kRows = 4 * kFours;  // rows that the right solve takes at once
 constexpr Index kPanel = 48;  // columns of a blocked Cholesky factor
 
 Four load(const double* p) {
@@ -26,23 +27,22 @@ void store(double* p, Four value) {
 // `rows_of_L` is L by rows with the reciprocal of the diagonal.
 template <int count>
 void solve_columns(const double* rows_of_L, Index m, Index j, double* strip) {
-  Four sum[count][4];
+  Four sum[count][kFours];
   for (int c = 0; c < count; ++c)
-    for (int q = 0; q < 4; ++q) sum[c][q] = load(strip + (j + c) * kRows + 4 * q);
+    for (int q = 0; q < kFours; ++q) sum[c][q] = load(strip + (j + c) * kRows + 4 * q);
   for (Index i = 0; i < j; ++i) {
     const double* solved = strip + i * kRows;
-    const Four s0 = load(solved), s1 = load(solved + 4), s2 = load(solved + 8), s3 = load(solved + 12);
+    const Four s0 = load(solved), s1 = load(solved + 4), s2 = load(solved + 8);
     for (int c = 0; c < count; ++c) {
       const double factor = rows_of_L[(j + c) * m + i];
       sum[c][0] -= factor * s0;
       sum[c][1] -= factor * s1;
       sum[c][2] -= factor * s2;
-      sum[c][3] -= factor * s3;
     }
   }
   for (int c = 0; c < count; ++c) {
     const double* row = rows_of_L + (j + c) * m + j;
-    for (int q = 0; q < 4; ++q) {
+    for (int q = 0; q < kFours; ++q) {
       for (int before = 0; before < c; ++before) sum[c][q] -= row[before] * sum[before][q];
       sum[c][q] *= row[c];
       store(strip + (j + c) * kRows + 4 * q, sum[c][q]);
@@ -52,8 +52,8 @@ void solve_columns(const double* rows_of_L, Index m, Index j, double* strip) {
 
 void solve_strip(const double* rows_of_L, Index m, double* strip) {
   Index j = 0;
-  for (; j + 2 <= m; j += 2) solve_columns<2>(rows_of_L, m, j, strip);
-  if (j < m) solve_columns<1>(rows_of_L, m, j, strip);
+  for (; j + 4 <= m; j += 4) solve_columns<4>(rows_of_L, m, j, strip);
+  for (; j < m; ++j) solve_columns<1>(rows_of_L, m, j, strip);
 }
 
 // The first `rows` rows of m columns. A full strip needs no call of memmove a column.
@@ -63,20 +63,20 @@ void copy_strip(const double* from, Index ld_from, double* to, Index ld_to, Inde
     return;
   }
   for (Index j = 0; j < m; ++j, from += ld_from, to += ld_to)
-    for (int q = 0; q < 4; ++q) store(to + 4 * q, load(from + 4 * q));
+    for (int q = 0; q < kFours; ++q) store(to + 4 * q, load(from + 4 * q));
 }
 
 // Sums over the columns of a strip, for its rows that begin at `first`.
 void sum_strip(const double* strip, Index m, const RowSums& sums, Index first, Index rows) {
-  Four squares[4] = {}, products[4] = {};
+  Four squares[kFours] = {}, products[kFours] = {};
   for (Index j = 0; j < m; ++j)
-    for (int q = 0; q < 4; ++q) {
+    for (int q = 0; q < kFours; ++q) {
       const Four solved = load(strip + j * kRows + 4 * q);
       squares[q] += solved * solved;
       products[q] += solved * sums.y[j];
     }
   double out[2 * kRows];
-  for (int q = 0; q < 4; ++q) {
+  for (int q = 0; q < kFours; ++q) {
     store(out + 4 * q, squares[q]);
     store(out + kRows + 4 * q, products[q]);
   }

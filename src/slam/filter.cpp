@@ -24,6 +24,7 @@ Filter::Filter(Arena& arena, const FilterOptions& options)
       next_matches_(arena.take<Match>(options.max_observations)),
       candidates_(arena.take<Candidate>(options.max_observations)),
       window_slots_(arena.take<Index>(options.max_observations)),
+      kept_(arena.take<Index>(options.max_observations)),
       new_ones_(arena.take<Index>(options.max_observations)),
       residual_(arena.take<double>(3 * options.max_observations + 6)),
       thresholds_(arena.take<double>(3 * options.max_observations + 7)) {

@@ -186,6 +186,7 @@ class Filter final : public Landmarks {
     Index slot;
     Matrix3 noise;
     Prediction prediction;  // at the estimate
+    Index number;           // in the window
   };
 
   // Numerical refusals are worth a line in the log.
@@ -209,6 +210,7 @@ class Filter final : public Landmarks {
   bool linearise(const Sensor& sensor, double* residual_only);
   void open_candidates(const Sensor& sensor);
   void gate_each();
+  void keep(Index count, Index rows);
   void gate_batch(const Sensor& sensor);
   template <class Linearise>
   void iterate(int iterations, bool relative, Linearise&& linearise);
@@ -252,6 +254,7 @@ class Filter final : public Landmarks {
   Candidate* candidates_;
   Index candidate_count_ = 0;
   Index* window_slots_;
+  Index* kept_;
   Index* new_ones_;
   Index new_count_ = 0;
   double* residual_;

@@ -70,10 +70,12 @@ void Filter::sort_out(const Sensor& sensor, Index count) {
     if (slot != IdTable::kAbsent) {
       match.landmark = observation.id;
       Prediction prediction;
-      if (sensor.predict(ekf_.pose(), ekf_.landmark(slot), Vector2::Zero(), prediction))
-        candidates_[candidate_count_++] = {i, slot, noise_of(sensor, observation), prediction};
-      else
+      if (sensor.predict(ekf_.pose(), ekf_.landmark(slot), Vector2::Zero(), prediction)) {
+        candidates_[candidate_count_] = {i, slot, noise_of(sensor, observation), prediction, candidate_count_};
+        ++candidate_count_;
+      } else {
         match.reason = Reason::no_image;
+      }
     } else {
       Placement placement;
       if (sensor.place(ekf_.pose(), z, Vector2::Zero(), placement))
@@ -107,7 +109,8 @@ bool Filter::linearise(const Sensor& sensor, double* residual_only) {
   for (Index a = 0; a < candidate_count_; ++a) {
     const Candidate& candidate = candidates_[a];
     Prediction moved;
-    if (ekf_.iterating() && !sensor.predict(ekf_.iterate_pose(), ekf_.iterate_landmark(a), ekf_.iterate_mount(), moved))
+    if (ekf_.iterating() &&
+        !sensor.predict(ekf_.iterate_pose(), ekf_.iterate_landmark(candidate.number), ekf_.iterate_mount(), moved))
       return false;
     const Prediction& prediction = ekf_.iterating() ? moved : candidate.prediction;
     const Vector3 residual = sensor.residual(Vector3(observations_[candidate.observation].z), prediction.z);
@@ -118,7 +121,7 @@ bool Filter::linearise(const Sensor& sensor, double* residual_only) {
     const Index row = ekf_.batch().add_rows(rows);
     const auto pose = ekf_.add_pose_block(row, rows, prediction.J_z_pose, sensor.relative());
     if (mode == MountNoise::per_frame) ekf_.add_mount_block(row, rows, prediction.J_z_mount);
-    ekf_.add_landmark_block(row, rows, prediction.J_z_landmark, a, pose);
+    ekf_.add_landmark_block(row, rows, prediction.J_z_landmark, candidate.number, pose);
     Matrix3 noise = candidate.noise;
     if (mode == MountNoise::per_observation)
       noise += prediction.J_z_mount * sensor.mount_noise() * prediction.J_z_mount.transpose();
@@ -141,11 +144,19 @@ void Filter::gate_each() {
     match.threshold = gate_thresholds_[rows];
     if (match.distance < 0.0) throw_not_definite();
     if (match.distance <= match.threshold)
-      candidates_[kept++] = candidates_[a];
+      kept_[kept++] = a;
     else
       match.reason = Reason::gate;
   }
-  candidate_count_ = kept;
+  keep(kept, rows);
+}
+
+// Leaves the candidates that kept_ tells.
+void Filter::keep(Index count, Index rows) {
+  if (count == candidate_count_) return;
+  for (Index k = 0; k < count; ++k) candidates_[k] = candidates_[kept_[k]];
+  candidate_count_ = count;
+  ekf_.keep(kept_, count, rows);
 }
 
 // Chi-square gate of the batch: what does not fit with the rest goes.
@@ -165,9 +176,11 @@ void Filter::gate_batch(const Sensor& sensor) {
       });
   if (left == candidate_count_) return;
   say("update: the batch gate refused %td of %td observations", candidate_count_ - left, candidate_count_);
-  candidate_count_ =
-      std::remove_if(candidates_, candidates_ + candidate_count_, [](const Candidate& c) { return c.slot < 0; }) -
-      candidates_;
+  Index kept = 0;
+  for (Index a = 0; a < candidate_count_; ++a)
+    if (candidates_[a].slot >= 0) kept_[kept++] = a;
+  keep(kept, sensor.rows());
+  if (!ekf_.factor()) throw_not_definite();
 }
 
 void Filter::place_new(const Sensor& sensor) {
@@ -203,20 +216,9 @@ void Filter::take_in(int sensor_number, Index count) {
   const auto relinearise = [&](double* residual_only) { return linearise(sensor, residual_only); };
 
   open_candidates(sensor);
-  const Index seen = candidate_count_;
   fill_batch(ekf_, relinearise);
   gate_each();
-  if (candidate_count_ < seen) {
-    open_candidates(sensor);
-    fill_batch(ekf_, relinearise);
-  }
-  const Index passed = candidate_count_;
   gate_batch(sensor);
-  if (candidate_count_ < passed) {
-    open_candidates(sensor);
-    fill_batch(ekf_, relinearise);
-    if (!ekf_.factor()) throw_not_definite();
-  }
   if (candidate_count_ > 0) iterate(options_.iterations, sensor.relative(), relinearise);
   for (Index a = 0; a < candidate_count_; ++a) {
     next_matches_[candidates_[a].observation].decision = Decision::matched;
