@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "map/elimination_front.hpp"
+#include "map/packed.hpp"
 
 namespace cairn {
 namespace {
@@ -142,20 +143,6 @@ class Solver {
   EliminationTree::System& system_;
 };
 
-// y -= U d, for the packed lower triangle U.
-void subtract_product(const std::vector<double>& U, const Eigen::VectorXd& d, Eigen::VectorXd& y) {
-  const double* column = U.data();
-  const Index n = d.size();
-  for (Index c = 0; c < n; column += n - c, ++c) {
-    double sum = column[0] * d(c);
-    for (Index r = c + 1; r < n; ++r) {
-      y(r) -= column[r - c] * d(c);
-      sum += column[r - c] * d(r);
-    }
-    y(c) -= sum;
-  }
-}
-
 Matrix chosen(const Matrix& covariance, const std::vector<Index>& map) {
   const auto n = static_cast<Index>(map.size());
   Matrix part(n, n);
@@ -188,6 +175,14 @@ void invert(const Front& front, const Matrix& boundary, TouchIterator begin, Tou
     invert(child, chosen(covariance, state_map(child.boundary, front)), halves.bounds[side], halves.bounds[side + 1],
            visitor);
   }
+}
+
+// b^T H^-1 b / 2, front by front.
+double fall(const Pass& pass) {
+  double sum = 0.5 * pass.y.squaredNorm();
+  for (const auto& child : pass.child)
+    if (child != nullptr) sum += fall(*child);
+  return sum;
 }
 
 bool by_key(const Touch& a, const Touch& b) {
@@ -327,7 +322,7 @@ void EliminationTree::keep_rest(const FrontPointer& front, Eigen::VectorXd motio
   if (y.isZero(0.0)) y.resize(0);
   if (motion.size() == 0 && y.size() == 0) return;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(front->b);
-  if (motion.size() > 0) subtract_product(front->complement, motion, force);
+  if (motion.size() > 0) add_packed_product(front->complement.data(), front->b, -1.0, motion.data(), force.data());
   if (y.size() > 0) force.noalias() -= boundary_block(*front) * y;
   rests_[{front->key, front->bit}] =
       std::make_shared<const Rest>(Rest{front, std::move(motion), std::move(y), std::move(force)});
@@ -341,14 +336,15 @@ EliminationTree::Rest EliminationTree::take_rest(const Front& front) {
   return rest;
 }
 
-void EliminationTree::relax(std::vector<Touch> touches, Relaxation& system) {
-  if (crown_ == nullptr) return;
+double EliminationTree::relax(std::vector<Touch> touches, Relaxation& system) {
+  if (crown_ == nullptr) return 0.0;
   std::stable_sort(touches.begin(), touches.end(), by_key);
   Relaxer relaxer(*this, system);
   relaxer.forget(*crown_, touches.begin(), touches.end());
   relaxer.gather_rests();
   const auto pass = relaxer.forward(*crown_, touches.begin(), touches.end());
   relaxer.backward(*crown_, pass->y, pass.get(), touches.begin(), touches.end(), Eigen::VectorXd(0), true);
+  return fall(*pass);
 }
 
 void EliminationTree::settle(const Changes& changes, Relaxation& system) {

@@ -118,7 +118,8 @@ class EliminationTree {
     // All of the leaf's variables stand at their new values now.
     virtual void visit(std::uint32_t leaf) = 0;
   };
-  void relax(std::vector<Touch> touches, Relaxation& system);
+  // Returns by how much the cost falls if it is quadratic.
+  double relax(std::vector<Touch> touches, Relaxation& system);
   // Hands down what is kept on the way to the leaves that are about to change; before update().
   void settle(const Changes& changes, Relaxation& system);
 

@@ -3,9 +3,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
+#include "ekf/small_algebra.hpp"
+
 namespace cairn {
+
+// y += factor A x, for the n x n matrix A packed as below.
+inline void add_packed_product(const double* A, Index n, double factor, const double* x, double* y) {
+  for (Index c = 0; c < n; A += n - c, ++c) {
+    const double f = factor * x[c];
+    for (Index r = c; r < n; ++r) y[r] += A[r - c] * f;
+    y[c] += factor * dot(A + 1, x + c + 1, n - c - 1);
+  }
+}
 
 class Packed {
  public:
@@ -33,16 +45,7 @@ class Packed {
   // y = A x
   void times(const double* x, double* y) const {
     std::fill_n(y, size_, 0.0);
-    for (Eigen::Index c = 0; c < size_; ++c) {
-      const double* A = column(c);
-      const double factor = x[c];
-      double sum = A[c] * factor;
-      for (Eigen::Index r = c + 1; r < size_; ++r) {
-        y[r] += A[r] * factor;
-        sum += A[r] * x[r];
-      }
-      y[c] += sum;
-    }
+    add_packed_product(values_.data(), size_, 1.0, x, y);
   }
 
   std::size_t memory_bytes() const { return sizeof(double) * values_.capacity(); }

@@ -201,10 +201,10 @@ void SparseMap::place_private(Number number) {
   const FactorValues at = values(leaf);
   const Eigen::VectorXd residual = leaf.factor->residual(at);
   const Eigen::VectorXd weighted = leaf.factor->weighted(residual);
+  const Eigen::Matrix3Xd placed = leaf.factor->place_private(at, residual, weighted);
   for (std::size_t i = 0; i < leaf.landmarks.size(); ++i) {
     const Number landmark = leaf.landmarks[i];
-    if (landmark == kNone || shared(landmark)) continue;
-    landmarks_[landmark].position = leaf.factor->place_private(static_cast<Index>(i), at, residual, weighted);
+    if (landmark != kNone && !shared(landmark)) landmarks_[landmark].position = placed.col(static_cast<Index>(i));
   }
 }
 

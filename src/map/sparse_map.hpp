@@ -122,7 +122,6 @@ class SparseMap final : public GlobalMap, private LeafSource {
   Before save_step(const Step& step, Undo& undo);
   double take_step(const Step& step, double factor, const Before& from);
   void take_back(const Step& step, Before& from);
-  void linearise_stale(Undo& undo, JoinReport& report);
   FixReport fix_base(const AbsoluteFix& fix, double threshold, Undo& undo);
   void refresh_base_covariance();
   void optimise(Undo& undo, JoinReport& report);

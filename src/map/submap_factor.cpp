@@ -207,17 +207,21 @@ Matrix3 SubmapFactor::landmark_information(Index i, const SO3& base) const {
   return R * block * R.transpose();
 }
 
-Vector3 SubmapFactor::place_private(Index landmark, const FactorValues& values, const Vector& xi,
-                                    const Vector& weight) const {
+Eigen::Matrix3Xd SubmapFactor::place_private(const FactorValues& values, const Vector& xi, const Vector& weight) const {
   const std::vector<Index> chosen = states();
-  Vector3 error = Vector3::Zero();
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-    for (Index d = 0; d < 3; ++d)
-      error(d) += data_->covariance(6 + 3 * landmark + d, chosen[k]) * weight(static_cast<Index>(k));
-  const Vector3& estimate = data_->landmarks[landmark];
-  if (data_->error == ErrorKind::standard) return values.base * Vector3(estimate + error);
-  const Vector3 turn = xi.segment<3>(3);
-  return values.base * Vector3(SO3::exp(turn) * estimate + SO3::left_jacobian(turn) * error);
+  Vector weights = Vector::Zero(data_->covariance.size()), errors(weights.size());
+  for (std::size_t k = 0; k < chosen.size(); ++k) weights(chosen[k]) = weight(static_cast<Index>(k));
+  data_->covariance.times(weights.data(), errors.data());
+  Matrix3 R = Matrix3::Identity(), V = R;
+  if (data_->error != ErrorKind::standard) {
+    R = SO3::exp(xi.segment<3>(3)).matrix();
+    V = SO3::left_jacobian(xi.segment<3>(3));
+  }
+  const Matrix3 base = values.base.rotation().matrix();
+  Eigen::Matrix3Xd positions(3, static_cast<Index>(data_->landmarks.size()));
+  for (Index i = 0; i < positions.cols(); ++i)
+    positions.col(i) = values.base.translation() + base * (R * data_->landmarks[i] + V * errors.segment<3>(6 + 3 * i));
+  return positions;
 }
 
 // xi_l = K xi + w with K = Sigma_ls Sigma_ss^-1, and xi = J e. In the frame of the base y = y_hat + xi_l + G(y) xi_R
@@ -238,9 +242,10 @@ void SubmapFactor::express_private(const std::vector<Index>& landmarks, const Fa
   W = data_->covariance.block(rows_of, rows_of);
   W -= K * cross.transpose();
   const Matrix3 R = values.base.rotation().matrix();
+  const Eigen::Matrix3Xd placed = place_private(values, xi, weight);
   std::vector<Vector3> arms;
   for (Index a = 0; a < n; ++a) {
-    arms.push_back(place_private(landmarks[a], values, xi, weight) - values.base.translation());
+    arms.push_back(placed.col(landmarks[a]) - values.base.translation());
     if (data_->error == ErrorKind::invariant) K.block<3, 3>(3 * a, 3) += SO3::turn(R.transpose() * arms[a]);
   }
   A = K * dense_jacobian(values);

@@ -61,9 +61,8 @@ class SubmapFactor {
   // Block of the information of a single shared landmark, in map axes.
   Matrix3 landmark_information(Eigen::Index i, const SO3& base) const;
 
-  // A private landmark where it leaves no residual of its own, in the map frame.
-  Vector3 place_private(Eigen::Index landmark, const FactorValues& values, const Vector& residual,
-                        const Vector& weighted) const;
+  // Where each of the submap's landmarks leaves no residual of its own, a column each, in the map frame.
+  Eigen::Matrix3Xd place_private(const FactorValues& values, const Vector& residual, const Vector& weighted) const;
   // Landmarks of the submap by their number, as e = A [base; end; shared] + w with ordinary errors in map axes, w of
   // covariance W: joint of all that are asked for. Shared landmarks are not to be asked for.
   void express_private(const std::vector<Eigen::Index>& landmarks, const FactorValues& values, Matrix& A,
