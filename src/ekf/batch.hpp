@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstring>
 
 #include "core/arena.hpp"
 #include "ekf/small_algebra.hpp"
@@ -36,7 +37,8 @@ class Batch {
 
   // Leaves the given blocks of `rows` rows, in rising order, which close up. None of the batch's reaches over two.
   void keep(const Index* blocks, Index count, Index rows) {
-    for (Index k = 0; k < count; ++k) std::copy_n(residual_ + blocks[k] * rows, rows, residual_ + k * rows);
+    for (Index k = 0; k < count; ++k)
+      std::memmove(residual_ + k * rows, residual_ + blocks[k] * rows, rows * sizeof(double));
     keep(blocks, count, rows, jacobian_, jacobian_count_);
     keep(blocks, count, rows, noise_, noise_count_);
     rows_ = count * rows;

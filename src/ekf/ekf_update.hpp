@@ -77,7 +77,8 @@ void Ekf<Pose>::keep(const Index* blocks, Index count, Index rows) {
     for (Index r = 0; r < rows && blocks[k] != k; ++r)
       std::copy_n(W_ + (blocks[k] * rows + r) * ld_, height, W_ + (k * rows + r) * ld_);
   for (Index c = 0; c < window_; ++c)
-    for (Index k = 0; k < count; ++k) std::copy_n(HP_ + c * before + blocks[k] * rows, rows, HP_ + c * m + k * rows);
+    for (Index k = 0; k < count; ++k)
+      std::memmove(HP_ + c * m + k * rows, HP_ + c * before + blocks[k] * rows, rows * sizeof(double));
   batch_.keep(blocks, count, rows);
   form_innovation();
 }

@@ -14,7 +14,7 @@ namespace {
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 constexpr int kFours = 3;            // registers for a column of a strip
 constexpr Index kRows = 4 * kFours;  // rows that the right solve takes at once
-constexpr Index kPanel = 48;  // columns of a blocked Cholesky factor
+constexpr Index kPanel = 48;         // columns of a blocked Cholesky factor
 
 Four load(const double* p) {
   return *reinterpret_cast<const Four*>(p);
@@ -101,6 +101,7 @@ bool factor_small(double* S, Index ld, Index m) {
         for (Index i = k; i < m; ++i) target[i] -= factor * column[i];
       }
     }
+    if (last == m) break;
     const double *a = S + first * ld, *b = a + ld, *c = b + ld, *d = c + ld;
     for (Index k = last; k < m; ++k) {
       const double fa = a[k], fb = b[k], fc = c[k], fd = d[k];
