@@ -9,7 +9,6 @@ namespace cairn {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kLogTwo = 0.693147180559945309417;
 
 // std::lgamma writes the global `signgam`, which is a data race; Stirling's series with a shift is as exact here.
 double log_gamma(double a) {
@@ -21,6 +20,11 @@ double log_gamma(double a) {
   return shift + (a - 0.5) * std::log(a) - a + 0.91893853320467274178 + series;
 }
 
+// x^a e^-x / Gamma(a)
+double gamma_factor(double a, double x) {
+  return std::exp(a * std::log(x) - x - log_gamma(a));
+}
+
 // Regularised lower incomplete gamma function P(a, x) by its power series (Abramowitz and Stegun 6.5.29), for x < a
 // + 1.
 double gamma_series(double a, double x) {
@@ -30,7 +34,7 @@ double gamma_series(double a, double x) {
     term *= x / n;
     sum += term;
   }
-  return sum * std::exp(a * std::log(x) - x - log_gamma(a));
+  return sum * gamma_factor(a, x);
 }
 
 // Its complement Q(a, x) by the continued fraction (Abramowitz and Stegun 6.5.31), modified Lentz, for x >= a + 1.
@@ -52,7 +56,7 @@ double gamma_fraction(double a, double x) {
     h *= factor;
     if (std::abs(factor - 1.0) <= 4.0 * kEpsilon) break;
   }
-  return h * std::exp(a * std::log(x) - x - log_gamma(a));
+  return h * gamma_factor(a, x);
 }
 
 // P(X <= x) - probability, from whichever tail is the smaller: no digits are lost near 1.
@@ -80,8 +84,7 @@ double chi_square_quantile(double dof, double probability) {
   for (int i = 0; i < 200; ++i) {
     const double off = excess(dof, x, probability);
     (off < 0.0 ? lower : upper) = x;
-    const double density =
-        std::exp((0.5 * dof - 1.0) * std::log(x) - 0.5 * x - 0.5 * dof * kLogTwo - log_gamma(0.5 * dof));
+    const double density = gamma_factor(0.5 * dof, 0.5 * x) / x;
     double next = x - off / density;
     if (!(next > lower && next < upper)) next = 0.5 * (lower + upper);
     if (std::abs(next - x) <= kEpsilon * x || next <= lower || next >= upper) return next;

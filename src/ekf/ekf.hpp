@@ -101,8 +101,8 @@ class Ekf {
   void add_landmark_block(Index row, Index rows, const JLandmark& J_landmark, Index a, const PoseBlock& pose);
   void add_mount_block(Index row, Index rows, const PointByMount& J_mount);
 
-  void compute_innovation();  // S of the batch
-  void form_innovation();     // the same once more, of a batch that has not changed
+  void compute_innovation();  // H P and S of the batch
+  void form_innovation();     // S once more, from the H P that stands
   // Leaves these of the batch's blocks of `rows` rows, in rising order, and their S; the window stays.
   void keep(const Index* blocks, Index count, Index rows);
   const double* innovation() const { return S_; }  // column-major, lower triangle, leading dimension rows()

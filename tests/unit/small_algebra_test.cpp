@@ -119,7 +119,7 @@ TEST_CASE("small algebra: solves with the factor and its transpose") {
 TEST_CASE("small algebra: the right solve, and the sums that it gives besides") {
   Random random(4);
   for (Index m : {1, 2, 3, 6, 15, 36, 49})
-    for (Index n : {1, 3, 15, 16, 17, 31, 32, 50, 121}) {
+    for (Index n : {1, 3, 11, 12, 13, 15, 16, 17, 24, 25, 31, 32, 50, 121}) {
       CAPTURE(m);
       CAPTURE(n);
       const Dynamic L = random_definite(random, m).llt().matrixL();
@@ -146,6 +146,15 @@ TEST_CASE("small algebra: the right solve, and the sums that it gives besides") 
       CHECK(squares[n] == -7.25);
       CHECK(products[n] == -7.25);
     }
+}
+
+TEST_CASE("small algebra: the inner product, whatever the length") {
+  Random random(6);
+  for (Index n = 0; n < 40; ++n) {
+    CAPTURE(n);
+    const DynamicVector x = random_matrix(random, n + 1, 1), y = random_matrix(random, n + 1, 1);  // the last is beyond
+    CHECK(std::abs(dot(x.data(), y.data(), n) - x.head(n).dot(y.head(n))) <= 1e-14 * x.norm() * y.norm());
+  }
 }
 
 TEST_CASE("small algebra: the full inverse from the factor") {
