@@ -10,6 +10,7 @@ struct EliminationTree::Front {
   FrontPointer child[2];  // none: a leaf
   TreeKey key;            // of some leaf below
   int bit = TreeKey::kBits;
+  bool absolute = false;             // whether a leaf below is
   std::vector<Variable> eliminated;  // in the order of elimination
   std::vector<Variable> boundary;    // ascending
   std::vector<std::int32_t> held;    // leaves below that hold a variable of the boundary

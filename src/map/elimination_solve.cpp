@@ -195,6 +195,10 @@ class EliminationTree::Relaxer {
  public:
   using Vector = Eigen::VectorXd;
 
+  // How much of what may rest may remain of a motion that is carried on: nearly all parts of a map have such remainders
+  // then, and what they do to second order adds up.
+  static constexpr double kStraight = 0.1;
+
   Relaxer(EliminationTree& tree, Relaxation& system) : tree_(tree), system_(system) {}
 
   // Forces that rest at fronts which are touched are counted anew.
@@ -284,7 +288,19 @@ class EliminationTree::Relaxer {
       if (rest.motion.size() > 0) motion += rest.motion;
       const Pass* below = pass != nullptr ? pass->child[side].get() : nullptr;
       if (below != nullptr) rest.y = below->y;
-      if (far ? (below != nullptr && below->stirs) || matters(child->boundary, motion) : touched) {
+      const bool stirs = below != nullptr && below->stirs;
+      bool down = far ? stirs || matters(child->boundary, motion) : touched;
+      if (far && down && !stirs && !child->absolute) {
+        Vector remainder = motion;
+        const RigidMotion rigid = system_.take_rigid(child->boundary, remainder);
+        if (!matters(child->boundary, remainder / kStraight)) {
+          carry(*child, rigid);
+          tree_.carried_.push_back({front.key, front.bit});
+          motion.swap(remainder);
+          down = false;
+        }
+      }
+      if (down) {
         backward(*child, far ? rest.y : Vector(), below, halves.bounds[side], halves.bounds[side + 1], motion, far);
       } else {
         tree_.keep_rest(child, std::move(motion), std::move(rest.y));
@@ -294,6 +310,11 @@ class EliminationTree::Relaxer {
   }
 
  private:
+  void carry(const Front& front, const RigidMotion& motion) {
+    if (front.leaf()) return system_.carry_leaf(front.key.leaf, motion);
+    for (const Variable v : front.eliminated) system_.carry(v, motion);
+    for (const FrontPointer& child : front.child) carry(*child, motion);
+  }
   void keep_below(const Front& front, const Pass& pass) {
     for (int side = 0; side < 2; ++side) {
       if (pass.child[side] == nullptr) continue;
@@ -338,6 +359,8 @@ EliminationTree::Rest EliminationTree::take_rest(const Front& front) {
 
 double EliminationTree::relax(std::vector<Touch> touches, Relaxation& system) {
   if (crown_ == nullptr) return 0.0;
+  touches.insert(touches.end(), carried_.begin(), carried_.end());
+  carried_.clear();
   std::stable_sort(touches.begin(), touches.end(), by_key);
   Relaxer relaxer(*this, system);
   relaxer.forget(*crown_, touches.begin(), touches.end());

@@ -137,6 +137,7 @@ class Builder {
     front->boundary = source_.variables(key.leaf);
     front->held.assign(front->boundary.size(), 1);
     front->b = dimension(front->boundary);
+    front->absolute = source_.absolute(key.leaf);
     return front;
   }
 
@@ -167,7 +168,10 @@ class Builder {
     auto front = std::make_shared<Front>();
     front->bit = bit;
     front->key = key;
-    for (int i = 0; i < children; ++i) front->child[i] = child[i];
+    for (int i = 0; i < children; ++i) {
+      front->child[i] = child[i];
+      front->absolute = front->absolute || child[i]->absolute;
+    }
     sort_variables(*front, children);
     const Index e = front->e = dimension(front->eliminated), b = front->b = dimension(front->boundary), n = e + b;
     matrix_.assign(static_cast<std::size_t>(n * n), 0.0);

@@ -65,6 +65,8 @@ class LeafSource {
   virtual const std::vector<Variable>& variables(std::uint32_t leaf) const = 0;
   // Lower triangle of its information, in the order of its variables; H comes zeroed.
   virtual void information(std::uint32_t leaf, double* H, Index ld) const = 0;
+  // Whether it tells where its variables stand, not only how they stand to each other.
+  virtual bool absolute(std::uint32_t leaf) const = 0;
 };
 
 class EliminationTree {
@@ -110,11 +112,22 @@ class EliminationTree {
   // rest there, and what both exert on the boundary is counted in from then on, until they have added up to something.
   // So the parts of a map that a step only shifts a little cost nothing, and yet no force is ever out of balance. (One
   // that is forgotten is small, but has its counterpart elsewhere: alone it bends a long chain of submaps by metres.)
+  // Where the boundary moves far, but almost as a rigid whole, all below is carried along, and what remains of the
+  // motion rests: no force among leaves that are carried changes, so that none of them is visited either.
   // To be touched: every leaf that was evaluated since the last step, and every one that a change named since.
+  struct RigidMotion {  // a point p goes by move + turn x (p - centre), to first order
+    Vector3 centre, move, turn;
+  };
   class Relaxation : public System {
    public:
     // Whether a motion of this variable is worth handing down.
     virtual bool matters(Variable v, const double* x) const = 0;
+    // The rigid motion nearest to that of some variables, which is left with what remains of it.
+    virtual RigidMotion take_rigid(const std::vector<Variable>& variables, Eigen::VectorXd& motion) const = 0;
+    // A variable goes along with a rigid motion.
+    virtual void carry(Variable v, const RigidMotion& motion) = 0;
+    // All of the leaf's variables do, or rest; whatever hangs on the leaf alone has to go along.
+    virtual void carry_leaf(std::uint32_t leaf, const RigidMotion& motion) = 0;
     // All of the leaf's variables stand at their new values now.
     virtual void visit(std::uint32_t leaf) = 0;
   };
@@ -150,6 +163,9 @@ class EliminationTree {
   FrontPointer crown_;  // above the trie: eliminates what is left
   // By key and bit: sums must not depend on where fronts lie in memory.
   std::map<std::pair<TreeKey, int>, std::shared_ptr<const Rest>> rests_;
+  // Fronts with a child that was carried in the last step. The factor is of older linearisation points, and would have
+  // the rigid motion raise a force that does not exist: the next step counts these fronts' forces anew.
+  std::vector<Touch> carried_;
   std::vector<std::int32_t> degree_;
   std::vector<std::int16_t> eliminated_at_;  // bit of the front that eliminates a variable; kNever
 };

@@ -14,6 +14,7 @@ namespace cairn {
 struct JoinReport {
   std::size_t fused = 0, fresh = 0, refused = 0;
   std::size_t relinearised = 0, refactored = 0;
+  std::size_t carried = 0;  // sparse: submaps that moved along with others, unvisited; summed over the solutions
   int iterations = 0;
   std::size_t rows = 0;  // of the joint test of the fused landmarks
   double distance = 0.0, threshold = 0.0;

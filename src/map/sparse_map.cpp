@@ -178,9 +178,14 @@ void SparseMap::evaluate(Number number) {
     leaf.gradient.segment<6>(leaf.order[0]) += prior_jacobian().transpose() * weighted;
   }
   const auto fixes = fixes_.find(number + 1);
-  if (fixes == fixes_.end()) return;
-  const SE3& T = bases_[number + 1];
-  for (const AbsoluteFix& fix : fixes->second) {
+  if (fixes != fixes_.end()) add_fixes(leaf, fixes->second);
+  leaf.turned = SO3();
+}
+
+// Of the leaf's end, to the gradient in map axes.
+void SparseMap::add_fixes(Leaf& leaf, const std::vector<AbsoluteFix>& fixes) const {
+  const SE3& T = bases_[static_cast<std::size_t>(&leaf - leaves_.data()) + 1];
+  for (const AbsoluteFix& fix : fixes) {
     const int rows = fix.rows();
     const Eigen::VectorXd r = fix.residual(T).head(rows);
     const Eigen::VectorXd weighted = fix.covariance().topLeftCorner(rows, rows).ldlt().solve(r);
@@ -250,6 +255,8 @@ void SparseMap::roll_back(Undo& undo) noexcept {
   }
   for (const auto& [landmark, position] : undo.positions) landmarks_[landmark].position = position;
   for (const auto& [base, pose] : undo.bases) bases_[base] = pose;
+  for (auto turned = undo.turned.rbegin(); turned != undo.turned.rend(); ++turned)
+    leaves_[turned->first].turned = turned->second;
   for (auto& [number, leaf] : undo.leaves) leaves_[number] = std::move(leaf);
   for (Number landmark = undo.landmarks; landmark < landmarks_.size(); ++landmark) {
     ids_.erase(landmarks_[landmark].id);
@@ -433,6 +440,11 @@ void SparseMap::set_scales(const Submap& submap) {
   turn_scale_ = std::min(turn_scale_, *median / extent);
 }
 
+// What the leaf's factor exerts on its i-th shared landmark, in map axes.
+Vector3 SparseMap::force_on(const Leaf& leaf, Index i) const {
+  return leaf.turned * Vector3(leaf.gradient.segment<3>(leaf.order[12 + 3 * i]));
+}
+
 // Whether the fused landmarks' estimates contradict each other, jointly or one by one; the latter judged from below: a
 // landmark's share of S^-1 nu is the force that the new submap exerts on it, and the covariance of its nu, given all
 // other states, is the sum of the inverses of what the new submap and the old ones know of it.
@@ -453,7 +465,7 @@ bool SparseMap::suspicious(Number number, const JoinReport& report) const {
           old += leaves_[other].factor->landmark_information(static_cast<Index>(j), bases_[other].rotation());
     }
     const Matrix3 fresh = leaf.factor->landmark_information(i, bases_[number].rotation());
-    const Vector3 force = leaf.gradient.segment<3>(leaf.order[12 + 3 * i]);
+    const Vector3 force = force_on(leaf, i);
     if (force.dot((fresh.inverse() + old.inverse()) * force) > bound) return true;
   }
   return false;

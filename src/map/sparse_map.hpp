@@ -76,7 +76,8 @@ class SparseMap final : public GlobalMap, private LeafSource {
     std::vector<Vector3> landmarks_then;
     std::vector<SO3> axes_then;
     double cost = 0.0;
-    Eigen::VectorXd gradient;  // in the order of `variables`
+    Eigen::VectorXd gradient;  // in the order of `variables`, in map axes when it was evaluated
+    SO3 turned;                // by what it was carried along with others since
     Number saved = 0;
   };
   struct Undo;
@@ -92,15 +93,22 @@ class SparseMap final : public GlobalMap, private LeafSource {
   // LeafSource
   const std::vector<Variable>& variables(std::uint32_t leaf) const override { return leaves_[leaf].variables; }
   void information(std::uint32_t leaf, double* H, Index ld) const override;
+  bool absolute(std::uint32_t leaf) const override { return leaf == 0 || fixes_.count(leaf + 1) != 0; }
 
   bool shared(Number landmark) const { return landmarks_[landmark].submaps.size() > 1; }
   FactorValues values(const Leaf& leaf) const;
   const SO3& axes(Variable v) const;
+  const Vector3& place_of(Variable v) const {
+    const auto number = static_cast<Number>(v >> 1);
+    return is_landmark(v) ? landmarks_[number].position : bases_[number].translation();
+  }
   void to_map_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& covariance) const;
   void note_linearisation(Number leaf);
   double strain(Number leaf) const;
   void shape(Leaf& leaf, Number number) const;
   void evaluate(Number leaf);
+  void add_fixes(Leaf& leaf, const std::vector<AbsoluteFix>& fixes) const;
+  Vector3 force_on(const Leaf& leaf, Index shared_landmark) const;
   void place_private(Number leaf);
   template <class Visit>
   void for_leaves_of(Variable v, Visit&& visit) const;
@@ -118,7 +126,7 @@ class SparseMap final : public GlobalMap, private LeafSource {
   Number take_in(const Submap& submap, const std::vector<char>& left_out, Undo& undo, JoinReport& report);
   void set_scales(const Submap& submap);
   void refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report);
-  void place(const std::vector<StepEntry>& entries, double factor, const Before& from);
+  void place(const Step& step, double factor, const Before& from);
   Before save_step(const Step& step, Undo& undo);
   double take_step(const Step& step, double factor, const Before& from);
   void take_back(const Step& step, Before& from);

@@ -186,7 +186,7 @@ void SparseMap::find_worst(Number offset, MergeReport& report, const SparseMap& 
       for (Index i = 0; i < leaf.factor->shared_count(); ++i) {
         if (leaf.landmarks[leaf.factor->shared()[i]] != landmark) continue;
         information[number >= offset] += leaf.factor->landmark_information(i, bases_[number].rotation());
-        if (number >= offset) force += leaf.gradient.segment<3>(leaf.order[12 + 3 * i]);
+        if (number >= offset) force += force_on(leaf, i);
       }
     }
     const double distance = force.dot((information[0].inverse() + information[1].inverse()) * force);

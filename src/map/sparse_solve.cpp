@@ -2,6 +2,7 @@
 // Damped Gauss-Newton on the sparse map's factor. The factor may be of older linearisation points; the gradient never
 // is, so that what the steps converge to is the minimum.
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <numeric>
 
@@ -24,14 +25,14 @@ void SparseMap::for_leaves_of(Variable v, Visit&& visit) const {
 
 // Adds the descent in the variable's axes.
 void SparseMap::gradient_of(Variable v, double* b) const {
-  Vector6 sum = Vector6::Zero();
+  const SO3 own = axes(v).inverse();
   for_leaves_of(v, [&](Number number) {
     const Leaf& leaf = leaves_[number];
     const auto at = std::lower_bound(leaf.variables.begin(), leaf.variables.end(), v) - leaf.variables.begin();
-    for (Index d = 0; d < dimension(v); ++d) sum(d) -= leaf.gradient(leaf.states[at] + d);
+    const SO3 turn = own * leaf.turned;
+    for (Index d = 0; d < dimension(v); d += 3)
+      Eigen::Map<Vector3>(b + d) -= turn * Vector3(leaf.gradient.segment<3>(leaf.states[at] + d));
   });
-  const SO3 own = axes(v).inverse();
-  for (Index d = 0; d < dimension(v); d += 3) Eigen::Map<Vector3>(b + d) += own * Vector3(sum.segment<3>(d));
 }
 
 // One linear solution. Lengths and turns are measured by one scale of the whole map.
@@ -49,10 +50,25 @@ class SparseMap::Step final : public EliminationTree::Relaxation {
     return true;
   }
   bool matters(Variable v, const double* x) const override { return !(size(v, x) < tolerance_); }
+  EliminationTree::RigidMotion take_rigid(const std::vector<Variable>& variables,
+                                          Eigen::VectorXd& motion) const override;
+  void carry(Variable v, const EliminationTree::RigidMotion& motion) override {
+    StepEntry entry{v, {}};
+    Eigen::Map<Vector3> move(entry.value), turn(entry.value + 3);
+    move = motion.move + motion.turn.cross(map_.place_of(v) - motion.centre);
+    if (!is_landmark(v)) turn = motion.turn;
+    entries.push_back(entry);
+  }
+  void carry_leaf(std::uint32_t number, const EliminationTree::RigidMotion& motion) override {
+    carried.emplace_back(number, motion.turn);
+    for (const Number landmark : map_.leaves_[number].landmarks)
+      if (landmark != kNone && !map_.shared(landmark)) carry(landmark_variable(landmark), motion);
+  }
   void visit(std::uint32_t leaf) override { visited.push_back(leaf); }
 
   std::vector<StepEntry> entries;
   std::vector<Number> visited;
+  std::vector<std::pair<Number, Vector3>> carried;  // leaves, and by what they turn
   double largest = 0.0;
 
  private:
@@ -65,20 +81,60 @@ class SparseMap::Step final : public EliminationTree::Relaxation {
   double tolerance_;
 };
 
+// Least squares by the map's scales.
+EliminationTree::RigidMotion SparseMap::Step::take_rigid(const std::vector<Variable>& variables,
+                                                         Eigen::VectorXd& motion) const {
+  const double by_length = 1.0 / (map_.length_scale_ * map_.length_scale_);
+  const double by_turn = 1.0 / (map_.turn_scale_ * map_.turn_scale_);
+  EliminationTree::RigidMotion rigid{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+  std::vector<Matrix3> axes;
+  Index at = 0;
+  for (const Variable v : variables) {
+    axes.push_back(map_.axes(v).matrix());
+    rigid.centre += map_.place_of(v);
+    rigid.move += axes.back() * motion.segment<3>(at);
+    at += dimension(v);
+  }
+  const auto count = static_cast<double>(variables.size());
+  rigid.centre /= count;
+  rigid.move /= count;
+  Matrix3 A = Matrix3::Zero();
+  Vector3 b = Vector3::Zero();
+  at = 0;
+  for (std::size_t i = 0; i < variables.size(); at += dimension(variables[i++])) {
+    const Vector3 arm = map_.place_of(variables[i]) - rigid.centre;
+    A += by_length * (arm.squaredNorm() * Matrix3::Identity() - arm * arm.transpose());
+    b += by_length * arm.cross(axes[i] * motion.segment<3>(at) - rigid.move);
+    if (is_landmark(variables[i])) continue;
+    A += by_turn * Matrix3::Identity();
+    b += by_turn * axes[i] * motion.segment<3>(at + 3);
+  }
+  A.diagonal().array() += 1e-9 * A.trace() + DBL_MIN;  // points on a line leave one turn open
+  rigid.turn = A.ldlt().solve(b);
+  at = 0;
+  for (std::size_t i = 0; i < variables.size(); at += dimension(variables[i++])) {
+    const Vector3 arm = map_.place_of(variables[i]) - rigid.centre;
+    motion.segment<3>(at) -= axes[i].transpose() * (rigid.move + rigid.turn.cross(arm));
+    if (!is_landmark(variables[i])) motion.segment<3>(at + 3) -= axes[i].transpose() * rigid.turn;
+  }
+  return rigid;
+}
+
 // What a step is taken from.
 struct SparseMap::Before {
   std::vector<SE3> bases;
   std::vector<Vector3> positions;
+  std::vector<SO3> turned;    // of the leaves that it carries
   std::vector<double> costs;  // of the leaves that it visits
   std::vector<Eigen::VectorXd> gradients;
 };
 
 // A rigid motion of many must stay one, whatever its size: with the turn theta of its own base, of that which saw it
 // first, a point goes by V(theta) delta, as (Exp(theta) - I) (p - c) = V(theta) (theta x (p - c)).
-void SparseMap::place(const std::vector<StepEntry>& entries, double factor, const Before& from) {
+void SparseMap::place(const Step& step, double factor, const Before& from) {
   std::unordered_map<Number, Matrix3> turned;  // V by base
   std::size_t base = 0, position = 0;
-  for (const StepEntry& entry : entries) {
+  for (const StepEntry& entry : step.entries) {
     if (is_landmark(entry.variable)) continue;
     const auto number = static_cast<Number>(entry.variable >> 1);
     const Vector3 move = factor * Eigen::Map<const Vector3>(entry.value);
@@ -88,18 +144,20 @@ void SparseMap::place(const std::vector<StepEntry>& entries, double factor, cons
     bases_[number] = SE3(SO3::exp(turn) * before.rotation(), before.translation() + V * move);
     turned.emplace(number, V);
   }
-  for (const StepEntry& entry : entries) {
+  for (const StepEntry& entry : step.entries) {
     if (!is_landmark(entry.variable)) continue;
     Landmark& landmark = landmarks_[static_cast<Number>(entry.variable >> 1)];
     const Vector3 move = factor * Eigen::Map<const Vector3>(entry.value);
     const auto first = turned.find(landmark.submaps[0]);
     landmark.position = from.positions[position++] + (first != turned.end() ? Vector3(first->second * move) : move);
   }
+  for (std::size_t i = 0; i < step.carried.size(); ++i)
+    leaves_[step.carried[i].first].turned = SO3::exp(factor * step.carried[i].second) * from.turned[i];
 }
 
 // Puts the step's variables where it takes them, and evaluates the leaves that it visits; returns their cost.
 double SparseMap::take_step(const Step& step, double factor, const Before& from) {
-  place(step.entries, factor, from);
+  place(step, factor, from);
   double cost = 0.0;
   for (const Number leaf : step.visited) {
     evaluate(leaf);
@@ -111,7 +169,7 @@ double SparseMap::take_step(const Step& step, double factor, const Before& from)
 // As if it had not been taken. The leaves get back what they were evaluated to, which may have been elsewhere: where
 // motions of other variables rest, the tree counts what these do to them.
 void SparseMap::take_back(const Step& step, Before& from) {
-  place(step.entries, 0.0, from);
+  place(step, 0.0, from);
   for (std::size_t i = 0; i < step.visited.size(); ++i) {
     leaves_[step.visited[i]].cost = from.costs[i];
     leaves_[step.visited[i]].gradient.swap(from.gradients[i]);
@@ -121,7 +179,7 @@ void SparseMap::take_back(const Step& step, Before& from) {
 // Makes the tree anew where `changes` reach, and where leaves are stale: the newest of these first, and what is too
 // much for once waits for the next time. What was kept above all that is handed down before.
 void SparseMap::refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report) {
-  constexpr std::size_t kAtOnce = 512;
+  constexpr std::size_t kAtOnce = 256;
   const std::size_t taken = std::min(stale_.size(), kAtOnce);
   for (std::size_t i = stale_.size() - taken; i < stale_.size(); ++i) changes.leaves.push_back(leaves_[stale_[i]].key);
   stale_.resize(stale_.size() - taken);
@@ -151,6 +209,10 @@ SparseMap::Before SparseMap::save_step(const Step& step, Undo& undo) {
     save_leaf(undo, leaf);
     before.costs.push_back(leaves_[leaf].cost);
     before.gradients.push_back(leaves_[leaf].gradient);
+  }
+  for (const auto& [leaf, turn] : step.carried) {
+    before.turned.push_back(leaves_[leaf].turned);
+    if (leaves_[leaf].saved != undo.change) undo.turned.emplace_back(leaf, before.turned.back());
   }
   for (const StepEntry& entry : step.entries) {
     const auto number = static_cast<Number>(entry.variable >> 1);
@@ -182,7 +244,11 @@ void SparseMap::optimise(Undo& undo, JoinReport& report) {
     const double foreseen = tree_.relax(touches, step);
     ++report.iterations;
     Before from = save_step(step, undo);
-    const double before = std::accumulate(from.costs.begin(), from.costs.end(), 0.0);
+    report.carried += step.carried.size();
+    // Where motions rest, the costs are of other places than those that the step is taken from. A small step's hardly
+    // are; one that hands everything down is compared with what it comes from.
+    const double before =
+        tolerance > 0.0 ? std::accumulate(from.costs.begin(), from.costs.end(), 0.0) : take_step(step, 0.0, from);
     double after = take_step(step, 1.0, from);
     if (!(after <= before + kSlack) && tolerance > 0.0) {
       // Too far for a linear step. All that moves is visited then, and the step, a direction of descent, is halved.

@@ -22,7 +22,8 @@ struct SparseMap::Undo {
   std::vector<std::pair<Number, Vector3>> positions;
   std::vector<std::pair<Number, SE3>> bases;
   std::vector<std::pair<Number, Leaf>> leaves;
-  std::vector<Number> extended;  // landmarks that got another submap
+  std::vector<std::pair<Number, SO3>> turned;  // leaves that were carried before they were saved, in order
+  std::vector<Number> extended;                // landmarks that got another submap
   std::vector<std::uint64_t> counts;
 };
 

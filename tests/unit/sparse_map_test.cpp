@@ -289,6 +289,53 @@ TEST_CASE("sparse map: a loop closed far from its start") {
   }
 }
 
+TEST_CASE("sparse map: what is carried along in a long loop lands where it would be led step by step") {
+  for (const ErrorKind error : kKinds) {
+    Ring ring(19, error, 160, 300, {0.05, 0.004});
+    MapOptions options = ring.options(), exact = options;
+    options.step_tolerance = MapOptions().step_tolerance;
+    options.cost_tolerance = MapOptions().cost_tolerance;
+    exact.most_iterations = 30;
+    SparseMap map(options), twin(options), reference(exact);
+    std::size_t carried = 0;
+    double moved = 0.0;
+    for (int i = 0; i < 200; ++i) {
+      const Submap submap = ring.submap(i);
+      Submap wrong = submap, without = submap;
+      if (i >= 160 && i % 8 == 0) {  // is taken in, then taken back, then taken in without the one that does not fit
+        wrong.landmarks[2] += Vector3(0, 0, 5);
+        without = wrong;
+        constexpr std::ptrdiff_t at = 2;
+        without.ids.erase(without.ids.begin() + at);
+        without.counts.erase(without.counts.begin() + at);
+        without.landmarks.erase(without.landmarks.begin() + at);
+        std::vector<Index> kept;
+        for (Index k = 0; k < submap.covariance.rows(); ++k)
+          if (k < 12 || k >= 15) kept.push_back(k);
+        without.covariance = submap.covariance(kept, kept);
+      }
+      const JoinReport report = map.join(wrong);
+      CHECK(report.refused == (wrong.landmarks == submap.landmarks ? 0 : 1));
+      twin.join(without);
+      reference.join(without);
+      carried += report.carried;
+      moved = std::max(moved, report.moved_max);
+    }
+    CHECK(carried > 1000);
+    CHECK(moved > 5.0);
+    const double sigma = std::sqrt(reference.base_covariance().topLeftCorner<3, 3>().trace());
+    CAPTURE(sigma);
+    for (std::size_t k = 0; k <= 200; k += 10) {
+      CHECK((map.submap_base(k).translation() - twin.submap_base(k).translation()).norm() <= 1e-9);
+      CHECK((map.submap_base(k).translation() - reference.submap_base(k).translation()).norm() <= 0.01 * sigma);
+    }
+    for (std::size_t i = 0; i < map.size(); ++i) {
+      CHECK((map.position(i) - position_of(twin, map.id(i))).norm() <= 1e-9);
+      CHECK((map.position(i) - position_of(reference, map.id(i))).norm() <= 0.01 * sigma);
+    }
+  }
+}
+
 TEST_CASE("sparse map: covariances are the whole problem's") {
   for (const ErrorKind error : kKinds) {
     Ring ring(13, error, 8, 12, {0.01, 4e-4});
