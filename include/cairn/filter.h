@@ -29,6 +29,15 @@ enum {
   CAIRN_JOIN_SPARSE = 2 /**< all submaps solved for together on a sparse factor, relinearised: near-linear in all */
 };
 
+/** Which landmark an observation is of (docs/association.md). */
+enum {
+  CAIRN_ASSOCIATION_KNOWN = 0,   /**< the one that its id names; the default */
+  CAIRN_ASSOCIATION_NEAREST = 1, /**< the nearest by Mahalanobis distance that no nearer observation is of; ids are not
+                                      looked at, landmarks are numbered from 0 in the order of their placing */
+  CAIRN_ASSOCIATION_JOINT = 2    /**< the largest set of pairs that fit together (joint compatibility, branch and bound);
+                                      ids as for CAIRN_ASSOCIATION_NEAREST */
+};
+
 /** Options of \ref cairn_filter_create. Set them by \ref cairn_filter_options_init first. */
 typedef struct cairn_filter_options {
   uint32_t struct_size;          /**< sizeof(cairn_filter_options) of the caller */
@@ -52,6 +61,14 @@ typedef struct cairn_filter_options {
   double submap_extent;          /**< ... or once a landmark stands this far from its origin, m; 0, the default: no matter */
   double submap_sigma;           /**< ... or once the largest standard deviation of the vehicle's position in it exceeds
                                       this, m; 0, the default: no matter */
+  int32_t association;           /**< CAIRN_ASSOCIATION_KNOWN, CAIRN_ASSOCIATION_NEAREST or CAIRN_ASSOCIATION_JOINT; the
+                                      latter two with a single map alone (submap_landmarks 0); default
+                                      CAIRN_ASSOCIATION_KNOWN */
+  uint32_t association_nodes;    /**< joint tests of one frame at most, 1 to 1000000: after so many the best set that was
+                                      found is taken; default 2000 */
+  double new_probability;        /**< without known ids: an observation places a new landmark only where its distance from
+                                      each that exists exceeds the chi-square bound of this probability, in (0, 1); and
+                                      none beyond it is paired, where gate_probability would allow that; default 0.9999 */
 } cairn_filter_options;
 
 /** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
@@ -256,6 +273,9 @@ typedef struct cairn_update_report {
   double nis;            /**< normalised innovation squared of the batch at the prediction */
   double nis_lower;      /**< 95 % band of `nis`: lower bound */
   double nis_upper;      /**< 95 % band of `nis`: upper bound */
+  uint32_t association_nodes;     /**< joint tests that association took */
+  uint32_t association_exhausted; /**< 1: it stopped at the bound of the options; there may be a better set of pairs */
+  double association_seconds;     /**< what association took */
 } cairn_update_report;
 
 /** Reports on the last successful update of any kind; zeros before the first. Set `report->struct_size` first.

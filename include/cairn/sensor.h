@@ -132,7 +132,8 @@ CAIRN_API cairn_status cairn_custom_check(const cairn_custom *custom, const cair
 
 /** One observation of one landmark by one sensor. Layout frozen. */
 typedef struct cairn_observation {
-  uint64_t id;          /**< the landmark, by the caller's name for it; not CAIRN_ID_NONE; once in a frame */
+  uint64_t id;          /**< the landmark, by the caller's name for it; not CAIRN_ID_NONE; once in a frame. Any value where
+                             the filter's `association` is not CAIRN_ASSOCIATION_KNOWN */
   double z[3];          /**< values in the sensor's units; a custom sensor of fewer rows uses the first */
   double covariance[9]; /**< 3x3 row-major noise of this observation (custom: rows x rows, packed); all zero: the sensor's default */
 } cairn_observation;
@@ -150,7 +151,8 @@ enum {
   CAIRN_REASON_GATE = 1,       /**< its distance exceeds the threshold: chi-square gate of one observation */
   CAIRN_REASON_BATCH_GATE = 2, /**< it passed alone, and was among those that kept the whole batch from passing */
   CAIRN_REASON_NO_IMAGE = 3,   /**< the landmark as estimated can't give an observation: behind the lens, too near, too steep */
-  CAIRN_REASON_NO_PLACE = 4    /**< the observation places no landmark: disparity or range too small, or the sensor can't */
+  CAIRN_REASON_NO_PLACE = 4,   /**< the observation places no landmark: disparity or range too small, or the sensor can't */
+  CAIRN_REASON_AMBIGUOUS = 5   /**< without known ids: it passed alone, and no set of pairs with it is as good as that without */
 };
 
 /** Decision on one observation. Layout frozen. */

@@ -26,6 +26,9 @@ cairn_filter_options default_options() {
   write_pose(d.initial_pose, &options.initial_pose);
   options.submap_landmarks = 0;
   options.join = CAIRN_JOIN_AUTO;
+  options.association = CAIRN_ASSOCIATION_KNOWN;
+  options.association_nodes = static_cast<std::uint32_t>(d.association_nodes);
+  options.new_probability = d.new_probability;
   return options;
 }
 
@@ -52,6 +55,20 @@ FilterOptions read_filter_options(const cairn_filter_options* user) {
   check_probability(o.gate_probability, "options.gate_probability");
   check_probability(o.batch_gate_probability, "options.batch_gate_probability");
   check_covariance(o.initial_covariance, 6, true, "options.initial_covariance");
+  if (o.association != CAIRN_ASSOCIATION_KNOWN && o.association != CAIRN_ASSOCIATION_NEAREST &&
+      o.association != CAIRN_ASSOCIATION_JOINT)
+    throw Error(ErrorCode::argument,
+                "options.association is %d, none of CAIRN_ASSOCIATION_KNOWN, CAIRN_ASSOCIATION_NEAREST, "
+                "CAIRN_ASSOCIATION_JOINT",
+                o.association);
+  if (o.association != CAIRN_ASSOCIATION_KNOWN && o.submap_landmarks > 0)
+    throw Error(ErrorCode::argument,
+                "options.association: without known ids the filter keeps a single map; submap_landmarks is %u, not 0",
+                o.submap_landmarks);
+  check_range(o.association_nodes, 1, 1000000, "options.association_nodes");
+  check_probability(o.new_probability, "options.new_probability");
+  if (o.new_probability == 1.0)
+    throw Error(ErrorCode::argument, "options.new_probability is 1: no observation would ever place a landmark");
   FilterOptions options;
   options.error = o.error == CAIRN_ERROR_STANDARD ? ErrorKind::standard : ErrorKind::invariant;
   options.max_landmarks = o.max_landmarks;
@@ -70,6 +87,11 @@ FilterOptions read_filter_options(const cairn_filter_options* user) {
   options.submap_distance = o.submap_distance;
   options.submap_extent = o.submap_extent;
   options.submap_sigma = o.submap_sigma;
+  options.association = o.association == CAIRN_ASSOCIATION_NEAREST ? AssociationKind::nearest
+                        : o.association == CAIRN_ASSOCIATION_JOINT ? AssociationKind::joint
+                                                                   : AssociationKind::known;
+  options.association_nodes = o.association_nodes;
+  options.new_probability = o.new_probability;
   return options;
 }
 

@@ -31,6 +31,9 @@ void write_match(const Match& match, cairn_match* out) {
     case Reason::no_place:
       out->reason = CAIRN_REASON_NO_PLACE;
       break;
+    case Reason::ambiguous:
+      out->reason = CAIRN_REASON_AMBIGUOUS;
+      break;
   }
   out->distance = match.distance;
   out->threshold = match.threshold;
@@ -41,8 +44,9 @@ void write_matches(const Filter& filter, std::size_t count, cairn_match* matches
   for (std::size_t i = 0; i < count; ++i) write_match(filter.decisions()[i], matches + i);
 }
 
-void read_observation(const cairn_observation& from, std::size_t number, std::size_t rows, Observation& to) {
-  if (from.id == CAIRN_ID_NONE)
+void read_observation(const cairn_observation& from, std::size_t number, std::size_t rows, bool named,
+                      Observation& to) {
+  if (named && from.id == CAIRN_ID_NONE)
     throw Error(ErrorCode::argument, "observations[%zu].id is CAIRN_ID_NONE, which no landmark has", number);
   // Names are written where they are needed: that takes longer than the checks.
   char name[64];
@@ -78,7 +82,8 @@ cairn_status cairn_filter_update(cairn_filter* filter, int32_t sensor, const cai
     const std::size_t most = static_cast<std::size_t>(f.options().max_observations);
     if (count > most)
       throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu", count, most);
-    for (std::size_t i = 0; i < count; ++i) read_observation(observations[i], i, rows, f.staging()[i]);
+    const bool named = f.options().association == AssociationKind::known;
+    for (std::size_t i = 0; i < count; ++i) read_observation(observations[i], i, rows, named, f.staging()[i]);
     f.update(sensor, static_cast<Index>(count));
     write_matches(f, count, matches);
   });
@@ -166,6 +171,9 @@ cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_r
       out.nis_lower = chi_square_quantile(static_cast<double>(r.rows), 0.025);
       out.nis_upper = chi_square_quantile(static_cast<double>(r.rows), 0.975);
     }
+    out.association_nodes = static_cast<std::uint32_t>(r.association_nodes);
+    out.association_exhausted = r.association_exhausted ? 1 : 0;
+    out.association_seconds = r.association_seconds;
     write_report(out, report);
   });
 }

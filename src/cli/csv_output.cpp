@@ -57,6 +57,8 @@ const char* reason_name(std::int32_t reason) {
       return "no_image";
     case CAIRN_REASON_NO_PLACE:
       return "no_place";
+    case CAIRN_REASON_AMBIGUOUS:
+      return "ambiguous";
     default:
       return "unknown";
   }
@@ -227,7 +229,7 @@ void CsvOutput::finish(const cairn_filter* filter, const std::optional<cairn_clo
   innovations_.close();
   timing_.close();
   if (last_closing) closed_.push_back({last_step_, *last_closing});
-  write_landmarks(filter);
+  write_landmarks(filter, summary);
   write_submaps(filter);
   if (drive_.world() != nullptr) write_terrain(drive_.world());
   OutputFile file(folder_, "summary.json");
@@ -235,7 +237,7 @@ void CsvOutput::finish(const cairn_filter* filter, const std::optional<cairn_clo
   file.close();
 }
 
-void CsvOutput::write_landmarks(const cairn_filter* filter) {
+void CsvOutput::write_landmarks(const cairn_filter* filter, const Summary& summary) {
   OutputFile file(folder_, "landmarks.csv");
   file.text(kLandmarksHeader);
   for (const cairn_landmark& landmark : map_landmarks(filter)) {
@@ -245,7 +247,7 @@ void CsvOutput::write_landmarks(const cairn_filter* filter) {
     for (const int index : {0, 1, 2, 4, 5, 8}) file.field(covariance[index]);
     file.field(landmark.observations);
     double truth[3];
-    if (drive_.true_landmark(landmark.id, truth)) {
+    if (drive_.true_landmark(summary.name_of(landmark.id), truth)) {
       file.fields(truth, 3);
       for (std::size_t i = 0; i < 3; ++i) file.field(truth[i] - landmark.position[i]);
     } else {

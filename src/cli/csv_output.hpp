@@ -61,7 +61,7 @@ class CsvOutput {
   void add_trajectory(const DriveStep& step, const StepResult& result, const std::optional<PoseScore>& score);
   void add_innovations(const DriveStep& step, const StepResult& result);
   void add_timing(const DriveStep& step, const StepResult& result);
-  void write_landmarks(const cairn_filter* filter);
+  void write_landmarks(const cairn_filter* filter, const Summary& summary);
   void write_submaps(const cairn_filter* filter);
   void write_terrain(const cairn_world* world);
 

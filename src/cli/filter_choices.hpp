@@ -19,11 +19,14 @@ struct FilterChoices {
   double submap_extent = 0;                       // m; 0: no matter
   double submap_sigma = 0;                        // m; 0: no matter
   std::int32_t join = CAIRN_JOIN_AUTO;
+  std::int32_t association = CAIRN_ASSOCIATION_KNOWN;
   std::uint64_t forget_after = 0;  // frames; 0: never
   std::optional<double> gate;
   std::optional<double> batch_gate;
   std::optional<std::uint32_t> iterations;
   std::optional<std::uint32_t> max_landmarks;
+
+  bool names_known() const { return association == CAIRN_ASSOCIATION_KNOWN; }
 };
 
 }  // namespace cairn::cli

@@ -96,6 +96,7 @@ void add_filter_options(OptionTable& table, FilterChoices& o) {
   constexpr std::uint32_t kLargestSubmap = 4096, kLargestMap = 10000000;
   static_assert(CAIRN_ERROR_INVARIANT == 0 && CAIRN_ERROR_STANDARD == 1);
   static_assert(CAIRN_JOIN_AUTO == 0 && CAIRN_JOIN_DENSE == 1 && CAIRN_JOIN_SPARSE == 2);
+  static_assert(CAIRN_ASSOCIATION_KNOWN == 0 && CAIRN_ASSOCIATION_NEAREST == 1 && CAIRN_ASSOCIATION_JOINT == 2);
   table.push_back(choice("--error", {"invariant", "standard"}, o.error));
   table.push_back({"--single-map", false, [&o](const std::string&) { o.submap_landmarks = 0; }});
   table.push_back(whole("--submap-landmarks", 0, kLargestSubmap, o.submap_landmarks));
@@ -103,6 +104,7 @@ void add_filter_options(OptionTable& table, FilterChoices& o) {
   table.push_back(number("--submap-extent", Range::kNotNegative, o.submap_extent));
   table.push_back(number("--submap-sigma", Range::kNotNegative, o.submap_sigma));
   table.push_back(choice("--join", {"auto", "dense", "sparse"}, o.join));
+  table.push_back(choice("--association", {"known", "nearest", "joint"}, o.association));
   table.push_back({"--forget-after", true, [&o](const std::string& v) {
                      o.forget_after = parse_whole("--forget-after", v, 0, std::numeric_limits<std::uint64_t>::max());
                    }});

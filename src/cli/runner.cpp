@@ -30,12 +30,16 @@ void Runner::create() {
   const std::size_t needed =
       std::min(kMostLandmarks, drive_.landmarks_at_once(choices_.forget_after) + kLandmarkMargin);
   options.error = choices_.error;
-  options.max_landmarks = choices_.max_landmarks.value_or(static_cast<std::uint32_t>(needed));
+  // Without names some landmarks may be placed twice.
+  const std::size_t room = std::min(kMostLandmarks, choices_.names_known() ? needed : 2 * needed);
+  options.max_landmarks = choices_.max_landmarks.value_or(static_cast<std::uint32_t>(room));
   options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
   // A submap that one frame fills is not worth its closing.
   constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
+  options.association = choices_.association;
   options.submap_landmarks = choices_.submap_landmarks.value_or(
-      std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations)));
+      !choices_.names_known() ? 0
+                              : std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations)));
   has_submaps_ = options.submap_landmarks > 0;
   options.submap_distance = choices_.submap_distance;
   options.submap_extent = choices_.submap_extent;

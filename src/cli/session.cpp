@@ -15,7 +15,7 @@ std::vector<Figure> run_drive(Drive& drive, const FilterChoices& choices, const 
   std::optional<CsvOutput> output;
   if (!session.output.empty()) output.emplace(drive, session.output);
   Runner runner(drive, choices);
-  Summary summary(drive);
+  Summary summary(drive, choices.names_known());
   runner.run([&](const cairn_filter* filter, const DriveStep& step, const StepResult& result) {
     const std::optional<PoseScore> score = score_pose(filter, step, result.pose);
     summary.add(step, result, score);

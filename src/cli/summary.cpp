@@ -59,6 +59,7 @@ void Summary::add(const DriveStep& step, const StepResult& result, const std::op
   step_seconds_.push_back(result.seconds);
   observations_ += result.matches.size();
   for (const cairn_match& match : result.matches) rejected_ += match.result == CAIRN_REJECTED;
+  if (!names_known_) add_pairings(step, result);
   nis_sum_ += result.report.nis;
   nis_rows_ += result.report.rows;
   const auto held = static_cast<double>(result.filter_landmarks);
@@ -86,6 +87,25 @@ void Summary::add(const DriveStep& step, const StepResult& result, const std::op
   }
 }
 
+void Summary::add_pairings(const DriveStep& step, const StepResult& result) {
+  for (std::size_t i = 0; i < result.matches.size(); ++i) {
+    const cairn_match& match = result.matches[i];
+    const std::uint64_t name = step.observations[i].id;
+    if (match.result == CAIRN_NEW) {
+      names_[match.landmark] = name;
+      placed_twice_ += !placed_.insert(name).second;
+    } else if (match.result == CAIRN_MATCHED) {
+      ++paired_;
+      wrongly_paired_ += names_.at(match.landmark) != name;
+    }
+  }
+  association_exhausted_ += result.report.association_exhausted;
+}
+
+std::uint64_t Summary::name_of(std::uint64_t landmark) const {
+  return names_known_ ? landmark : names_.at(landmark);
+}
+
 void Summary::add_closing(const cairn_closing_report& closing) {
   ++submaps_;
   closing_worst_ = std::max(closing_worst_, closing.seconds);
@@ -107,6 +127,12 @@ void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closi
   count("observations", observations_);
   count("rejected", rejected_);
   count("submaps", submaps_);
+  if (!names_known_) {
+    count("paired", paired_);
+    count("paired_wrongly", wrongly_paired_);
+    count("landmarks_placed_twice", placed_twice_);
+    count("association_exhausted", association_exhausted_);
+  }
   measure("seconds", seconds);
   finish_timing();
   measure("peak_rss_mib", peak_rss_mib());
@@ -159,7 +185,7 @@ void Summary::finish_landmarks(const std::vector<cairn_landmark>& landmarks) {
   std::size_t known = 0;
   for (const cairn_landmark& landmark : landmarks) {
     double truth[3];
-    if (!drive_.true_landmark(landmark.id, truth)) continue;
+    if (!drive_.true_landmark(name_of(landmark.id), truth)) continue;
     ++known;
     for (std::size_t i = 0; i < 3; ++i) sum += std::pow(truth[i] - landmark.position[i], 2);
   }

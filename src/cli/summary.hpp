@@ -5,6 +5,8 @@
 #include <cairn/cairn.h>
 
 #include <optional>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "cli/figures.hpp"
@@ -28,15 +30,18 @@ std::vector<cairn_landmark> map_landmarks(const cairn_filter* filter);
 class Summary {
  public:
   // Figures that take truth are left out where the drive has none.
-  explicit Summary(const Drive& drive) : drive_(drive) {}
+  Summary(const Drive& drive, bool names_known) : drive_(drive), names_known_(names_known) {}
 
   void add(const DriveStep& step, const StepResult& result, const std::optional<PoseScore>& score);
   // Once, after the last step: the closing of the submap that was still open then, and what the whole run took.
   void finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing, double seconds);
 
   const std::vector<Figure>& figures() const { return figures_; }
+  // What the drive calls one of the filter's landmarks: the id of the observation that placed it.
+  std::uint64_t name_of(std::uint64_t landmark) const;
 
  private:
+  void add_pairings(const DriveStep& step, const StepResult& result);
   void count(const char* key, std::size_t value) { figures_.push_back({key, static_cast<double>(value), true}); }
   void measure(const char* key, double value);
   void add_closing(const cairn_closing_report& closing);
@@ -45,6 +50,11 @@ class Summary {
   void finish_landmarks(const std::vector<cairn_landmark>& landmarks);
 
   const Drive& drive_;
+  bool names_known_;
+  // Where the filter was not told names:
+  std::unordered_map<std::uint64_t, std::uint64_t> names_;
+  std::unordered_set<std::uint64_t> placed_;
+  std::size_t paired_ = 0, wrongly_paired_ = 0, placed_twice_ = 0, association_exhausted_ = 0;
   std::vector<double> step_seconds_;
   std::size_t observations_ = 0;
   std::size_t rejected_ = 0;

@@ -26,11 +26,14 @@ Filter::Filter(Arena& arena, const FilterOptions& options)
       window_slots_(arena.take<Index>(options.max_observations)),
       kept_(arena.take<Index>(options.max_observations)),
       new_ones_(arena.take<Index>(options.max_observations)),
+      unknowns_(arena, options),
       residual_(arena.take<double>(3 * options.max_observations + 6)),
       thresholds_(arena.take<double>(3 * options.max_observations + 7)) {
   static_assert(alignof(AnySensorSlot) <= Arena::kAlignment, "the arena aligns to a cache line");
   if (arena.measuring()) return;
   for (int rows = 1; rows <= 6; ++rows) gate_thresholds_[rows] = chi_square_quantile(rows, options.gate_probability);
+  for (int rows = 1; rows <= 3; ++rows)
+    new_thresholds_[rows] = chi_square_quantile(rows, options.new_probability);
   if (options.single_map()) {
     ekf_.start(options.initial_pose, options.initial_covariance);
   } else {

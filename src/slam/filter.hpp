@@ -6,6 +6,7 @@
 #include <memory>
 #include <variant>
 
+#include "association/association.hpp"
 #include "core/arena.hpp"
 #include "core/error.hpp"
 #include "core/id_table.hpp"
@@ -23,6 +24,7 @@ namespace cairn {
 constexpr std::uint64_t kNoId = UINT64_MAX;
 
 enum class JoinKind { automatic, dense, sparse };
+enum class AssociationKind { known, nearest, joint };
 
 struct FilterOptions {
   ErrorKind error = ErrorKind::invariant;
@@ -38,6 +40,11 @@ struct FilterOptions {
   Index submap_landmarks = 0;  // 0: a single map
   JoinKind join = JoinKind::automatic;
   double submap_distance = 0.0, submap_extent = 0.0, submap_sigma = 0.0;  // 0: no matter
+
+  AssociationKind association = AssociationKind::known;  // otherwise observations' ids are not looked at
+  Index association_nodes = 2000;
+  Index association_support = 3;    // pairs of a frame that could be chance are taken where there are so many
+  double new_probability = 0.9999;  // what is nearer than that to a landmark places none
 
   double step_tolerance = 1e-2;  // of the sparse joining, see MapOptions
 
@@ -68,7 +75,7 @@ struct Observation {
 };
 
 enum class Decision { matched, placed, rejected };
-enum class Reason { none, gate, batch_gate, no_image, no_place };
+enum class Reason { none, gate, batch_gate, no_image, no_place, ambiguous };
 
 struct Match {
   std::uint64_t landmark = kNoId;
@@ -83,6 +90,9 @@ struct UpdateReport {
   Index rows = 0;
   int iterations = 0;
   double nis = 0.0;
+  Index association_nodes = 0;
+  bool association_exhausted = false;
+  double association_seconds = 0.0;
 };
 
 class Filter final : public Landmarks {
@@ -188,6 +198,37 @@ class Filter final : public Landmarks {
     Prediction prediction;  // at the estimate
     Index number;           // in the window
   };
+  // A landmark that the sensor may see, where observations bring no names.
+  struct Expected {
+    Index slot;
+    Index window;  // among those of all pairs, or kUnpaired
+    Prediction prediction;
+    Matrix3 innovation;  // covariance of the prediction
+  };
+  struct Pair {
+    Index expected;
+    Vector3 residual;
+    Matrix3 innovation;  // covariance, of the observation's noise too
+  };
+  class PairInnovations;
+  // Memory of association, where there is any.
+  struct Unknowns {
+    Unknowns(Arena& arena, const FilterOptions& options);
+    static constexpr Index kPairs = 8;  // of one observation, the nearest
+    Index most_landmarks, most_pairs, most_window;
+    Association association;
+    Expected* expected;
+    PairCandidate* pairs;
+    Pair* details;
+    Index* window;       // slots
+    double* covariance;  // of pose and window
+    // By observation:
+    Match* nearest;
+    Index* chosen;  // pair, or kUnpaired
+    char* doubtful;
+    Index expected_count = 0, pair_count = 0, window_count = 0;
+    std::uint64_t next_id = 0;
+  };
 
   // Numerical refusals are worth a line in the log.
   template <class Function>
@@ -206,6 +247,15 @@ class Filter final : public Landmarks {
   AnySensorSlot& sensor_slot(int sensor);
   const Sensor& sensor_at(int sensor);
   void sort_out(const Sensor& sensor, Index count);
+  void sort_by_id(const Sensor& sensor, Index count);
+  void sort_by_association(const Sensor& sensor, Index count);
+  void predict_all(const Sensor& sensor);
+  void find_pairs(const Sensor& sensor, Index count);
+  bool confusable(const Sensor& sensor, Index count, Index observation, const Pair& pair) const;
+  void demand_support(const Sensor& sensor, Index count);
+  void settle_pairs(const Sensor& sensor, Index count);
+  void add_candidate(const Sensor& sensor, Index observation, Index slot, const Prediction& prediction);
+  void add_new_one(const Sensor& sensor, Index observation);
   Matrix3 noise_of(const Sensor& sensor, const Observation& observation) const;
   bool linearise(const Sensor& sensor, double* residual_only);
   void open_candidates(const Sensor& sensor);
@@ -257,6 +307,8 @@ class Filter final : public Landmarks {
   Index* kept_;
   Index* new_ones_;
   Index new_count_ = 0;
+  Unknowns unknowns_;
+  double new_thresholds_[4] = {};
   double* residual_;
   double* thresholds_;  // chi-square bounds of a batch by its rows, filled as they are first asked for
   double gate_thresholds_[7] = {};

@@ -57,33 +57,10 @@ void Filter::finish_report(Index count) {
 // Candidates for the batch, and observations that could place a landmark; all others get their reason.
 void Filter::sort_out(const Sensor& sensor, Index count) {
   candidate_count_ = new_count_ = 0;
-  frame_ids_.clear();
-  for (Index i = 0; i < count; ++i) {
-    const Observation& observation = observations_[i];
-    if (frame_ids_.find(observation.id) != IdTable::kAbsent)
-      throw Error(ErrorCode::argument, "observations: landmark %llu comes twice in one frame",
-                  static_cast<unsigned long long>(observation.id));
-    frame_ids_.set(observation.id, static_cast<std::int32_t>(i));
-    Match& match = next_matches_[i];
-    const Vector3 z(observation.z);
-    const std::int32_t slot = slots_.find(observation.id);
-    if (slot != IdTable::kAbsent) {
-      match.landmark = observation.id;
-      Prediction prediction;
-      if (sensor.predict(ekf_.pose(), ekf_.landmark(slot), Vector2::Zero(), prediction)) {
-        candidates_[candidate_count_] = {i, slot, noise_of(sensor, observation), prediction, candidate_count_};
-        ++candidate_count_;
-      } else {
-        match.reason = Reason::no_image;
-      }
-    } else {
-      Placement placement;
-      if (sensor.place(ekf_.pose(), z, Vector2::Zero(), placement))
-        new_ones_[new_count_++] = i;
-      else
-        match.reason = Reason::no_place;
-    }
-  }
+  if (options_.association == AssociationKind::known)
+    sort_by_id(sensor, count);
+  else
+    sort_by_association(sensor, count);
   const Index room = options_.local_landmarks();
   if (ekf_.size() + new_count_ <= room) return;
   if (map_ != nullptr)
@@ -93,6 +70,43 @@ void Filter::sort_out(const Sensor& sensor, Index count) {
                 new_count_, ekf_.size(), room);
   throw Error(ErrorCode::capacity, "observations: %td new landmarks, and the map holds %td of max_landmarks = %td",
               new_count_, ekf_.size(), room);
+}
+
+void Filter::add_candidate(const Sensor& sensor, Index observation, Index slot, const Prediction& prediction) {
+  candidates_[candidate_count_] = {observation, slot, noise_of(sensor, observations_[observation]), prediction,
+                                   candidate_count_};
+  ++candidate_count_;
+}
+
+void Filter::add_new_one(const Sensor& sensor, Index observation) {
+  Placement placement;
+  if (sensor.place(ekf_.pose(), Vector3(observations_[observation].z), Vector2::Zero(), placement))
+    new_ones_[new_count_++] = observation;
+  else
+    next_matches_[observation].reason = Reason::no_place;
+}
+
+void Filter::sort_by_id(const Sensor& sensor, Index count) {
+  frame_ids_.clear();
+  for (Index i = 0; i < count; ++i) {
+    const Observation& observation = observations_[i];
+    if (frame_ids_.find(observation.id) != IdTable::kAbsent)
+      throw Error(ErrorCode::argument, "observations: landmark %llu comes twice in one frame",
+                  static_cast<unsigned long long>(observation.id));
+    frame_ids_.set(observation.id, static_cast<std::int32_t>(i));
+    Match& match = next_matches_[i];
+    const std::int32_t slot = slots_.find(observation.id);
+    if (slot == IdTable::kAbsent) {
+      add_new_one(sensor, i);
+      continue;
+    }
+    match.landmark = observation.id;
+    Prediction prediction;
+    if (sensor.predict(ekf_.pose(), ekf_.landmark(slot), Vector2::Zero(), prediction))
+      add_candidate(sensor, i, slot, prediction);
+    else
+      match.reason = Reason::no_image;
+  }
 }
 
 void Filter::open_candidates(const Sensor& sensor) {
@@ -202,10 +216,11 @@ void Filter::place_new(const Sensor& sensor) {
     if (!ekf_.augment(placement.landmark, placement.J_landmark_pose,
                       mode == MountNoise::per_frame ? &placement.J_landmark_mount : nullptr, noise, sensor.relative()))
       continue;
-    ids_[slot] = observation.id;
+    const std::uint64_t id = options_.association == AssociationKind::known ? observation.id : unknowns_.next_id++;
+    ids_[slot] = id;
     counts_[slot] = 1;
-    slots_.set(observation.id, static_cast<std::int32_t>(slot));
-    match = {observation.id, Decision::placed, Reason::none, 0.0, 0.0};
+    slots_.set(id, static_cast<std::int32_t>(slot));
+    match = {id, Decision::placed, Reason::none, 0.0, 0.0};
   }
 }
 

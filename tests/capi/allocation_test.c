@@ -39,7 +39,7 @@ static size_t look(world *w, int sensor, size_t first, size_t landmarks, size_t 
 typedef struct scale {
   uint32_t landmarks, observations;
   int steps;
-  int32_t error;
+  int32_t error, association;
 } scale;
 
 /* Everything a filter does in its life, `steps` times, under the counter. */
@@ -53,13 +53,14 @@ static void live(const scale *s) {
   uint64_t *ids = calloc(s->observations, sizeof *ids);
   rig r;
   world w;
-  size_t result[4] = {0}, reasons[5] = {0}, most = 0, failed = 0;
+  size_t result[4] = {0}, reasons[6] = {0}, most = 0, failed = 0;
   double covariance[36], small[9], pivot;
   cairn_pose pose;
   cairn_match one;
   assert_true(o != NULL && m != NULL && residual != NULL && noise != NULL && jp != NULL && jl != NULL && ids != NULL);
-  options.max_landmarks = s->landmarks, options.max_observations = s->observations;
-  options.iterations = 5, options.iteration_tolerance = 1e-9, options.error = s->error;
+  options.max_landmarks = s->association == CAIRN_ASSOCIATION_KNOWN ? s->landmarks : 25 * s->landmarks;
+  options.max_observations = s->observations;
+  options.iterations = 5, options.iteration_tolerance = 1e-9, options.error = s->error, options.association = s->association;
   world_init(&w, 31);
   w.truth = options.initial_pose = pose_at(0.5, 0.3, 0.2, 0.02, 0.03, 0.1);
   rig_open(&r, &options);
@@ -91,7 +92,7 @@ static void live(const scale *s) {
     for (size_t i = 0; i < n; ++i) {
       if (m[i].result == CAIRN_REJECTED) continue;
       for (int k = 0; k < 3; ++k) jl[(3 * known + (size_t)k) * rows + 3 * known + (size_t)k] = 1;
-      ids[known++] = o[i].id;
+      ids[known++] = m[i].landmark;
     }
     if (known == s->observations)
       failed += cairn_filter_update_linear(f, residual, rows, noise, jp, ids, known, jl, &one) != CAIRN_OK;
@@ -114,14 +115,16 @@ static void live(const scale *s) {
 
 static void a_small_filter_takes_nothing(void **state) {
   (void)state;
-  live(&(scale){WORLD_LANDMARKS, 6, 300, CAIRN_ERROR_INVARIANT});
-  live(&(scale){WORLD_LANDMARKS, 6, 300, CAIRN_ERROR_STANDARD});
+  live(&(scale){WORLD_LANDMARKS, 6, 300, CAIRN_ERROR_INVARIANT, CAIRN_ASSOCIATION_KNOWN});
+  live(&(scale){WORLD_LANDMARKS, 6, 300, CAIRN_ERROR_STANDARD, CAIRN_ASSOCIATION_KNOWN});
+  live(&(scale){WORLD_LANDMARKS, 6, 300, CAIRN_ERROR_INVARIANT, CAIRN_ASSOCIATION_NEAREST});
+  live(&(scale){WORLD_LANDMARKS, 6, 300, CAIRN_ERROR_INVARIANT, CAIRN_ASSOCIATION_JOINT});
 }
 
 static void a_large_filter_takes_nothing(void **state) {
   (void)state;
-  live(&(scale){300, 60, 40, CAIRN_ERROR_INVARIANT});
-  live(&(scale){300, 60, 25, CAIRN_ERROR_STANDARD});
+  live(&(scale){300, 60, 40, CAIRN_ERROR_INVARIANT, CAIRN_ASSOCIATION_KNOWN});
+  live(&(scale){300, 60, 25, CAIRN_ERROR_STANDARD, CAIRN_ASSOCIATION_KNOWN});
 }
 
 static void the_bytes_are_foretold(void **state) {

@@ -152,7 +152,8 @@ class BadOptions(ProgramTest):
                 ([log, "--batch-gate", "nan"], "--batch-gate"), ([log, "--iterations", "0"], "from 1 to 50"),
                 ([log, "--iterations=51"], "from 1 to 50"), ([log, "--max-landmarks", "10000001"], "--max-landmarks"),
                 ([log, "--submap-landmarks", "4097"], "from 0 to 4096"), ([log, "--submap-distance=-1"], "0 or more"),
-                ([log, "--join", "loose"], "auto, dense or sparse"), ([log, "--compare"], "unknown option '--compare'"),
+                ([log, "--join", "loose"], "auto, dense or sparse"),
+                ([log, "--association", "guess"], "known, nearest or joint"), ([log, "--compare"], "unknown option '--compare'"),
                 ([log, "--min-disparity", "-3"], "above 0"), ([log, "--min-disparity-sigmas=-1"], "0 or more"), ([log, "--pixel-noise", "x"], "--pixel-noise"),
                 ([log, "--velocity-noise="], "--velocity-noise"), ([log, "--rate-noise", "inf"], "--rate-noise")]:
             self.assert_refused(call("run", *arguments), word)

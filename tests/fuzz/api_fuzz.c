@@ -116,6 +116,10 @@ static void create(slot *s) {
   if (fuzz_one_in(8)) o.iteration_tolerance = fuzz_garbage();
   if (fuzz_one_in(2)) o.submap_landmarks = 1 + (uint32_t)fuzz_below(fuzz_one_in(20) ? 5000 : 12);
   o.join = fuzz_one_in(20) ? fuzz_int() : (int32_t)fuzz_below(3);
+  if (fuzz_one_in(3)) o.association = fuzz_one_in(20) ? fuzz_int() : (int32_t)fuzz_below(3);
+  if (o.association != CAIRN_ASSOCIATION_KNOWN && !fuzz_one_in(10)) o.submap_landmarks = 0;
+  if (fuzz_one_in(6)) o.association_nodes = (uint32_t)fuzz_below(50);
+  if (fuzz_one_in(6)) o.new_probability = fuzz_positive(0.5);
   if (fuzz_one_in(6)) o.submap_distance = fuzz_positive(5);
   if (fuzz_one_in(6)) o.submap_extent = fuzz_positive(10);
   if (fuzz_one_in(6)) o.submap_sigma = fuzz_positive(0.1);

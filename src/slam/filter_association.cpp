@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which landmark each observation of a frame is of, where the frame brings no names (docs/association.md).
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "slam/filter.hpp"
+
+namespace cairn {
+namespace {
+
+// Diagonal first: sum nu_r^2 / S_rr >= nu_r^2 / S_rr never exceeds nu^T S^-1 nu, and most pairs are far apart.
+bool may_pass(const Vector3& residual, const Matrix3& S, Index rows, double bound) {
+  for (Index r = 0; r < rows; ++r)
+    if (!(residual(r) * residual(r) <= bound * S(r, r))) return false;
+  return true;
+}
+
+}  // namespace
+
+Filter::Unknowns::Unknowns(Arena& arena, const FilterOptions& options)
+    : most_landmarks(options.association == AssociationKind::known ? 0 : options.local_landmarks()),
+      most_pairs(most_landmarks == 0 ? 0 : kPairs * options.max_observations),
+      most_window(std::min(most_landmarks, 2 * options.max_observations)),
+      association(arena, {most_landmarks == 0 ? 0 : options.max_observations, most_pairs, most_window}),
+      expected(arena.take<Expected>(static_cast<std::size_t>(most_landmarks))),
+      pairs(arena.take<PairCandidate>(static_cast<std::size_t>(most_pairs))),
+      details(arena.take<Pair>(static_cast<std::size_t>(most_pairs))),
+      window(arena.take<Index>(static_cast<std::size_t>(most_window))),
+      covariance(arena.take<double>(
+          most_landmarks == 0 ? 0 : static_cast<std::size_t>((6 + 3 * most_window) * (6 + 3 * most_window)))),
+      nearest(arena.take<Match>(most_landmarks == 0 ? 0 : static_cast<std::size_t>(options.max_observations))),
+      chosen(arena.take<Index>(most_landmarks == 0 ? 0 : static_cast<std::size_t>(options.max_observations))),
+      doubtful(arena.take<char>(most_landmarks == 0 ? 0 : static_cast<std::size_t>(options.max_observations))) {}
+
+// Of the pairs that were found.
+class Filter::PairInnovations final : public Innovations {
+ public:
+  PairInnovations(Filter& filter, const Sensor& sensor)
+      : filter_(filter),
+        unknowns_(filter.unknowns_),
+        rows_(sensor.rows()),
+        common_mount_(sensor.mount_noise_mode() == MountNoise::per_frame ? sensor.mount_noise()
+                                                                         : Matrix2(Matrix2::Zero())) {}
+
+  Index rows() const override { return rows_; }
+  double threshold(Index rows) const override {
+    return filter_.options_.batch_gate_probability >= 1.0 ? std::numeric_limits<double>::infinity()
+                                                          : filter_.batch_threshold(rows);
+  }
+  void innovation(Index a, double* nu) const override { std::copy_n(unknowns_.details[a].residual.data(), rows_, nu); }
+  // J_a P J_b^T, and the noise of the mount's angles where all of a frame have it in common.
+  void covariance(Index a, Index b, double* block) const override {
+    Matrix3 S;
+    if (a == b) {
+      S = unknowns_.details[a].innovation;
+    } else {
+      const Expected &first = expected(a), &second = expected(b);
+      const Prediction &p = first.prediction, &q = second.prediction;
+      const Index n = 6 + 3 * unknowns_.window_count;
+      const Eigen::Map<const Eigen::MatrixXd> P(unknowns_.covariance, n, n);
+      const Index at = 6 + 3 * first.window, to = 6 + 3 * second.window;
+      const Matrix36 by_pose = p.J_z_pose * P.topLeftCorner<6, 6>() + p.J_z_landmark * P.block<3, 6>(at, 0);
+      const Matrix3 by_landmark = p.J_z_pose * P.block<6, 3>(0, to) + p.J_z_landmark * P.block<3, 3>(at, to);
+      S = by_pose * q.J_z_pose.transpose() + by_landmark * q.J_z_landmark.transpose() +
+          p.J_z_mount * common_mount_ * q.J_z_mount.transpose();
+    }
+    for (Index c = 0; c < rows_; ++c) std::copy_n(S.data() + 3 * c, rows_, block + rows_ * c);
+  }
+
+ private:
+  const Expected& expected(Index pair) const { return unknowns_.expected[unknowns_.details[pair].expected]; }
+
+  Filter& filter_;
+  const Unknowns& unknowns_;
+  Index rows_;
+  Matrix2 common_mount_;
+};
+
+// Images of all landmarks that give one, with their covariance.
+void Filter::predict_all(const Sensor& sensor) {
+  unknowns_.expected_count = 0;
+  const SE3 pose = ekf_.pose();
+  for (Index slot = 0; slot < ekf_.size(); ++slot) {
+    Expected& next = unknowns_.expected[unknowns_.expected_count];
+    if (!sensor.predict(pose, ekf_.landmark(slot), Vector2::Zero(), next.prediction)) continue;
+    ++unknowns_.expected_count;
+    next.slot = slot;
+    next.window = kUnpaired;
+    Eigen::Matrix<double, 9, 9> P;
+    ekf_.gather_ordinary(&slot, 1, P.data(), 9);
+    Eigen::Matrix<double, 3, 9> J;
+    J << next.prediction.J_z_pose, next.prediction.J_z_landmark;
+    next.innovation.noalias() = J * P * J.transpose();
+    if (sensor.mount_noise_mode() != MountNoise::none)
+      next.innovation += next.prediction.J_z_mount * sensor.mount_noise() * next.prediction.J_z_mount.transpose();
+  }
+}
+
+// Pairs that pass the gate of one, the nearest of each observation; and the nearest landmark of each whatever it
+// passes.
+void Filter::find_pairs(const Sensor& sensor, Index count) {
+  Unknowns& u = unknowns_;
+  const Index rows = sensor.rows();
+  const double bound = new_thresholds_[rows], gate = std::min(gate_thresholds_[rows], bound);
+  u.pair_count = u.window_count = 0;
+  for (Index i = 0; i < count; ++i) {
+    const Matrix3 noise = noise_of(sensor, observations_[i]);
+    const Vector3 z(observations_[i].z);
+    Match& nearest = u.nearest[i];
+    nearest = Match();
+    nearest.distance = std::numeric_limits<double>::infinity();
+    const Index begin = u.pair_count;
+    for (Index e = 0; e < u.expected_count; ++e) {
+      const Vector3 residual = sensor.residual(z, u.expected[e].prediction.z);
+      const Matrix3 S = u.expected[e].innovation + noise;
+      if (!may_pass(residual, S, rows, bound)) continue;
+      const double distance = squared_distance(residual.data(), S.data(), 3, rows);
+      if (!(distance >= 0.0)) continue;
+      if (distance < nearest.distance) {
+        nearest.distance = distance;
+        nearest.landmark = ids_[u.expected[e].slot];
+      }
+      if (!(distance <= gate)) continue;
+      Index at = u.pair_count;  // sorted by distance; the farthest goes where there is no room
+      if (at - begin == Unknowns::kPairs && distance >= u.pairs[--at].distance) continue;
+      for (; at > begin && distance < u.pairs[at - 1].distance; --at) {
+        u.pairs[at] = u.pairs[at - 1];
+        u.details[at] = u.details[at - 1];
+      }
+      u.pairs[at] = {i, e, distance};
+      u.details[at] = {e, residual, S};
+      u.pair_count = std::min(u.pair_count + 1, begin + Unknowns::kPairs);
+    }
+  }
+  // The landmarks of all pairs; of more than there is room for, those of earlier observations.
+  Index kept = 0;
+  for (Index p = 0; p < u.pair_count; ++p) {
+    Expected& expected = u.expected[u.details[p].expected];
+    if (expected.window == kUnpaired) {
+      if (u.window_count == u.most_window) continue;
+      expected.window = u.window_count;
+      u.window[u.window_count++] = expected.slot;
+    }
+    u.pairs[kept] = u.pairs[p];
+    u.pairs[kept].landmark = expected.window;
+    u.details[kept++] = u.details[p];
+  }
+  u.pair_count = kept;
+}
+
+// Whether the prediction is so uncertain that another landmark's image or another observation, which noise alone would
+// keep apart, lies within twice the bound of this one's: then what was never seen before may well lie there too. A
+// landmark that was seen a moment ago is not meant: its prediction is hardly worse than an observation.
+bool Filter::confusable(const Sensor& sensor, Index count, Index observation, const Pair& pair) const {
+  const Index rows = sensor.rows();
+  const double bound = 4.0 * new_thresholds_[rows];
+  const Prediction& own = unknowns_.expected[pair.expected].prediction;
+  const Matrix3 noise = pair.innovation - unknowns_.expected[pair.expected].innovation;
+  constexpr double kStale = 9.0;
+  if (!((pair.innovation.diagonal().head(rows).array() > kStale * noise.diagonal().head(rows).array()).any()))
+    return false;
+  const auto within = [&](const Vector3& apart, const Matrix3& S) {
+    return may_pass(apart, S, rows, bound) && squared_distance(apart.data(), S.data(), 3, rows) <= bound;
+  };
+  const auto doubt = [&](const Vector3& apart) { return within(apart, pair.innovation) && !within(apart, noise); };
+  for (Index e = 0; e < unknowns_.expected_count; ++e) {
+    if (e != pair.expected && doubt(sensor.residual(unknowns_.expected[e].prediction.z, own.z))) return true;
+  }
+  for (Index o = 0; o < count; ++o)
+    if (o != observation && doubt(sensor.residual(Vector3(observations_[o].z), own.z))) return true;
+  return false;
+}
+
+// Pairs that could be chance are taken together or not at all: at the first sight of a known place one of them fits
+// easily, and would bend the map; several fit by chance together hardly ever.
+void Filter::demand_support(const Sensor& sensor, Index count) {
+  Index doubtful = 0;
+  for (Index i = 0; i < count; ++i) {
+    const Index chosen = unknowns_.association.chosen(i);
+    unknowns_.chosen[i] = chosen;
+    unknowns_.doubtful[i] = chosen != kUnpaired && confusable(sensor, count, i, unknowns_.details[chosen]) ? 1 : 0;
+    doubtful += unknowns_.doubtful[i];
+  }
+  if (doubtful >= options_.association_support) return;
+  for (Index i = 0; i < count; ++i)
+    if (unknowns_.doubtful[i] != 0) unknowns_.chosen[i] = kUnpaired;
+}
+
+// What was paired goes to the batch; of the rest, what is far from every landmark is new.
+void Filter::settle_pairs(const Sensor& sensor, Index count) {
+  const Index rows = sensor.rows();
+  for (Index i = 0; i < count; ++i) {
+    Match& match = next_matches_[i];
+    const Match& nearest = unknowns_.nearest[i];
+    const Index chosen = unknowns_.chosen[i];
+    if (chosen != kUnpaired) {
+      const Expected& expected = unknowns_.expected[unknowns_.details[chosen].expected];
+      match.landmark = ids_[expected.slot];
+      add_candidate(sensor, i, expected.slot, expected.prediction);
+    } else if (nearest.distance > new_thresholds_[rows]) {
+      add_new_one(sensor, i);
+    } else {
+      match = nearest;
+      match.threshold = std::min(gate_thresholds_[rows], new_thresholds_[rows]);
+      match.reason = nearest.distance <= match.threshold ? Reason::ambiguous : Reason::gate;
+    }
+  }
+}
+
+void Filter::sort_by_association(const Sensor& sensor, Index count) {
+  const auto start = std::chrono::steady_clock::now();
+  Unknowns& u = unknowns_;
+  predict_all(sensor);
+  find_pairs(sensor, count);
+  if (options_.association == AssociationKind::nearest) {
+    u.association.nearest_neighbour(u.pairs, u.pair_count, count);
+  } else {
+    ekf_.gather_ordinary(u.window, u.window_count, u.covariance, 6 + 3 * u.window_count);
+    const PairInnovations innovations(*this, sensor);
+    u.association.joint_compatibility(u.pairs, u.pair_count, count, innovations, options_.association_nodes);
+    next_report_.association_nodes = u.association.nodes();
+    next_report_.association_exhausted = u.association.exhausted();
+    if (u.association.exhausted())
+      say("update: association stopped at %td joint tests, with %td of %td observations paired", u.association.nodes(),
+          u.association.pairs(), count);
+  }
+  demand_support(sensor, count);
+  settle_pairs(sensor, count);
+  next_report_.association_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace cairn

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Observations without names: which landmark the filter takes them for, and when it rather takes them for none. */
+#include "support.h"
+
+static cairn_filter_options unnamed(int32_t association) {
+  cairn_filter_options options = test_options();
+  options.association = association;
+  return options;
+}
+
+static cairn_observation at(double x, double y, double z) {
+  cairn_observation o;
+  memset(&o, 0, sizeof o);
+  o.id = CAIRN_ID_NONE;
+  o.z[0] = x, o.z[1] = y, o.z[2] = z;
+  return o;
+}
+
+static cairn_update_report last(const rig *r) {
+  cairn_update_report report;
+  memset(&report, 0, sizeof report);
+  report.struct_size = sizeof report;
+  assert_ok(cairn_filter_last_update(r->filter, &report));
+  return report;
+}
+
+/* A rig that stands at the origin, knows it, and has seen `count` points; then it is pushed along x, by `sigma`. */
+static void open_pushed(rig *r, cairn_filter_options options, const cairn_observation *points, size_t count,
+                        double sigma) {
+  const cairn_pose stay = {{0, 0, 0}, {1, 0, 0, 0}};
+  double covariance[36];
+  options.initial_pose = stay;
+  memset(options.initial_covariance, 0, sizeof options.initial_covariance);
+  options.gate_probability = 0.99;
+  rig_open(r, &options);
+  assert_ok(cairn_filter_update(r->filter, r->sensors[CARTESIAN], points, count, NULL));
+  diagonal(covariance, 6, 1e-8);
+  covariance[0] = sigma * sigma;
+  assert_ok(cairn_filter_predict_increment(r->filter, &stay, covariance));
+}
+
+static void names_are_not_asked_for(void **state) {
+  const int32_t ways[] = {CAIRN_ASSOCIATION_NEAREST, CAIRN_ASSOCIATION_JOINT};
+  (void)state;
+  for (size_t k = 0; k < LENGTH(ways); ++k) {
+    const cairn_filter_options named = test_options(), options = unnamed(ways[k]);
+    rig known, unknown;
+    world w;
+    uint64_t name_of[WORLD_LANDMARKS] = {0};
+    size_t matched = 0;
+    rig_open(&known, &named);
+    rig_open(&unknown, &options);
+    world_init(&w, 77);
+    w.noise = 0.2;
+    for (int step = 0; step < 80; ++step) {
+      frame f;
+      cairn_match told[WORLD_LANDMARKS], found[WORLD_LANDMARKS];
+      world_frame(&w, &f);
+      f.sensor = CARTESIAN;
+      f.count = 0;
+      for (unsigned i = 0; i < WORLD_LANDMARKS; ++i) {
+        cairn_observation o = at(0, 0, 0);
+        if (!world_see(&w, CARTESIAN, 0, 0, w.landmarks[i], o.z)) continue;
+        for (int n = 0; n < 3; ++n) o.z[n] += random_normal(&w.random, 0.02);
+        o.id = i + 1;
+        f.observations[f.count++] = o;
+      }
+      assert_ok(rig_take(&known, &f, told));
+      for (size_t i = 0; i < f.count; ++i) f.observations[i].id = step % 2 == 0 ? CAIRN_ID_NONE : 5;
+      assert_ok(rig_take(&unknown, &f, found));
+      for (size_t i = 0; i < f.count; ++i) {
+        assert_int_equal(found[i].result, told[i].result);
+        if (found[i].result == CAIRN_NEW) name_of[found[i].landmark] = told[i].landmark;
+        if (found[i].result != CAIRN_MATCHED) continue;
+        assert_int_equal(name_of[found[i].landmark], told[i].landmark);
+        ++matched;
+      }
+    }
+    assert_true(matched > 300);
+    cairn_pose a, b;
+    double pa[36], pb[36];
+    assert_ok(cairn_filter_pose(known.filter, &a, pa));
+    assert_ok(cairn_filter_pose(unknown.filter, &b, pb));
+    assert_memory_equal(&a, &b, sizeof a); /* the very same updates */
+    assert_memory_equal(pa, pb, sizeof pa);
+    rig_close(&known);
+    rig_close(&unknown);
+  }
+}
+
+static void what_cannot_be_true_together_is_paired_once(void **state) {
+  const cairn_observation points[] = {{0, {10, -50, 0}, {0}}, {0, {10, 50, 0}, {0}}};
+  const cairn_observation looked[] = {{0, {12.5, -50, 0}, {0}}, {0, {7.5, 50, 0}, {0}}};
+  cairn_match m[2];
+  rig r;
+  (void)state;
+  open_pushed(&r, unnamed(CAIRN_ASSOCIATION_JOINT), points, 2, 1.0);
+  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, 2, m));
+  const int paired = m[0].result == CAIRN_MATCHED ? 0 : 1;
+  assert_int_equal(m[paired].result, CAIRN_MATCHED);
+  assert_int_equal(m[paired].landmark, paired);
+  assert_int_equal(m[1 - paired].result, CAIRN_REJECTED);
+  assert_int_equal(m[1 - paired].reason, CAIRN_REASON_AMBIGUOUS);
+  assert_int_equal(m[1 - paired].landmark, 1 - paired);
+  assert_true(m[1 - paired].distance < m[1 - paired].threshold);
+  const cairn_update_report report = last(&r);
+  assert_true(report.association_nodes >= 2 && report.association_exhausted == 0);
+  assert_true(report.association_seconds > 0);
+  rig_close(&r);
+  /* Nearest neighbour takes both; the gate of the batch finds that they do not fit. */
+  open_pushed(&r, unnamed(CAIRN_ASSOCIATION_NEAREST), points, 2, 1.0);
+  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, 2, m));
+  assert_true((m[0].reason == CAIRN_REASON_BATCH_GATE) != (m[1].reason == CAIRN_REASON_BATCH_GATE));
+  assert_int_equal(last(&r).association_nodes, 0);
+  rig_close(&r);
+}
+
+static void one_that_could_be_another_waits_for_more(void **state) {
+  const cairn_observation points[] = {{0, {10, 0, 0}, {0}}, {0, {12, 0.5, 0}, {0}}, {0, {13, -0.5, 0}, {0}}};
+  cairn_observation looked[3];
+  cairn_match m[3];
+  rig r;
+  (void)state;
+  for (size_t count = 1; count <= 3; ++count) {
+    open_pushed(&r, unnamed(CAIRN_ASSOCIATION_JOINT), points, 3, 1.0);
+    for (size_t i = 0; i < count; ++i) {
+      looked[i] = points[i];
+      looked[i].z[0] += 0.8;
+    }
+    assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, count, m));
+    for (size_t i = 0; i < count; ++i) {
+      assert_int_equal(m[i].result, count == 3 ? CAIRN_MATCHED : CAIRN_REJECTED);
+      assert_int_equal(m[i].reason, count == 3 ? CAIRN_REASON_NONE : CAIRN_REASON_AMBIGUOUS);
+      if (count == 3) assert_int_equal(m[i].landmark, i);
+    }
+    rig_close(&r);
+  }
+}
+
+static void new_landmarks_keep_their_distance(void **state) {
+  const cairn_observation point = at(10, 0, 0);
+  /* one axis at noise 0.1, twice: squared distance d^2 / 0.02; bounds of 0.99 and 0.9999 at 11.34 and 21.11 */
+  const struct {
+    double offset;
+    int32_t result, reason;
+  } looks[] = {{0.4, CAIRN_MATCHED, CAIRN_REASON_NONE},
+               {0.6, CAIRN_REJECTED, CAIRN_REASON_GATE},
+               {0.7, CAIRN_NEW, CAIRN_REASON_NONE}};
+  (void)state;
+  for (size_t k = 0; k < LENGTH(looks); ++k) {
+    cairn_observation o = point;
+    cairn_match m;
+    rig r;
+    o.z[1] += looks[k].offset;
+    for (int i = 0; i < 3; ++i) o.covariance[4 * i] = 0.01;
+    cairn_observation first = point;
+    memcpy(first.covariance, o.covariance, sizeof first.covariance);
+    open_pushed(&r, unnamed(CAIRN_ASSOCIATION_JOINT), &first, 1, 1e-4);
+    assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], &o, 1, &m));
+    assert_int_equal(m.result, looks[k].result);
+    assert_int_equal(m.reason, looks[k].reason);
+    assert_int_equal(m.landmark, m.result == CAIRN_NEW ? 1 : 0);
+    rig_close(&r);
+  }
+}
+
+static void a_bound_of_tests_is_kept_and_told(void **state) {
+  cairn_filter_options options = unnamed(CAIRN_ASSOCIATION_JOINT);
+  cairn_observation points[WORLD_LANDMARKS];
+  cairn_match m[WORLD_LANDMARKS];
+  rig r;
+  (void)state;
+  options.association_nodes = 1;
+  for (int i = 0; i < WORLD_LANDMARKS; ++i) points[i] = at(10 + 0.9 * (i % 4), 0.9 * (i / 4), 0.1 * i);
+  open_pushed(&r, options, points, WORLD_LANDMARKS, 2.0);
+  for (int i = 0; i < WORLD_LANDMARKS; ++i) points[i].z[0] += i % 3 == 0 ? 1.3 : i % 3 == 1 ? 0.4 : -0.7; /* no push */
+  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], points, WORLD_LANDMARKS, m));
+  const cairn_update_report report = last(&r);
+  assert_int_equal(report.association_exhausted, 1);
+  assert_true(report.association_nodes >= 1 && report.association_nodes <= 8 * WORLD_LANDMARKS);
+  assert_int_equal(report.matched + report.placed + report.rejected, WORLD_LANDMARKS);
+  rig_close(&r);
+}
+
+static void a_frame_that_does_not_fit_changes_nothing(void **state) {
+  cairn_filter_options options = unnamed(CAIRN_ASSOCIATION_JOINT);
+  snapshot before = {0, NULL}, after = {0, NULL};
+  cairn_observation o[3];
+  cairn_match m;
+  rig r;
+  (void)state;
+  options.max_landmarks = 2;
+  rig_open(&r, &options);
+  for (int i = 0; i < 3; ++i) o[i] = at(8 + 3 * i, 2, 1);
+  snapshot_take(&before, r.filter);
+  assert_refused(NULL, CAIRN_ERROR_CAPACITY, "observations",
+                 cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 3, NULL));
+  o[1].z[2] = NAN;
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "observations[1].z",
+                 cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 2, NULL));
+  snapshot_take(&after, r.filter);
+  assert_true(snapshot_same(&before, &after));
+  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 1, &m));
+  assert_int_equal(m.landmark, 0); /* no number was used up */
+  snapshot_free(&before);
+  snapshot_free(&after);
+  rig_close(&r);
+}
+
+static void options_that_cannot_be(void **state) {
+  cairn_filter *filter = NULL;
+  (void)state;
+  const int32_t ways[] = {-1, 3, 77};
+  for (size_t i = 0; i < LENGTH(ways); ++i) {
+    const cairn_filter_options options = unnamed(ways[i]);
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.association", cairn_filter_create(&options, &filter));
+  }
+  const uint32_t nodes[] = {0, 1000001, UINT32_MAX};
+  for (size_t i = 0; i < LENGTH(nodes); ++i) {
+    cairn_filter_options options = test_options();
+    options.association_nodes = nodes[i];
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.association_nodes", cairn_filter_create(&options, &filter));
+  }
+  const double probabilities[] = {0, 1, -0.1, 1.5, NAN, INFINITY};
+  for (size_t i = 0; i < LENGTH(probabilities); ++i) {
+    cairn_filter_options options = test_options();
+    options.new_probability = probabilities[i];
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.new_probability", cairn_filter_create(&options, &filter));
+  }
+  cairn_filter_options options = unnamed(CAIRN_ASSOCIATION_NEAREST);
+  options.submap_landmarks = 10;
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.association", cairn_filter_create(&options, &filter));
+  assert_null(filter);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(names_are_not_asked_for),
+      cmocka_unit_test(what_cannot_be_true_together_is_paired_once),
+      cmocka_unit_test(one_that_could_be_another_waits_for_more),
+      cmocka_unit_test(new_landmarks_keep_their_distance),
+      cmocka_unit_test(a_bound_of_tests_is_kept_and_told),
+      cmocka_unit_test(a_frame_that_does_not_fit_changes_nothing),
+      cmocka_unit_test(options_that_cannot_be),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
