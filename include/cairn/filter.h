@@ -61,8 +61,7 @@ typedef struct cairn_filter_options {
   double submap_extent;          /**< ... or once a landmark stands this far from its origin, m; 0, the default: no matter */
   double submap_sigma;           /**< ... or once the largest standard deviation of the vehicle's position in it exceeds
                                       this, m; 0, the default: no matter */
-  int32_t association;           /**< CAIRN_ASSOCIATION_KNOWN, CAIRN_ASSOCIATION_NEAREST or CAIRN_ASSOCIATION_JOINT; the
-                                      latter two with a single map alone (submap_landmarks 0); default
+  int32_t association;           /**< CAIRN_ASSOCIATION_KNOWN, CAIRN_ASSOCIATION_NEAREST or CAIRN_ASSOCIATION_JOINT; default
                                       CAIRN_ASSOCIATION_KNOWN */
   uint32_t association_nodes;    /**< joint tests of one frame at most, 1 to 1000000: after so many the best set that was
                                       found is taken; default 2000 */
@@ -229,6 +228,9 @@ typedef struct cairn_closing_report {
   double seconds;             /**< what the closing took */
   double moved_max;           /**< how far the map's older landmarks moved: the largest way, m */
   double moved_rms;           /**< ... and root mean square, m */
+  uint32_t landmarks_ambiguous;   /**< without known ids: near landmarks of the map, but of none for sure: left out */
+  uint32_t association_nodes;     /**< joint tests that association with the map took */
+  uint32_t association_exhausted; /**< 1: it stopped at the bound of the options */
 } cairn_closing_report;
 
 /** Closes the open submap now. Allocates. A call that fails leaves the filter as it was, the submap open.

@@ -61,10 +61,6 @@ FilterOptions read_filter_options(const cairn_filter_options* user) {
                 "options.association is %d, none of CAIRN_ASSOCIATION_KNOWN, CAIRN_ASSOCIATION_NEAREST, "
                 "CAIRN_ASSOCIATION_JOINT",
                 o.association);
-  if (o.association != CAIRN_ASSOCIATION_KNOWN && o.submap_landmarks > 0)
-    throw Error(ErrorCode::argument,
-                "options.association: without known ids the filter keeps a single map; submap_landmarks is %u, not 0",
-                o.submap_landmarks);
   check_range(o.association_nodes, 1, 1000000, "options.association_nodes");
   check_probability(o.new_probability, "options.new_probability");
   if (o.new_probability == 1.0)

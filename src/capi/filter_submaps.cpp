@@ -69,6 +69,9 @@ cairn_status cairn_filter_last_closing(const cairn_filter* filter, cairn_closing
     out.seconds = c.seconds;
     out.moved_max = c.join.moved_max;
     out.moved_rms = c.join.moved_rms;
+    out.landmarks_ambiguous = static_cast<std::uint32_t>(c.naming.ambiguous);
+    out.association_nodes = static_cast<std::uint32_t>(c.naming.nodes);
+    out.association_exhausted = c.naming.exhausted ? 1 : 0;
     write_report(out, report);
   });
 }

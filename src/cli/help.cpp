@@ -28,7 +28,7 @@ const char* const kHelp =
     "  --submap-sigma M        ... or once the position in it is known no better; 0: no matter (default)\n"
     "  --join WAY              how submaps enter the map: auto (default), dense or sparse\n"
     "  --association HOW       whose landmark an observation is of: known (default) by the drive's ids; nearest or\n"
-    "                          joint without them, which then only score the result; these keep one map\n"
+    "                          joint without them, which then only score the result\n"
     "  --error KIND            error of the state: invariant (default) or standard\n"
     "  --forget-after N        remove landmarks not observed for N frames; 0: never (default)\n"
     "  --gate P                chi-square gate of one observation, a probability; 1: none (default of simulate)\n"

@@ -38,8 +38,7 @@ void Runner::create() {
   constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
   options.association = choices_.association;
   options.submap_landmarks = choices_.submap_landmarks.value_or(
-      !choices_.names_known() ? 0
-                              : std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations)));
+      std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations)));
   has_submaps_ = options.submap_landmarks > 0;
   options.submap_distance = choices_.submap_distance;
   options.submap_extent = choices_.submap_extent;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unordered_set>
 
 #include "cli/library.hpp"
 
@@ -93,7 +94,6 @@ void Summary::add_pairings(const DriveStep& step, const StepResult& result) {
     const std::uint64_t name = step.observations[i].id;
     if (match.result == CAIRN_NEW) {
       names_[match.landmark] = name;
-      placed_twice_ += !placed_.insert(name).second;
     } else if (match.result == CAIRN_MATCHED) {
       ++paired_;
       wrongly_paired_ += names_.at(match.landmark) != name;
@@ -130,7 +130,9 @@ void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closi
   if (!names_known_) {
     count("paired", paired_);
     count("paired_wrongly", wrongly_paired_);
-    count("landmarks_placed_twice", placed_twice_);
+    std::unordered_set<std::uint64_t> names;
+    for (const cairn_landmark& landmark : landmarks) names.insert(name_of(landmark.id));
+    count("landmarks_twice", landmarks.size() - names.size());
     count("association_exhausted", association_exhausted_);
   }
   measure("seconds", seconds);

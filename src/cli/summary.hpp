@@ -6,7 +6,6 @@
 
 #include <optional>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "cli/figures.hpp"
@@ -53,8 +52,7 @@ class Summary {
   bool names_known_;
   // Where the filter was not told names:
   std::unordered_map<std::uint64_t, std::uint64_t> names_;
-  std::unordered_set<std::uint64_t> placed_;
-  std::size_t paired_ = 0, wrongly_paired_ = 0, placed_twice_ = 0, association_exhausted_ = 0;
+  std::size_t paired_ = 0, wrongly_paired_ = 0, association_exhausted_ = 0;
   std::vector<double> step_seconds_;
   std::size_t observations_ = 0;
   std::size_t rejected_ = 0;

@@ -32,8 +32,7 @@ Filter::Filter(Arena& arena, const FilterOptions& options)
   static_assert(alignof(AnySensorSlot) <= Arena::kAlignment, "the arena aligns to a cache line");
   if (arena.measuring()) return;
   for (int rows = 1; rows <= 6; ++rows) gate_thresholds_[rows] = chi_square_quantile(rows, options.gate_probability);
-  for (int rows = 1; rows <= 3; ++rows)
-    new_thresholds_[rows] = chi_square_quantile(rows, options.new_probability);
+  for (int rows = 1; rows <= 3; ++rows) new_thresholds_[rows] = chi_square_quantile(rows, options.new_probability);
   if (options.single_map()) {
     ekf_.start(options.initial_pose, options.initial_covariance);
   } else {

@@ -13,6 +13,7 @@
 #include "ekf/ekf.hpp"
 #include "ekf/iterate.hpp"
 #include "map/global_map.hpp"
+#include "map/naming.hpp"
 #include "motion/motion.hpp"
 #include "sensor/cartesian.hpp"
 #include "sensor/custom.hpp"
@@ -65,6 +66,7 @@ struct ClosingReport {
   ClosedBy reason = ClosedBy::none;
   Index landmarks = 0;
   JoinReport join;
+  NamingReport naming;  // where observations bring no names
   double seconds = 0.0;
 };
 

@@ -4,20 +4,10 @@
 #include <chrono>
 #include <limits>
 
+#include "association/doubt.hpp"
 #include "slam/filter.hpp"
 
 namespace cairn {
-namespace {
-
-// Diagonal first: sum nu_r^2 / S_rr >= nu_r^2 / S_rr never exceeds nu^T S^-1 nu, and most pairs are far apart.
-bool may_pass(const Vector3& residual, const Matrix3& S, Index rows, double bound) {
-  for (Index r = 0; r < rows; ++r)
-    if (!(residual(r) * residual(r) <= bound * S(r, r))) return false;
-  return true;
-}
-
-}  // namespace
-
 Filter::Unknowns::Unknowns(Arena& arena, const FilterOptions& options)
     : most_landmarks(options.association == AssociationKind::known ? 0 : options.local_landmarks()),
       most_pairs(most_landmarks == 0 ? 0 : kPairs * options.max_observations),
@@ -114,9 +104,8 @@ void Filter::find_pairs(const Sensor& sensor, Index count) {
     for (Index e = 0; e < u.expected_count; ++e) {
       const Vector3 residual = sensor.residual(z, u.expected[e].prediction.z);
       const Matrix3 S = u.expected[e].innovation + noise;
-      if (!may_pass(residual, S, rows, bound)) continue;
+      if (!within_bound(residual, S, rows, bound)) continue;
       const double distance = squared_distance(residual.data(), S.data(), 3, rows);
-      if (!(distance >= 0.0)) continue;
       if (distance < nearest.distance) {
         nearest.distance = distance;
         nearest.landmark = ids_[u.expected[e].slot];
@@ -149,26 +138,17 @@ void Filter::find_pairs(const Sensor& sensor, Index count) {
   u.pair_count = kept;
 }
 
-// Whether the prediction is so uncertain that another landmark's image or another observation, which noise alone would
-// keep apart, lies within twice the bound of this one's: then what was never seen before may well lie there too. A
-// landmark that was seen a moment ago is not meant: its prediction is hardly worse than an observation.
 bool Filter::confusable(const Sensor& sensor, Index count, Index observation, const Pair& pair) const {
   const Index rows = sensor.rows();
-  const double bound = 4.0 * new_thresholds_[rows];
-  const Prediction& own = unknowns_.expected[pair.expected].prediction;
-  const Matrix3 noise = pair.innovation - unknowns_.expected[pair.expected].innovation;
-  constexpr double kStale = 9.0;
-  if (!((pair.innovation.diagonal().head(rows).array() > kStale * noise.diagonal().head(rows).array()).any()))
-    return false;
-  const auto within = [&](const Vector3& apart, const Matrix3& S) {
-    return may_pass(apart, S, rows, bound) && squared_distance(apart.data(), S.data(), 3, rows) <= bound;
-  };
-  const auto doubt = [&](const Vector3& apart) { return within(apart, pair.innovation) && !within(apart, noise); };
-  for (Index e = 0; e < unknowns_.expected_count; ++e) {
-    if (e != pair.expected && doubt(sensor.residual(unknowns_.expected[e].prediction.z, own.z))) return true;
-  }
+  const Expected& own = unknowns_.expected[pair.expected];
+  const Matrix3 noise = pair.innovation - own.innovation;
+  const Doubt doubt(pair.innovation, noise, rows, new_thresholds_[rows]);
+  if (!doubt.stale()) return false;
+  for (Index e = 0; e < unknowns_.expected_count; ++e)
+    if (e != pair.expected && doubt.confuses(sensor.residual(unknowns_.expected[e].prediction.z, own.prediction.z)))
+      return true;
   for (Index o = 0; o < count; ++o)
-    if (o != observation && doubt(sensor.residual(Vector3(observations_[o].z), own.z))) return true;
+    if (o != observation && doubt.confuses(sensor.residual(Vector3(observations_[o].z), own.prediction.z))) return true;
   return false;
 }
 

@@ -31,6 +31,17 @@ MapOptions map_options(const FilterOptions& options) {
   return map;
 }
 
+NamingOptions naming_options(const FilterOptions& options) {
+  NamingOptions naming;
+  naming.joint = options.association == AssociationKind::joint;
+  naming.nodes = options.association_nodes;
+  naming.support = options.association_support;
+  naming.gate_probability = options.gate_probability;
+  naming.joint_gate_probability = options.batch_gate_probability;
+  naming.new_probability = options.new_probability;
+  return naming;
+}
+
 }  // namespace
 
 bool FilterOptions::sparse() const {
@@ -90,7 +101,14 @@ void Filter::join_submap(ClosedBy reason, FixRequest* fix) {
   const auto begin = std::chrono::steady_clock::now();
   next.reason = reason;
   next.landmarks = ekf_.size();
-  next.join = map_->join_and_fix(take_submap(), fix);
+  Submap submap = take_submap();
+  if (options_.association != AssociationKind::known) {
+    next.naming = name_landmarks(*map_, naming_options(options_), submap);
+    if (next.naming.exhausted)
+      say("closing: association stopped at %td joint tests, with %zu of %td landmarks named", next.naming.nodes,
+          next.naming.named, next.landmarks);
+  }
+  next.join = map_->join_and_fix(submap, fix);
   ekf_.start(SE3(), Matrix6::Zero());
   slots_.clear();
   driven_ = 0.0;

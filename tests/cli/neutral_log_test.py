@@ -89,19 +89,23 @@ class NeutralLog(ProgramTest):
         known = self.summary(log, "--single-map")
         self.assertNotIn("paired", known)
         for how in ("nearest", "joint"):
-            s = self.summary(log, "--association", how, "--output", out)
+            s = self.summary(log, "--single-map", "--association", how, "--output", out)
             self.assertEqual((s["observations"], s["submaps"]), (known["observations"], 0))
             self.assertEqual(s["paired"] + s["rejected"] + s["landmarks"], s["observations"])
             self.assertLessEqual(s["paired_wrongly"], 0.003 * s["paired"])
-            self.assertEqual(s["landmarks"] - s["landmarks_placed_twice"], known["landmarks"])
+            self.assertEqual(s["landmarks"] - s["landmarks_twice"], known["landmarks"])
             self.assertLess(s["landmark_rmse_m"], 1.1 * known["landmark_rmse_m"] + 0.02)
             # Numbered as they come, and scored by the log's ids.
             rows = self.read_csv(out, "landmarks.csv")
             self.assertEqual([int(row["id"]) for row in rows], list(range(int(s["landmarks"]))))
             self.assertTrue(all(row["error_x_m"] for row in rows))
-        refused = call("run", log, "--association", "joint", "--submap-landmarks", "20")
-        self.assertEqual(refused.returncode, 1)
-        self.assertIn("options.association", refused.stderr)
+        for join in ("dense", "sparse"):
+            s = self.summary(log, "--association", "joint", "--submap-landmarks", "15", "--join", join, "--output", out)
+            self.assertGreater(s["submaps"], 3)
+            self.assertLessEqual(s["paired_wrongly"], 0.003 * s["paired"])
+            self.assertLessEqual(abs(s["landmarks"] - s["landmarks_twice"] - known["landmarks"]), 1)
+            self.assertLessEqual(s["landmarks_twice"], 1)
+            self.assertLess(s["landmark_rmse_m"], 1.5 * known["landmark_rmse_m"] + 0.05)
 
     def test_submaps(self):
         text = self.neutral_log(landmarks=120, steps=500)

@@ -117,7 +117,6 @@ static void create(slot *s) {
   if (fuzz_one_in(2)) o.submap_landmarks = 1 + (uint32_t)fuzz_below(fuzz_one_in(20) ? 5000 : 12);
   o.join = fuzz_one_in(20) ? fuzz_int() : (int32_t)fuzz_below(3);
   if (fuzz_one_in(3)) o.association = fuzz_one_in(20) ? fuzz_int() : (int32_t)fuzz_below(3);
-  if (o.association != CAIRN_ASSOCIATION_KNOWN && !fuzz_one_in(10)) o.submap_landmarks = 0;
   if (fuzz_one_in(6)) o.association_nodes = (uint32_t)fuzz_below(50);
   if (fuzz_one_in(6)) o.new_probability = fuzz_positive(0.5);
   if (fuzz_one_in(6)) o.submap_distance = fuzz_positive(5);
@@ -360,7 +359,8 @@ static void ask_submaps(slot *s) {
   HOLDS(report.status <= 0 && report.status >= CAIRN_ERROR_STATE, report.status);
   HOLDS(report.reason >= CAIRN_CLOSED_BY_NONE && report.reason <= CAIRN_CLOSED_BY_FIX, report.reason);
   if (report.status == CAIRN_OK)
-    HOLDS(report.landmarks == report.landmarks_new + report.landmarks_fused + report.landmarks_refused,
+    HOLDS(report.landmarks == report.landmarks_new + report.landmarks_fused + report.landmarks_refused +
+                                      report.landmarks_ambiguous,
           report.landmarks);
   HOLDS(cairn_map_size(cairn_filter_local_map(f), &open) == CAIRN_OK, open);
   HOLDS(cairn_filter_local_pose(f, &local, covariance) == CAIRN_OK, 0);

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether a pair that fits may still be chance (docs/association.md, "Doubt").
+#pragma once
+
+#include "ekf/iterate.hpp"
+#include "geometry/types.hpp"
+
+namespace cairn {
+
+// Whether nu^T S^-1 nu <= bound. nu_r^2 / S_rr never exceeds that, and most pairs are far apart.
+inline bool within_bound(const Vector3& nu, const Matrix3& S, Index rows, double bound) {
+  for (Index r = 0; r < rows; ++r)
+    if (!(nu(r) * nu(r) <= bound * S(r, r))) return false;
+  const double distance = squared_distance(nu.data(), S.data(), 3, rows);
+  return distance >= 0.0 && distance <= bound;
+}
+
+// Of a pair with innovation covariance S, `noise` included.
+class Doubt {
+ public:
+  Doubt(const Matrix3& S, const Matrix3& noise, Index rows, double new_threshold)
+      : S_(S), noise_(noise), rows_(rows), bound_(4.0 * new_threshold) {}
+
+  // The prediction is worse than observations by far.
+  bool stale() const {
+    constexpr double kStale = 9.0;
+    for (Index r = 0; r < rows_; ++r)
+      if (S_(r, r) > kStale * noise_(r, r)) return true;
+    return false;
+  }
+  // What lies so far from the prediction may be taken for what was predicted, though noise alone keeps the two apart.
+  bool confuses(const Vector3& apart) const {
+    return within_bound(apart, S_, rows_, bound_) && !within_bound(apart, noise_, rows_, bound_);
+  }
+
+ private:
+  const Matrix3& S_;
+  const Matrix3& noise_;
+  Index rows_;
+  double bound_;  // twice the radius
+};
+
+}  // namespace cairn
