@@ -89,11 +89,7 @@ class Naming final : public Innovations {
   Matrix3 noise(Index i, Index j) const { return noise_.block<3, 3>(6 + 3 * i, 6 + 3 * j); }
   // J_k P J_l^T of two known landmarks.
   Matrix3 across(Index k, Index l) const {
-    const Prediction &p = known_[k].prediction, &q = known_[l].prediction;
-    const Matrix36 by_base = p.J_z_pose * P_.topLeftCorner<6, 6>() + p.J_z_landmark * P_.block<3, 6>(6 + 3 * k, 0);
-    const Matrix3 by_landmark =
-        p.J_z_pose * P_.block<6, 3>(0, 6 + 3 * l) + p.J_z_landmark * P_.block<3, 3>(6 + 3 * k, 6 + 3 * l);
-    return by_base * q.J_z_pose.transpose() + by_landmark * q.J_z_landmark.transpose();
+    return image_covariance(P_, known_[k].prediction, k, known_[l].prediction, l);
   }
 
   // Landmarks of the map that those of the submap may be, and their joint covariance with the base. What the map knew

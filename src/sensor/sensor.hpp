@@ -50,6 +50,15 @@ class Sensor {
   virtual Vector3 residual(const Vector3& z, const Vector3& predicted) const { return z - predicted; }
 };
 
+// J_p P J_q^T for the images of two landmarks, number k and l in the joint covariance P of [pose; landmarks].
+inline Matrix3 image_covariance(const Eigen::Ref<const Eigen::MatrixXd>& P, const Prediction& p, Eigen::Index k,
+                                const Prediction& q, Eigen::Index l) {
+  const Eigen::Index row = 6 + 3 * k, column = 6 + 3 * l;
+  const Matrix36 by_pose = p.J_z_pose * P.topLeftCorner<6, 6>() + p.J_z_landmark * P.block<3, 6>(row, 0);
+  const Matrix3 by_landmark = p.J_z_pose * P.block<6, 3>(0, column) + p.J_z_landmark * P.block<3, 3>(row, column);
+  return by_pose * q.J_z_pose.transpose() + by_landmark * q.J_z_landmark.transpose();
+}
+
 // Chain rule for a sensor that sees the point y = R^T (l - p) of the body frame, given J_z_y at y.
 inline void map_jacobians(const SE3& T_map_body, const Vector3& p_map, const Matrix3& J_z_y, Prediction& out) {
   const Matrix3 J_z_l = J_z_y * T_map_body.rotation().matrix().transpose();

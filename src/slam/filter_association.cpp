@@ -46,14 +46,10 @@ class Filter::PairInnovations final : public Innovations {
       S = unknowns_.details[a].innovation;
     } else {
       const Expected &first = expected(a), &second = expected(b);
-      const Prediction &p = first.prediction, &q = second.prediction;
       const Index n = 6 + 3 * unknowns_.window_count;
-      const Eigen::Map<const Eigen::MatrixXd> P(unknowns_.covariance, n, n);
-      const Index at = 6 + 3 * first.window, to = 6 + 3 * second.window;
-      const Matrix36 by_pose = p.J_z_pose * P.topLeftCorner<6, 6>() + p.J_z_landmark * P.block<3, 6>(at, 0);
-      const Matrix3 by_landmark = p.J_z_pose * P.block<6, 3>(0, to) + p.J_z_landmark * P.block<3, 3>(at, to);
-      S = by_pose * q.J_z_pose.transpose() + by_landmark * q.J_z_landmark.transpose() +
-          p.J_z_mount * common_mount_ * q.J_z_mount.transpose();
+      S = image_covariance(Eigen::Map<const Eigen::MatrixXd>(unknowns_.covariance, n, n), first.prediction,
+                           first.window, second.prediction, second.window) +
+          first.prediction.J_z_mount * common_mount_ * second.prediction.J_z_mount.transpose();
     }
     for (Index c = 0; c < rows_; ++c) std::copy_n(S.data() + 3 * c, rows_, block + rows_ * c);
   }
@@ -77,11 +73,10 @@ void Filter::predict_all(const Sensor& sensor) {
     ++unknowns_.expected_count;
     next.slot = slot;
     next.window = kUnpaired;
-    Eigen::Matrix<double, 9, 9> P;
-    ekf_.gather_ordinary(&slot, 1, P.data(), 9);
-    Eigen::Matrix<double, 3, 9> J;
-    J << next.prediction.J_z_pose, next.prediction.J_z_landmark;
-    next.innovation.noalias() = J * P * J.transpose();
+    double P[81];
+    ekf_.gather_ordinary(&slot, 1, P, 9);
+    next.innovation =
+        image_covariance(Eigen::Map<const Eigen::MatrixXd>(P, 9, 9), next.prediction, 0, next.prediction, 0);
     if (sensor.mount_noise_mode() != MountNoise::none)
       next.innovation += next.prediction.J_z_mount * sensor.mount_noise() * next.prediction.J_z_mount.transpose();
   }
