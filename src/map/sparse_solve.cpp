@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <numeric>
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
@@ -124,9 +123,13 @@ EliminationTree::RigidMotion SparseMap::Step::take_rigid(const std::vector<Varia
 struct SparseMap::Before {
   std::vector<SE3> bases;
   std::vector<Vector3> positions;
-  std::vector<SO3> turned;    // of the leaves that it carries
-  std::vector<double> costs;  // of the leaves that it visits
-  std::vector<Eigen::VectorXd> gradients;
+  std::vector<SO3> turned;  // of the leaves that it carries
+  struct Evaluation {
+    double cost;
+    Eigen::VectorXd gradient;
+    SO3 turned;
+  };
+  std::vector<Evaluation> evaluations;  // of the leaves that it visits
 };
 
 // A rigid motion of many must stay one, whatever its size: with the turn theta of its own base, of that which saw it
@@ -171,8 +174,10 @@ double SparseMap::take_step(const Step& step, double factor, const Before& from)
 void SparseMap::take_back(const Step& step, Before& from) {
   place(step, 0.0, from);
   for (std::size_t i = 0; i < step.visited.size(); ++i) {
-    leaves_[step.visited[i]].cost = from.costs[i];
-    leaves_[step.visited[i]].gradient.swap(from.gradients[i]);
+    Leaf& leaf = leaves_[step.visited[i]];
+    leaf.cost = from.evaluations[i].cost;
+    leaf.gradient.swap(from.evaluations[i].gradient);
+    leaf.turned = from.evaluations[i].turned;
   }
 }
 
@@ -207,8 +212,7 @@ SparseMap::Before SparseMap::save_step(const Step& step, Undo& undo) {
   Before before;
   for (const Number leaf : step.visited) {
     save_leaf(undo, leaf);
-    before.costs.push_back(leaves_[leaf].cost);
-    before.gradients.push_back(leaves_[leaf].gradient);
+    before.evaluations.push_back({leaves_[leaf].cost, leaves_[leaf].gradient, leaves_[leaf].turned});
   }
   for (const auto& [leaf, turn] : step.carried) {
     before.turned.push_back(leaves_[leaf].turned);
@@ -247,8 +251,9 @@ void SparseMap::optimise(Undo& undo, JoinReport& report) {
     report.carried += step.carried.size();
     // Where motions rest, the costs are of other places than those that the step is taken from. A small step's hardly
     // are; one that hands everything down is compared with what it comes from.
-    const double before =
-        tolerance > 0.0 ? std::accumulate(from.costs.begin(), from.costs.end(), 0.0) : take_step(step, 0.0, from);
+    double before = 0.0;
+    for (const Before::Evaluation& evaluation : from.evaluations) before += evaluation.cost;
+    if (tolerance == 0.0) before = take_step(step, 0.0, from);
     double after = take_step(step, 1.0, from);
     if (!(after <= before + kSlack) && tolerance > 0.0) {
       // Too far for a linear step. All that moves is visited then, and the step, a direction of descent, is halved.
