@@ -11,6 +11,11 @@
 // States stand as [xi_p; xi_R; xi_1; xi_2; ...]; only the lower triangle of P is kept. Motion between two updates costs
 // O(1): it is held back as P_now = F P F^T + U N U^T, where F turns the pose block alone (standard error), and N is the
 // noise of the pose, which reaches landmark i through U_i = [0, -G(x_i)] (invariant error).
+//
+// There may be companions: poses of other vehicles. A companion's position is a landmark, in one of the first slots, and
+// its attitude a state of its own between pose and landmarks: [xi_p; xi_R; theta_1; theta_2; ...; xi_1; ...], theta the
+// ordinary error of the attitude with either error. The filter looks at the world from one vehicle, and activate() makes
+// that another one.
 #pragma once
 
 #include <vector>
@@ -20,6 +25,7 @@
 #include "geometry/se2.hpp"
 #include "geometry/se3.hpp"
 #include "motion/motion.hpp"
+#include "sensor/sensor.hpp"
 
 namespace cairn {
 
@@ -29,7 +35,7 @@ template <class Pose>
 class Ekf {
  public:
   static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
-  static constexpr int kMount = 2;  // angles of a sensor's mount that a frame may have in common
+  static constexpr int kMount = kMountErrors<Pose>;  // of a sensor's mount that a frame may have in common
   using Rotation = typename Pose::Rotation;
   using Point = typename Pose::Point;
   using Tangent = typename Pose::Tangent;
@@ -39,11 +45,12 @@ class Ekf {
   using PointByMount = Eigen::Matrix<double, kDim, kMount>;
 
   struct Capacity {
-    Index landmarks;
+    Index landmarks;     // companions among them
     Index observations;  // landmarks that one batch may touch
+    Index companions = 0;
     Index rows() const { return std::max<Index>(kDim * observations, kDof); }
     Index window() const { return kDof + kMount + kDim * observations; }
-    Index states() const { return kDof + kDim * landmarks; }
+    Index states() const { return kDof + kTurn * companions + kDim * landmarks; }
   };
 
   Ekf(Arena& arena, ErrorKind error, const Capacity& capacity);
@@ -53,8 +60,8 @@ class Ekf {
 
   // --- estimates ---
   Pose pose() const { return Pose(pose_.rotation(), pose_.translation() + origin_); }
-  Index size() const { return size_; }
-  Index states() const { return kDof + kDim * size_; }
+  Index size() const { return size_; }  // slots: companions, then landmarks
+  Index states() const { return lead() + kDim * size_; }
   Point landmark(Index slot) const { return local(slot) + origin_; }
 
   // --- propagate --- O(1). False, with nothing changed, where a result is not finite.
@@ -99,7 +106,8 @@ class Ekf {
   PoseBlock add_pose_block(Index row, Index rows, const JPose& J_pose, bool relative);
   template <class JLandmark>
   void add_landmark_block(Index row, Index rows, const JLandmark& J_landmark, Index a, const PoseBlock& pose);
-  void add_mount_block(Index row, Index rows, const PointByMount& J_mount);
+  template <class JMount>
+  void add_mount_block(Index row, Index rows, const JMount& J_mount);
 
   void compute_innovation();  // H P and S of the batch
   void form_innovation();     // S once more, from the H P that stands
@@ -128,6 +136,18 @@ class Ekf {
   // Takes a landmark out; the last one moves into its slot.
   void remove(Index slot);
 
+  // --- companions --- numbered from 0, by the slots of their positions
+  Index companions() const { return companions_; }
+  Pose companion(Index k) const { return Pose(companion_rotations_[k], landmark(k)); }
+  Square companion_covariance(Index k) const;  // ordinary
+  // One more, independent of all that is known; the landmark that had its slot moves behind the last one. The caller
+  // minds the capacity.
+  void add_companion(const Pose& pose, const Square& ordinary_covariance);
+  void remove_companion(Index k);  // the last companion becomes number k, the last landmark the first one
+  // The filter's pose is companion k's from now on, and companion k is the vehicle that was the filter's. O(n^2) with
+  // the invariant error, whose arms turn about another vehicle then; O(n) with the standard one.
+  void activate(Index k);
+
   // A submap that began at the pose and whose landmarks known here were fused (an update) hands over the rest.
   struct Handover {
     Pose T_base_end;
@@ -146,6 +166,7 @@ class Ekf {
   struct Backup {
     Pose pose;
     std::vector<double> landmarks, triangle;
+    std::vector<Rotation> rotations;  // of the companions
     bool pending;
     Square F, N;
   };
@@ -158,7 +179,12 @@ class Ekf {
   double& P(Index row, Index column) { return P_[column * ld_ + row]; }
   double P(Index row, Index column) const { return P_[column * ld_ + row]; }
   double symmetric(Index row, Index column) const { return row >= column ? P(row, column) : P(column, row); }
-  static Index state(Index slot) { return kDof + kDim * slot; }
+  Index lead() const { return kDof + kTurn * companions_; }
+  Index state(Index slot) const { return lead() + kDim * slot; }
+  static Index heading(Index companion) { return kDof + kTurn * companion; }
+  void exchange(Index a, Index b);                           // two states
+  void move_states(Index from, Index count, Index by);       // along the diagonal, upwards or downwards
+  void add_arm(Index slot, const typename Rotation::Turn&);  // xi_x += A xi_R
   // block(:, R) += J_point G(x) in invariant coordinates.
   template <class JPoint>
   void add_turn(Index rows, const JPoint& J_point, const Point& x, double* block) const;
@@ -197,8 +223,9 @@ class Ekf {
   // to x: from an origin far away they would drown the covariance's digits in their length.
   Point origin_ = Point::Zero();
   Pose pose_;
-  Index size_ = 0;
+  Index size_ = 0, companions_ = 0;
   double* landmarks_;
+  Rotation* companion_rotations_;
   double* P_;
 
   bool pending_ = false;
@@ -258,6 +285,14 @@ void Ekf<Pose>::add_landmark_block(Index row, Index rows, const JLandmark& J_lan
 }
 
 template <class Pose>
+template <class JMount>
+void Ekf<Pose>::add_mount_block(Index row, Index rows, const JMount& J_mount) {
+  double* block = batch_.add_jacobian(row, rows, kDof, kMount);
+  for (Index c = 0; c < kMount; ++c)
+    for (Index r = 0; r < rows; ++r) block[c * rows + r] = J_mount(r, c);
+}
+
+template <class Pose>
 template <class JPoint>
 void Ekf<Pose>::add_turn(Index rows, const JPoint& J_point, const Point& x, double* block) const {
   if (error_ == ErrorKind::standard) return;
@@ -267,6 +302,7 @@ void Ekf<Pose>::add_turn(Index rows, const JPoint& J_point, const Point& x, doub
       for (Index r = 0; r < rows; ++r) block[(kDim + c) * rows + r] += J_point(r, d) * G(d, c);
 }
 
+extern template class Ekf<SE2>;
 extern template class Ekf<SE3>;
 
 }  // namespace cairn

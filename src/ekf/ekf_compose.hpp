@@ -103,7 +103,10 @@ void Ekf<Pose>::compose(const Handover& handover) {
 template <class Pose>
 typename Ekf<Pose>::Backup Ekf<Pose>::backup() const {
   const Index n = states();
-  Backup backup{pose_, {landmarks_, landmarks_ + kDim * size_}, {}, pending_, F_, N_};
+  Backup backup{pose_,    {landmarks_, landmarks_ + kDim * size_},
+                {},       {companion_rotations_, companion_rotations_ + companions_},
+                pending_, F_,
+                N_};
   backup.triangle.reserve(n * (n + 1) / 2);
   for (Index c = 0; c < n; ++c) backup.triangle.insert(backup.triangle.end(), P_ + c * ld_ + c, P_ + c * ld_ + n);
   return backup;
@@ -114,6 +117,7 @@ void Ekf<Pose>::restore(const Backup& backup) {
   pose_ = backup.pose;
   size_ = static_cast<Index>(backup.landmarks.size()) / kDim;
   std::copy(backup.landmarks.begin(), backup.landmarks.end(), landmarks_);
+  std::copy(backup.rotations.begin(), backup.rotations.end(), companion_rotations_);
   const double* from = backup.triangle.data();
   const Index n = states();
   for (Index c = 0; c < n; from += n - c, ++c) std::copy_n(from, n - c, P_ + c * ld_ + c);

@@ -22,6 +22,7 @@ Ekf<Pose>::Ekf(Arena& arena, ErrorKind error, const Capacity& capacity)
       capacity_(capacity),
       ld_(leading_dimension(capacity.states() + kMount)),
       landmarks_(arena.take<double>(kDim * capacity.landmarks)),
+      companion_rotations_(arena.take<Rotation>(capacity.companions)),
       P_(arena.take<double>(ld_ * capacity.states())),
       slots_(arena.take<Index>(capacity.observations)),
       iterate_landmarks_(arena.take<double>(kDim * capacity.observations)),
@@ -57,7 +58,7 @@ template <class Pose>
 void Ekf<Pose>::start(const Pose& pose, const Square& ordinary_covariance) {
   origin_ = pose.translation();
   pose_ = Pose(pose.rotation(), Point::Zero());
-  size_ = 0;
+  size_ = companions_ = 0;
   const Square& covariance = ordinary_covariance;  // xi_p = e_p - G(p) e_R, and p is zero
   for (Index c = 0; c < kDof; ++c)
     for (Index r = c; r < kDof; ++r) P(r, c) = covariance(r, c);

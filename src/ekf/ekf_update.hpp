@@ -38,13 +38,6 @@ void Ekf<Pose>::open(const Index* slots, Index count, const Eigen::Matrix<double
 }
 
 template <class Pose>
-void Ekf<Pose>::add_mount_block(Index row, Index rows, const PointByMount& J_mount) {
-  double* block = batch_.add_jacobian(row, rows, kDof, kMount);
-  for (Index c = 0; c < kMount; ++c)
-    for (Index r = 0; r < rows; ++r) block[c * rows + r] = J_mount(r, c);
-}
-
-template <class Pose>
 void Ekf<Pose>::compute_innovation() {
   const Index m = batch_.rows(), n = states();
   batch_.times_transposed(columns_, ld_, n + mount_, W_, ld_);
@@ -168,7 +161,7 @@ void Ekf<Pose>::prepare_pending() {
   const Eigen::Matrix<double, kTurn, kTurn> N = N_.template bottomRightCorner<kTurn, kTurn>();
   for (Index t = 0; t < kTurn; ++t) {
     std::fill_n(noise_left_ + t * ld_, kDof, 0.0);
-    std::fill_n(noise_right_ + t * ld_, kDof, 0.0);
+    std::fill_n(noise_right_ + t * ld_, lead(), 0.0);
   }
   for (Index slot = 0; slot < size_; ++slot) {
     const typename Rotation::Turn U = -Rotation::turn(local(slot));
@@ -315,6 +308,10 @@ bool Ekf<Pose>::commit() {
     Eigen::Map<Point>(landmarks_ + kDim * slot) =
         mover(local(slot), Eigen::Map<const Point>(error_state_ + state(slot)));
   retract(error, pose_);
+  for (Index k = 0; k < companions_; ++k) {
+    const typename Rotation::Tangent turn = Eigen::Map<const typename Rotation::Tangent>(error_state_ + heading(k));
+    companion_rotations_[k] = Rotation::exp(turn) * companion_rotations_[k];
+  }
   return true;
 }
 

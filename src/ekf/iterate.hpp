@@ -53,8 +53,9 @@ int iterate_and_commit(Ekf<Pose>& ekf, const Iterations& end, double* residual, 
 }
 
 // The batch of an absolute fix, for the functions above; the window holds the pose alone.
-inline bool linearise_fix(Ekf<SE3>& ekf, const AbsoluteFix& fix, double* residual_only) {
-  const SE3 T = ekf.iterate_pose();
+template <class Pose>
+bool linearise_fix(Ekf<Pose>& ekf, const AbsoluteFix<Pose>& fix, double* residual_only) {
+  const Pose T = ekf.iterate_pose();
   if (!fix.defined(T)) return false;
   const Vector3 residual = fix.residual(T);
   const Index rows = fix.rows();

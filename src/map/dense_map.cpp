@@ -12,7 +12,7 @@
 namespace cairn {
 namespace {
 
-Ekf<SE3>::Capacity capacity_of(const MapOptions& options) {
+Ekf<SE3>::Capacity capacity_of(const MapOptions<SE3>& options) {
   return {static_cast<Index>(options.max_landmarks),
           static_cast<Index>(std::min(options.submap_capacity, options.max_landmarks))};
 }
@@ -38,9 +38,9 @@ void measure_movement(const std::vector<Vector3>& before, const Ekf<SE3>& ekf, J
 
 }  // namespace
 
-DenseMap::DenseMap(const MapOptions& options) : DenseMap(options, required_bytes(options)) {}
+DenseMap::DenseMap(const MapOptions<SE3>& options) : DenseMap(options, required_bytes(options)) {}
 
-DenseMap::DenseMap(const MapOptions& options, std::size_t bytes)
+DenseMap::DenseMap(const MapOptions<SE3>& options, std::size_t bytes)
     : options_(options),
       arena_(bytes),
       ekf_(arena_, options.error, capacity_of(options)),
@@ -50,7 +50,7 @@ DenseMap::DenseMap(const MapOptions& options, std::size_t bytes)
   ekf_.start(options.initial_pose, options.initial_covariance);
 }
 
-std::size_t DenseMap::required_bytes(const MapOptions& options) {
+std::size_t DenseMap::required_bytes(const MapOptions<SE3>& options) {
   Arena measure;
   const Ekf<SE3> ekf(measure, options.error, capacity_of(options));
   const IdTable slots(measure, options.max_landmarks);
@@ -68,7 +68,7 @@ void DenseMap::open(const std::vector<Pair>& pairs) {
 // The submap's estimates of the known landmarks are observations from its base: y = R_S^T (l - p_S), with one full
 // noise block, their covariance in the submap. This is eq. 30 of the Mars paper with the rotation that its constant
 // Jacobian leaves out.
-bool DenseMap::linearise(const Submap& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& noise,
+bool DenseMap::linearise(const Submap<SE3>& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& noise,
                          double* residual_only) {
   const SE3 T = ekf_.iterate_pose();
   if (residual_only == nullptr) ekf_.batch().clear();
@@ -78,7 +78,7 @@ bool DenseMap::linearise(const Submap& submap, const std::vector<Pair>& pairs, c
     double* target = residual_only != nullptr ? residual_only : ekf_.batch().residual();
     std::copy_n(residual.data(), 3, target + 3 * a);
     if (residual_only != nullptr) continue;
-    Prediction prediction;
+    Prediction<SE3> prediction;
     map_jacobians(T, l, Matrix3::Identity(), prediction);
     const Index row = ekf_.batch().add_rows(3);
     const auto pose = ekf_.add_pose_block(row, 3, prediction.J_z_pose, true);
@@ -95,7 +95,7 @@ bool DenseMap::linearise(const Submap& submap, const std::vector<Pair>& pairs, c
 }
 
 // Each pair by itself, then all jointly; what is refused leaves `pairs`. The batch stands factored at the end.
-void DenseMap::gate(const Submap& submap, std::vector<Pair>& pairs, const Eigen::MatrixXd& noise, JoinReport& report) {
+void DenseMap::gate(const Submap<SE3>& submap, std::vector<Pair>& pairs, const Eigen::MatrixXd& noise, JoinReport& report) {
   const auto refill = [&] {
     open(pairs);
     fill_batch(ekf_, [&](double* residual_only) { return linearise(submap, pairs, noise, residual_only); });
@@ -136,7 +136,7 @@ void DenseMap::gate(const Submap& submap, std::vector<Pair>& pairs, const Eigen:
 }
 
 // Fuses the known landmarks, by which the submap's rest moves, and hands that over.
-void DenseMap::fuse_and_compose(const Submap& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& joint,
+void DenseMap::fuse_and_compose(const Submap<SE3>& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& joint,
                                 const std::vector<Index>& slots, std::vector<Vector3>& landmarks,
                                 Ekf<SE3>::Handover& handover, JoinReport& report) {
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * pairs.size()));
@@ -169,7 +169,7 @@ void DenseMap::fuse_and_compose(const Submap& submap, const std::vector<Pair>& p
   ekf_.compose(handover);
 }
 
-JoinReport DenseMap::join_and_fix(const Submap& submap, FixRequest* fix) {
+JoinReport DenseMap::join_and_fix(const Submap<SE3>& submap, FixRequest<SE3>* fix) {
   JoinReport report;
   std::vector<Pair> pairs;
   std::vector<Eigen::Index> fresh;
@@ -234,7 +234,7 @@ JoinReport DenseMap::join_and_fix(const Submap& submap, FixRequest* fix) {
   return report;
 }
 
-FixReport DenseMap::fix(const AbsoluteFix& fix, double threshold) {
+FixReport DenseMap::fix(const AbsoluteFix<SE3>& fix, double threshold) {
   FixReport report;
   const auto linearise = [&](double* residual_only) { return linearise_fix(ekf_, fix, residual_only); };
   ekf_.open(nullptr, 0, nullptr);
@@ -276,7 +276,7 @@ void DenseMap::base_joint_covariance(const std::size_t* indices, std::size_t cou
 void DenseMap::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
   std::vector<double> joint((6 + 3 * count) * (6 + 3 * count));
   base_joint_covariance(indices, count, joint.data());
-  without_pose(joint.data(), count, matrix);
+  without_pose<SE3>(joint.data(), count, matrix);
 }
 
 }  // namespace cairn

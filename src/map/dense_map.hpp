@@ -9,13 +9,13 @@
 
 namespace cairn {
 
-class DenseMap final : public GlobalMap {
+class DenseMap final : public GlobalMap<SE3> {
  public:
-  explicit DenseMap(const MapOptions& options);
-  static std::size_t required_bytes(const MapOptions& options);
+  explicit DenseMap(const MapOptions<SE3>& options);
+  static std::size_t required_bytes(const MapOptions<SE3>& options);
 
-  JoinReport join_and_fix(const Submap& submap, FixRequest* fix) override;
-  FixReport fix(const AbsoluteFix& fix, double threshold) override;
+  JoinReport join_and_fix(const Submap<SE3>& submap, FixRequest<SE3>* fix) override;
+  FixReport fix(const AbsoluteFix<SE3>& fix, double threshold) override;
   void remove(std::uint64_t id) override;
   SE3 base() const override { return ekf_.pose(); }
   Matrix6 base_covariance() const override { return ekf_.pose_covariance(); }
@@ -43,17 +43,17 @@ class DenseMap final : public GlobalMap {
     std::vector<std::uint64_t> ids;
   };
 
-  DenseMap(const MapOptions& options, std::size_t bytes);
+  DenseMap(const MapOptions<SE3>& options, std::size_t bytes);
   void open(const std::vector<Pair>& pairs);
-  bool linearise(const Submap& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& noise,
+  bool linearise(const Submap<SE3>& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& noise,
                  double* residual_only);
-  void gate(const Submap& submap, std::vector<Pair>& pairs, const Eigen::MatrixXd& noise, JoinReport& report);
+  void gate(const Submap<SE3>& submap, std::vector<Pair>& pairs, const Eigen::MatrixXd& noise, JoinReport& report);
 
-  void fuse_and_compose(const Submap& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& joint,
+  void fuse_and_compose(const Submap<SE3>& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& joint,
                         const std::vector<Index>& slots, std::vector<Vector3>& landmarks, Ekf<SE3>::Handover& handover,
                         JoinReport& report);
 
-  MapOptions options_;
+  MapOptions<SE3> options_;
   Arena arena_;
   Ekf<SE3> ekf_;
   IdTable slots_;

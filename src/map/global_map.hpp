@@ -28,12 +28,14 @@ struct FixReport {
 };
 
 // A fix that comes with a closing, and what became of it.
+template <class Pose>
 struct FixRequest {
-  const AbsoluteFix& fix;
+  const AbsoluteFix<Pose>& fix;
   double threshold;
   FixReport report;
 };
 
+template <class Pose>
 struct MapOptions {
   ErrorKind error = ErrorKind::invariant;
   std::size_t max_landmarks = 1000;
@@ -46,29 +48,30 @@ struct MapOptions {
   double convergence_tolerance = 1e-2;  // sparse: and below so many are not followed by another
   double cost_tolerance = 1e-3;         // sparse: nor where the cost falls by less
   int most_iterations = 6;  // sparse: linear solutions of a closing; more where the joint test asks for them
-  SE3 initial_pose;
-  Matrix6 initial_covariance = Matrix6::Zero();  // ordinary
+  Pose initial_pose;
+  typename Pose::Square initial_covariance = Pose::Square::Zero();  // ordinary
 };
 
 // Every call that throws leaves the map as it was.
+template <class Pose>
 class GlobalMap : public Landmarks {
  public:
   // Takes in a submap that began at base(); its end is the new base, which then gets the fix, if one comes along: both
   // or neither.
-  virtual JoinReport join_and_fix(const Submap& submap, FixRequest* fix) = 0;
-  JoinReport join(const Submap& submap) { return join_and_fix(submap, nullptr); }
+  virtual JoinReport join_and_fix(const Submap<Pose>& submap, FixRequest<Pose>* fix) = 0;
+  JoinReport join(const Submap<Pose>& submap) { return join_and_fix(submap, nullptr); }
   // The base gets an absolute fix; refused where its distance exceeds `threshold`.
-  virtual FixReport fix(const AbsoluteFix& fix, double threshold) = 0;
+  virtual FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) = 0;
   virtual void remove(std::uint64_t id) = 0;
 
   // Where the next submap begins.
-  virtual SE3 base() const = 0;
-  virtual Matrix6 base_covariance() const = 0;  // of [dp; dtheta]
-  // Of [base; landmarks], ordinary errors, 6 + 3 count on a side, both triangles.
+  virtual Pose base() const = 0;
+  virtual typename Pose::Square base_covariance() const = 0;  // of [dp; dtheta]
+  // Of [base; landmarks], ordinary errors, kDof + kDim count on a side, both triangles.
   virtual void base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const = 0;
 
   virtual std::size_t submap_count() const = 0;
-  virtual SE3 submap_base(std::size_t submap) const = 0;
+  virtual Pose submap_base(std::size_t submap) const = 0;
   virtual const std::vector<std::uint64_t>& submap_ids(std::size_t submap) const = 0;
 };
 

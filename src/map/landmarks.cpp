@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/embedding.hpp"
 #include "map/spatial_index.hpp"
 
 namespace cairn {
@@ -53,11 +54,40 @@ std::vector<std::size_t> indices_of(const std::vector<Entry>& entries) {
 
 }  // namespace
 
-void without_pose(const double* joint, std::size_t count, double* matrix) {
-  const std::size_t joint_size = 6 + 3 * count, size = 3 * count;
-  for (std::size_t c = 0; c < size; ++c)
-    for (std::size_t r = 0; r < size; ++r) matrix[c * size + r] = joint[(6 + c) * joint_size + 6 + r];
+namespace {
+
+// `first` states of space are left out.
+template <class Pose>
+void to_space(const double* joint, std::size_t count, std::size_t first, double* matrix) {
+  constexpr std::size_t kDof = Pose::kDof, kDim = Pose::kDim;
+  const std::size_t n = kDof + kDim * count, size = 6 + 3 * count - first;
+  const auto state = [&](std::size_t i) {
+    return i < kDof ? static_cast<std::size_t>(Embedding<Pose>::axis(static_cast<int>(i)))
+                    : 6 + 3 * ((i - kDof) / kDim) + (i - kDof) % kDim;
+  };
+  std::fill_n(matrix, size * size, 0.0);
+  for (std::size_t c = 0; c < n; ++c)
+    for (std::size_t r = 0; r < n; ++r)
+      if (state(c) >= first && state(r) >= first)
+        matrix[(state(c) - first) * size + state(r) - first] = joint[c * n + r];
 }
+
+}  // namespace
+
+template <class Pose>
+void with_pose(const double* joint, std::size_t count, double* matrix) {
+  to_space<Pose>(joint, count, 0, matrix);
+}
+
+template <class Pose>
+void without_pose(const double* joint, std::size_t count, double* matrix) {
+  to_space<Pose>(joint, count, 6, matrix);
+}
+
+template void with_pose<SE2>(const double*, std::size_t, double*);
+template void with_pose<SE3>(const double*, std::size_t, double*);
+template void without_pose<SE2>(const double*, std::size_t, double*);
+template void without_pose<SE3>(const double*, std::size_t, double*);
 
 std::vector<std::size_t> all_by_id(const Landmarks& map) {  // wherever they are, be it nowhere
   std::vector<Entry> entries;

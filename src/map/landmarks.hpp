@@ -31,7 +31,11 @@ class Landmarks {
   virtual const SpatialIndex* spatial_index() const { return nullptr; }
 };
 
-// The joint covariance of `count` landmarks out of one with a pose before them, 6 + 3 count on a side.
+// Of a joint covariance with a pose before `count` landmarks, kDof + kDim count on a side: the same in space, 6 + 3 count
+// on a side; and the landmarks' part of that.
+template <class Pose>
+void with_pose(const double* joint, std::size_t count, double* matrix);
+template <class Pose>
 void without_pose(const double* joint, std::size_t count, double* matrix);
 
 // Indices of all landmarks by ascending id.

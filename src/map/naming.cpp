@@ -17,7 +17,7 @@ constexpr std::size_t kNearest = 12;  // of the map's landmarks that one of the 
 
 class Naming final : public Innovations {
  public:
-  Naming(const GlobalMap& map, const NamingOptions& options, const Submap& submap)
+  Naming(const GlobalMap<SE3>& map, const NamingOptions& options, const Submap<SE3>& submap)
       : map_(map),
         options_(options),
         submap_(submap),
@@ -80,7 +80,7 @@ class Naming final : public Innovations {
  private:
   struct Known {
     std::size_t index;
-    Prediction prediction;  // as a point seen from the base
+    Prediction<SE3> prediction;  // as a point seen from the base
   };
 
   Vector3 residual(const PairCandidate& pair) const {
@@ -153,9 +153,9 @@ class Naming final : public Innovations {
     return false;
   }
 
-  const GlobalMap& map_;
+  const GlobalMap<SE3>& map_;
   const NamingOptions& options_;
-  const Submap& submap_;
+  const Submap<SE3>& submap_;
   double gate_, new_;
   Eigen::MatrixXd noise_, P_;
   std::vector<Known> known_;
@@ -166,7 +166,7 @@ class Naming final : public Innovations {
 
 }  // namespace
 
-NamingReport name_landmarks(const GlobalMap& map, const NamingOptions& options, Submap& submap) {
+NamingReport name_landmarks(const GlobalMap<SE3>& map, const NamingOptions& options, Submap<SE3>& submap) {
   NamingReport report;
   Naming naming(map, options, submap);
   const std::vector<Index> chosen = naming.choose(report);

@@ -12,7 +12,7 @@
 #include "sensor/sensor.hpp"
 
 namespace cairn {
-SparseMap::SparseMap(const MapOptions& options)
+SparseMap::SparseMap(const MapOptions<SE3>& options)
     : options_(options),
       prior_(options.initial_pose),
       prior_covariance_(options.initial_covariance),
@@ -147,7 +147,7 @@ void SparseMap::information(std::uint32_t number, double* H, Index ld) const {
   if (number == 0) add(0, prior_jacobian(), prior_information());
   const auto fixes = fixes_.find(number + 1);
   if (fixes != fixes_.end())
-    for (const AbsoluteFix& fix : fixes->second) {
+    for (const AbsoluteFix<SE3>& fix : fixes->second) {
       const Eigen::MatrixXd noise = fix.covariance().topLeftCorner(fix.rows(), fix.rows());
       add(1, fix.jacobian(bases_[number + 1]).topRows(fix.rows()),
           noise.ldlt().solve(Eigen::MatrixXd::Identity(fix.rows(), fix.rows())));
@@ -183,9 +183,9 @@ void SparseMap::evaluate(Number number) {
 }
 
 // Of the leaf's end, to the gradient in map axes.
-void SparseMap::add_fixes(Leaf& leaf, const std::vector<AbsoluteFix>& fixes) const {
+void SparseMap::add_fixes(Leaf& leaf, const std::vector<AbsoluteFix<SE3>>& fixes) const {
   const SE3& T = bases_[static_cast<std::size_t>(&leaf - leaves_.data()) + 1];
-  for (const AbsoluteFix& fix : fixes) {
+  for (const AbsoluteFix<SE3>& fix : fixes) {
     const int rows = fix.rows();
     const Eigen::VectorXd r = fix.residual(T).head(rows);
     const Eigen::VectorXd weighted = fix.covariance().topLeftCorner(rows, rows).ldlt().solve(r);
@@ -301,7 +301,7 @@ double SparseMap::cost_since(const Undo& undo) const {
 
 // --- joining ---
 
-JoinReport SparseMap::join_and_fix(const Submap& submap, FixRequest* fix) {
+JoinReport SparseMap::join_and_fix(const Submap<SE3>& submap, FixRequest<SE3>* fix) {
   std::vector<char> left_out(submap.ids.size(), 0);
   JoinReport report;
   if (try_join(submap, left_out, false, fix, report)) return report;
@@ -313,7 +313,7 @@ JoinReport SparseMap::join_and_fix(const Submap& submap, FixRequest* fix) {
 }
 
 // False, with nothing changed, where a landmark may contradict the map; the last try takes what it gets.
-bool SparseMap::try_join(const Submap& submap, const std::vector<char>& left_out, bool last, FixRequest* fix,
+bool SparseMap::try_join(const Submap<SE3>& submap, const std::vector<char>& left_out, bool last, FixRequest<SE3>* fix,
                          JoinReport& report) {
   Undo undo(*this, ++change_);
   try {
@@ -346,7 +346,7 @@ bool SparseMap::try_join(const Submap& submap, const std::vector<char>& left_out
 }
 
 // Appends the submap, its end and its new landmarks, and makes the factor anew where that reaches.
-SparseMap::Number SparseMap::take_in(const Submap& submap, const std::vector<char>& left_out, Undo& undo,
+SparseMap::Number SparseMap::take_in(const Submap<SE3>& submap, const std::vector<char>& left_out, Undo& undo,
                                      JoinReport& report) {
   const auto number = static_cast<Number>(leaves_.size());
   const SE3 base = bases_.back();
@@ -424,7 +424,7 @@ SparseMap::Number SparseMap::take_in(const Submap& submap, const std::vector<cha
   return number;
 }
 
-void SparseMap::set_scales(const Submap& submap) {
+void SparseMap::set_scales(const Submap<SE3>& submap) {
   std::vector<double> sigmas;
   double extent = 1.0;
   for (Index i = 0; i < submap.size(); ++i) {
@@ -473,7 +473,7 @@ bool SparseMap::suspicious(Number number, const JoinReport& report) const {
 
 // Gates the known landmarks against the map as it is: nu = y_submap - R^T (l - p), S = H P H^T + Sigma_DD; each by
 // itself, then jointly. What does not pass is left out.
-void SparseMap::gate(const Submap& submap, std::vector<char>& left_out) const {
+void SparseMap::gate(const Submap<SE3>& submap, std::vector<char>& left_out) const {
   std::vector<Index> known;
   std::vector<std::size_t> indices;
   for (Index i = 0; i < submap.size(); ++i) {
@@ -493,7 +493,7 @@ void SparseMap::gate(const Submap& submap, std::vector<char>& left_out) const {
     Eigen::VectorXd residual(m);
     for (Index a = 0; a < count; ++a) {
       const Vector3 l = position(indices[a]);
-      Prediction prediction;
+      Prediction<SE3> prediction;
       map_jacobians(base(), l, Matrix3::Identity(), prediction);
       H.block<3, 6>(3 * a, 0) = prediction.J_z_pose;
       H.block<3, 3>(3 * a, 6 + 3 * a) = prediction.J_z_landmark;

@@ -17,14 +17,14 @@
 
 namespace cairn {
 
-class SparseMap final : public GlobalMap, private LeafSource {
+class SparseMap final : public GlobalMap<SE3>, private LeafSource {
  public:
-  explicit SparseMap(const MapOptions& options);
+  explicit SparseMap(const MapOptions<SE3>& options);
   SparseMap(const SparseMap& other);
   SparseMap& operator=(const SparseMap&) = delete;
 
-  JoinReport join_and_fix(const Submap& submap, FixRequest* fix) override;
-  FixReport fix(const AbsoluteFix& fix, double threshold) override;
+  JoinReport join_and_fix(const Submap<SE3>& submap, FixRequest<SE3>* fix) override;
+  FixReport fix(const AbsoluteFix<SE3>& fix, double threshold) override;
   void remove(std::uint64_t id) override;
   SE3 base() const override { return bases_.back(); }
   Matrix6 base_covariance() const override { return base_covariance_; }
@@ -107,7 +107,7 @@ class SparseMap final : public GlobalMap, private LeafSource {
   double strain(Number leaf) const;
   void shape(Leaf& leaf, Number number) const;
   void evaluate(Number leaf);
-  void add_fixes(Leaf& leaf, const std::vector<AbsoluteFix>& fixes) const;
+  void add_fixes(Leaf& leaf, const std::vector<AbsoluteFix<SE3>>& fixes) const;
   Vector3 force_on(const Leaf& leaf, Index shared_landmark) const;
   void place_private(Number leaf);
   template <class Visit>
@@ -121,31 +121,31 @@ class SparseMap final : public GlobalMap, private LeafSource {
   void save_leaf(Undo& undo, Number leaf);
   void roll_back(Undo& undo) noexcept;
 
-  bool try_join(const Submap& submap, const std::vector<char>& left_out, bool last, FixRequest* fix,
+  bool try_join(const Submap<SE3>& submap, const std::vector<char>& left_out, bool last, FixRequest<SE3>* fix,
                 JoinReport& report);
-  Number take_in(const Submap& submap, const std::vector<char>& left_out, Undo& undo, JoinReport& report);
-  void set_scales(const Submap& submap);
+  Number take_in(const Submap<SE3>& submap, const std::vector<char>& left_out, Undo& undo, JoinReport& report);
+  void set_scales(const Submap<SE3>& submap);
   void refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report);
   void place(const Step& step, double factor, const Before& from);
   Before save_step(const Step& step, Undo& undo);
   double take_step(const Step& step, double factor, const Before& from);
   void take_back(const Step& step, Before& from);
-  FixReport fix_base(const AbsoluteFix& fix, double threshold, Undo& undo);
+  FixReport fix_base(const AbsoluteFix<SE3>& fix, double threshold, Undo& undo);
   void refresh_base_covariance();
   void optimise(Undo& undo, JoinReport& report);
   bool suspicious(Number leaf, const JoinReport& report) const;
-  void gate(const Submap& submap, std::vector<char>& left_out) const;
+  void gate(const Submap<SE3>& submap, std::vector<char>& left_out) const;
   void finish(Undo& undo, JoinReport& report);
   void note_moves(const Undo& undo) noexcept;
   double cost_since(const Undo& undo) const;
-  Number bridge(const Submap& link, Undo& undo);
+  Number bridge(const Submap<SE3>& link, Undo& undo);
   bool anchored() const;
   void find_worst(Number offset, MergeReport& report, const SparseMap& other, const MergePlan& plan) const;
 
-  MapOptions options_;
+  MapOptions<SE3> options_;
   SE3 prior_;  // the first base
   Matrix6 prior_covariance_;
-  std::map<Number, std::vector<AbsoluteFix>> fixes_;  // by base
+  std::map<Number, std::vector<AbsoluteFix<SE3>>> fixes_;  // by base
   std::vector<SE3> bases_;
   std::vector<Number> base_saved_;
   std::vector<Landmark> landmarks_;

@@ -23,8 +23,8 @@ constexpr double kNothingPosition = 1e12, kNothingTurn = 1e8;
 constexpr double kExactPosition = 1e-12, kExactTurn = 1e-14;
 constexpr int kRounds = 20;
 
-Submap link_to(const SE3& T_base_end, const Matrix6& covariance) {
-  Submap link;
+Submap<SE3> link_to(const SE3& T_base_end, const Matrix6& covariance) {
+  Submap<SE3> link;
   link.error = ErrorKind::standard;
   link.T_base_end = T_base_end;
   link.covariance = covariance;
@@ -40,7 +40,7 @@ Matrix6 diagonal(double position, double turn) {
 }  // namespace
 
 // Appends a submap without landmarks; whoever calls evaluates it.
-SparseMap::Number SparseMap::bridge(const Submap& link, Undo& undo) {
+SparseMap::Number SparseMap::bridge(const Submap<SE3>& link, Undo& undo) {
   const auto number = static_cast<Number>(leaves_.size());
   Leaf leaf;
   leaf.data = std::make_shared<const SubmapData>(link);
@@ -77,9 +77,9 @@ void SparseMap::append(const SparseMap& other, const MergePlan& plan, const Merg
   const auto first_leaf = static_cast<Number>(leaves_.size());
   if (options.prior) {
     bridge(link_to(bases_.back().inverse(), diagonal(kNothingPosition, kNothingTurn)), undo);
-    std::vector<AbsoluteFix>& fixes = fixes_[static_cast<Number>(leaves_.size())];
-    fixes.push_back(AbsoluteFix::position(Vector3::Zero(), kExactPosition * Matrix3::Identity(), Vector3::Zero()));
-    fixes.push_back(AbsoluteFix::attitude(SO3(), kExactTurn * Matrix3::Identity()));
+    std::vector<AbsoluteFix<SE3>>& fixes = fixes_[static_cast<Number>(leaves_.size())];
+    fixes.push_back(AbsoluteFix<SE3>::position(Vector3::Zero(), kExactPosition * Matrix3::Identity(), Vector3::Zero()));
+    fixes.push_back(AbsoluteFix<SE3>::attitude(SO3(), kExactTurn * Matrix3::Identity()));
     bases_.back() = SE3();
     // The other's start pose in the map's frame: e_p = e_pT + G(R_T p) e_RT + R_T e_p0, e_R = e_RT + R_T e_R0.
     const SE3& T_known = options.prior->T_a_b;

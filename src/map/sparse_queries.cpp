@@ -185,7 +185,7 @@ void SparseMap::base_joint_covariance(const std::size_t* indices, std::size_t co
 void SparseMap::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
   std::vector<double> joint((6 + 3 * count) * (6 + 3 * count));
   base_joint_covariance(indices, count, joint.data());
-  without_pose(joint.data(), count, matrix);
+  without_pose<SE3>(joint.data(), count, matrix);
 }
 
 }  // namespace cairn

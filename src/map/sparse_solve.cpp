@@ -289,7 +289,7 @@ void SparseMap::optimise(Undo& undo, JoinReport& report) {
 }
 
 // A fix of the newest base, within a change.
-FixReport SparseMap::fix_base(const AbsoluteFix& fix, double threshold, Undo& undo) {
+FixReport SparseMap::fix_base(const AbsoluteFix<SE3>& fix, double threshold, Undo& undo) {
   FixReport report;
   const int rows = fix.rows();
   const SE3 T = bases_.back();
@@ -322,7 +322,7 @@ FixReport SparseMap::fix_base(const AbsoluteFix& fix, double threshold, Undo& un
   return report;
 }
 
-FixReport SparseMap::fix(const AbsoluteFix& fix, double threshold) {
+FixReport SparseMap::fix(const AbsoluteFix<SE3>& fix, double threshold) {
   Undo undo(*this, ++change_);
   try {
     const FixReport report = fix_base(fix, threshold, undo);

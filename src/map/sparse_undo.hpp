@@ -13,7 +13,7 @@ struct SparseMap::Undo {
   Number landmarks;  // how many of each there were
   std::size_t leaf_count, base_count, visible;
   EliminationTree tree;
-  std::map<Number, std::vector<AbsoluteFix>> fixes;
+  std::map<Number, std::vector<AbsoluteFix<SE3>>> fixes;
   std::vector<Number> pending;
   bool settled;
   std::vector<Number> stale;

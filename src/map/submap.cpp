@@ -3,13 +3,18 @@
 
 namespace cairn {
 
-void to_ordinary(const Submap& submap, const std::vector<Eigen::Index>& landmarks, Eigen::MatrixXd& covariance) {
+template <class Pose>
+void to_ordinary(const Submap<Pose>& submap, const std::vector<Eigen::Index>& landmarks, Eigen::MatrixXd& covariance) {
   if (submap.error == ErrorKind::standard) return;
   for (const Eigen::Index i : landmarks) {
-    const Matrix3 G = SO3::turn(submap.landmarks[i]);
-    covariance.middleRows<3>(6 + 3 * i) += G * covariance.middleRows<3>(3);
-    covariance.middleCols<3>(6 + 3 * i) += covariance.middleCols<3>(3) * G.transpose();
+    const typename Pose::Rotation::Turn G = Pose::Rotation::turn(submap.landmarks[i]);
+    const Eigen::Index at = Pose::kDof + Pose::kDim * i;
+    covariance.middleRows<Pose::kDim>(at) += G * covariance.middleRows<Pose::kTurn>(Pose::kDim);
+    covariance.middleCols<Pose::kDim>(at) += covariance.middleCols<Pose::kTurn>(Pose::kDim) * G.transpose();
   }
 }
+
+template void to_ordinary<SE2>(const Submap<SE2>&, const std::vector<Eigen::Index>&, Eigen::MatrixXd&);
+template void to_ordinary<SE3>(const Submap<SE3>&, const std::vector<Eigen::Index>&, Eigen::MatrixXd&);
 
 }  // namespace cairn

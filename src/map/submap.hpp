@@ -11,12 +11,13 @@
 
 namespace cairn {
 
+template <class Pose>
 struct Submap {
   ErrorKind error = ErrorKind::invariant;
-  SE3 T_base_end;
+  Pose T_base_end;
   std::vector<std::uint64_t> ids;  // in the order of their placing
   std::vector<std::uint64_t> counts;
-  std::vector<Vector3> landmarks;
+  std::vector<typename Pose::Point> landmarks;
   Eigen::MatrixXd covariance;  // of [end pose; landmarks], in the filter's own error coordinates
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(ids.size()); }
@@ -24,6 +25,7 @@ struct Submap {
 
 // The landmarks `i` of a submap whose coordinates of the error shall be ordinary ones: e_l = xi_l + G(l) xi_R. Its rows
 // and columns of the covariance are turned; the others stay in the filter's own coordinates.
-void to_ordinary(const Submap& submap, const std::vector<Eigen::Index>& landmarks, Eigen::MatrixXd& covariance);
+template <class Pose>
+void to_ordinary(const Submap<Pose>& submap, const std::vector<Eigen::Index>& landmarks, Eigen::MatrixXd& covariance);
 
 }  // namespace cairn

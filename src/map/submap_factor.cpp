@@ -51,7 +51,7 @@ Matrix invert(const Matrix& covariance) {
 
 }  // namespace
 
-SubmapData::SubmapData(const Submap& submap)
+SubmapData::SubmapData(const Submap<SE3>& submap)
     : error(submap.error),
       T_base_end(submap.T_base_end),
       ids(submap.ids),

@@ -17,7 +17,7 @@ namespace cairn {
 
 // What never changes. Shared between copies of a map.
 struct SubmapData {
-  explicit SubmapData(const Submap& submap);
+  explicit SubmapData(const Submap<SE3>& submap);
 
   ErrorKind error;
   SE3 T_base_end;

@@ -2,6 +2,7 @@
 // Motion models: how far a vehicle has come in one step, in its own frame, and how uncertain that is.
 #pragma once
 
+#include "geometry/se2.hpp"
 #include "geometry/se3.hpp"
 #include "geometry/types.hpp"
 
@@ -38,8 +39,9 @@ struct TwistNoise {
   Vector3 rate_sigma = Vector3::Constant(0.005);     // rad/s
 };
 
-// v in m/s, w in rad/s, body axes.
-Increment<SE3> integrate_twist(const Vector3& v, const Vector3& w, double dt, const TwistNoise& noise);
+// v in m/s, w in rad/s, body axes. In the plane v_x, v_y and w_z count.
+template <class Pose>
+Increment<Pose> integrate_twist(const Vector3& v, const Vector3& w, double dt, const TwistNoise& noise);
 
 // Four-wheel differential drive, the wheels of a side turning at one rate.
 struct Wheels {
@@ -54,7 +56,8 @@ struct Wheels {
   double pitch_rate_sigma = 0.05;     // rad/s
 };
 
-// Wheel rates in rad/s, forward positive.
-Increment<SE3> drive_wheels(const Wheels& wheels, double left, double right, double dt);
+// Wheel rates in rad/s, forward positive. In the plane a vehicle that sits on two wheels (a unicycle) is one of these.
+template <class Pose>
+Increment<Pose> drive_wheels(const Wheels& wheels, double left, double right, double dt);
 
 }  // namespace cairn

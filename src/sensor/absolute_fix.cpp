@@ -7,24 +7,29 @@
 
 namespace cairn {
 
-AbsoluteFix AbsoluteFix::position(const Vector3& position, const Matrix3& covariance, const Vector3& lever_arm) {
+template <class Pose>
+AbsoluteFix<Pose> AbsoluteFix<Pose>::position(const Point& position, const PointSquare& covariance,
+                                              const Point& lever_arm) {
   AbsoluteFix fix;
   fix.kind_ = Kind::position;
   fix.position_ = position;
   fix.lever_arm_ = lever_arm;
-  fix.covariance_ = covariance;
+  fix.covariance_.template topLeftCorner<Pose::kDim, Pose::kDim>() = covariance;
   return fix;
 }
 
-AbsoluteFix AbsoluteFix::attitude(const SO3& attitude, const Matrix3& covariance) {
+template <class Pose>
+AbsoluteFix<Pose> AbsoluteFix<Pose>::attitude(const Rotation& attitude,
+                                              const typename Rotation::Jacobian& covariance) {
   AbsoluteFix fix;
   fix.kind_ = Kind::attitude;
   fix.attitude_ = attitude;
-  fix.covariance_ = covariance;
+  fix.covariance_.template topLeftCorner<Pose::kTurn, Pose::kTurn>() = covariance;
   return fix;
 }
 
-AbsoluteFix AbsoluteFix::heading(double heading, double sigma) {
+template <class Pose>
+AbsoluteFix<Pose> AbsoluteFix<Pose>::heading(double heading, double sigma) {
   AbsoluteFix fix;
   fix.kind_ = Kind::heading;
   fix.heading_ = heading;
@@ -32,41 +37,54 @@ AbsoluteFix AbsoluteFix::heading(double heading, double sigma) {
   return fix;
 }
 
-bool AbsoluteFix::defined(const SE3& T_map_body) const {
+template <class Pose>
+bool AbsoluteFix<Pose>::defined(const Pose& T_map_body) const {
   constexpr double kMinimumLevel = 0.0871557427476582;  // sin of 5 degrees
-  return kind_ != Kind::heading || (T_map_body.rotation() * Vector3::UnitX()).head<2>().norm() >= kMinimumLevel;
+  const Point x = T_map_body.rotation() * Point::UnitX();
+  return kind_ != Kind::heading || x.template head<2>().norm() >= kMinimumLevel;
 }
 
-Vector3 AbsoluteFix::residual(const SE3& T_map_body) const {
+template <class Pose>
+Vector3 AbsoluteFix<Pose>::residual(const Pose& T_map_body) const {
+  Vector3 out = Vector3::Zero();
   switch (kind_) {
     case Kind::position:
-      return position_ - T_map_body.translation() - T_map_body.rotation() * lever_arm_;
+      out.head<Pose::kDim>() = position_ - T_map_body.translation() - T_map_body.rotation() * lever_arm_;
+      return out;
     case Kind::attitude:
-      return (attitude_ * T_map_body.rotation().inverse()).log();
+      out.head<Pose::kTurn>() = (attitude_ * T_map_body.rotation().inverse()).log();
+      return out;
     case Kind::heading:
       break;
   }
-  const Vector3 a = T_map_body.rotation() * Vector3::UnitX();
+  const Point a = T_map_body.rotation() * Point::UnitX();
   return Vector3(wrap_angle(heading_ - std::atan2(a.y(), a.x())), 0.0, 0.0);
 }
 
-Matrix36 AbsoluteFix::jacobian(const SE3& T_map_body) const {
-  Matrix36 J = Matrix36::Zero();
+template <class Pose>
+typename AbsoluteFix<Pose>::ByPose AbsoluteFix<Pose>::jacobian(const Pose& T_map_body) const {
+  ByPose J = ByPose::Zero();
   switch (kind_) {
     case Kind::position:  // h = p + R a
-      J << Matrix3::Identity(), SO3::turn(T_map_body.rotation() * lever_arm_);
+      J.template topLeftCorner<Pose::kDim, Pose::kDim>().setIdentity();
+      J.template topRightCorner<Pose::kDim, Pose::kTurn>() = Rotation::turn(T_map_body.rotation() * lever_arm_);
       break;
     case Kind::attitude:  // Log(R_z (Exp(theta) R)^T) = r - J_r(r)^-1 theta, and J_r(r) = J_l(-r)
-      J.rightCols<3>() = SO3::left_jacobian_inverse(-residual(T_map_body));
+      J.template topRightCorner<Pose::kTurn, Pose::kTurn>() =
+          Rotation::left_jacobian_inverse(-residual(T_map_body).template head<Pose::kTurn>());
       break;
-    case Kind::heading: {  // d atan2(a_y, a_x) for da = theta x a
-      const Vector3 a = T_map_body.rotation() * Vector3::UnitX();
-      const double level_squared = a.head<2>().squaredNorm();
-      J.row(0) << 0.0, 0.0, 0.0, -a.x() * a.z() / level_squared, -a.y() * a.z() / level_squared, 1.0;
+    case Kind::heading: {  // d atan2(a_y, a_x) for da = turn(a) dtheta
+      const Point a = T_map_body.rotation() * Point::UnitX();
+      const Vector2 level = a.template head<2>();
+      const Eigen::RowVector2d J_heading_a = Eigen::RowVector2d(-level.y(), level.x()) / level.squaredNorm();
+      J.template block<1, Pose::kTurn>(0, Pose::kDim) = J_heading_a * Rotation::turn(a).template topRows<2>();
       break;
     }
   }
   return J;
 }
+
+template class AbsoluteFix<SE2>;
+template class AbsoluteFix<SE3>;
 
 }  // namespace cairn

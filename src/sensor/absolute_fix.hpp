@@ -2,38 +2,48 @@
 // What tells where the body is in the map, or how it is turned there: GNSS, a star tracker, a compass.
 #pragma once
 
+#include "geometry/se2.hpp"
 #include "geometry/se3.hpp"
 #include "geometry/types.hpp"
 
 namespace cairn {
 
+template <class Pose>
 class AbsoluteFix {
  public:
+  using Point = typename Pose::Point;
+  using Rotation = typename Pose::Rotation;
+  using PointSquare = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
+  using ByPose = Eigen::Matrix<double, 3, Pose::kDof>;
+
   // z = p + R lever_arm
-  static AbsoluteFix position(const Vector3& position, const Matrix3& covariance, const Vector3& lever_arm);
+  static AbsoluteFix position(const Point& position, const PointSquare& covariance, const Point& lever_arm);
   // `covariance` is that of dtheta in the map's axes: true R = Exp(dtheta) measured R.
-  static AbsoluteFix attitude(const SO3& attitude, const Matrix3& covariance);
+  static AbsoluteFix attitude(const Rotation& attitude, const typename Rotation::Jacobian& covariance);
   // Yaw of the body's x axis in the map.
   static AbsoluteFix heading(double heading, double sigma);
 
-  int rows() const { return kind_ == Kind::heading ? 1 : 3; }
+  int rows() const { return kind_ == Kind::heading ? 1 : kind_ == Kind::attitude ? Pose::kTurn : Pose::kDim; }
   // Upper left rows() x rows() block.
   const Matrix3& covariance() const { return covariance_; }
   // False where the pose has no such value: a heading where the x axis stands within 5 degrees of the vertical.
-  bool defined(const SE3& T_map_body) const;
+  bool defined(const Pose& T_map_body) const;
   // z - h and dh/[dp; dtheta]; the first rows() rows count.
-  Vector3 residual(const SE3& T_map_body) const;
-  Matrix36 jacobian(const SE3& T_map_body) const;
+  Vector3 residual(const Pose& T_map_body) const;
+  ByPose jacobian(const Pose& T_map_body) const;
 
  private:
   enum class Kind { position, attitude, heading };
 
   Kind kind_ = Kind::position;
-  Vector3 position_ = Vector3::Zero();
-  Vector3 lever_arm_ = Vector3::Zero();
-  SO3 attitude_;
+  Point position_ = Point::Zero();
+  Point lever_arm_ = Point::Zero();
+  Rotation attitude_;
   double heading_ = 0.0;
   Matrix3 covariance_ = Matrix3::Zero();
 };
+
+extern template class AbsoluteFix<SE2>;
+extern template class AbsoluteFix<SE3>;
 
 }  // namespace cairn

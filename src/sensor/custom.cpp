@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "geometry/angle.hpp"
+#include "geometry/embedding.hpp"
 
 namespace cairn {
 namespace {
@@ -24,36 +25,46 @@ std::array<double, 7> pack(const SE3& T) {
 
 }  // namespace
 
-CustomSensor::CustomSensor(const CustomParameters& parameters)
+template <class Pose>
+CustomSensor<Pose>::CustomSensor(const CustomParameters& parameters)
     : parameters_(parameters), noise_(parameters.sigma.cwiseAbs2().asDiagonal()) {}
 
-bool CustomSensor::predict(const SE3& T_map_body, const Vector3& p_map, const Vector2&, Prediction& out) const {
+template <class Pose>
+bool CustomSensor<Pose>::predict(const Pose& T_map_body, const Point& p_map, const Mount&,
+                                 Prediction<Pose>& out) const {
   const int n = rows();
-  const std::array<double, 7> pose = pack(T_map_body);
+  const std::array<double, 7> pose = pack(Embedding<Pose>::up(T_map_body));
+  const Vector3 landmark = Embedding<Pose>::up(p_map);
   // A value that the callback forgets is refused; of a Jacobian it may leave out the zeros.
   double z[3] = {kUnset, kUnset, kUnset}, J_pose[18] = {}, J_landmark[9] = {};
-  if (parameters_.predict(parameters_.user, pose.data(), p_map.data(), z, J_pose, J_landmark) != 0) return false;
-  out = Prediction();
+  if (parameters_.predict(parameters_.user, pose.data(), landmark.data(), z, J_pose, J_landmark) != 0) return false;
+  out = Prediction<Pose>();
   std::copy_n(z, n, out.z.data());
-  out.J_z_pose.topRows(n) = Packed(J_pose, n, 6);
-  out.J_z_landmark.topRows(n) = Packed(J_landmark, n, 3);
+  Matrix36 by_pose = Matrix36::Zero();
+  Matrix3 by_landmark = Matrix3::Zero();
+  by_pose.topRows(n) = Packed(J_pose, n, 6);
+  by_landmark.topRows(n) = Packed(J_landmark, n, 3);
+  out.J_z_pose = Embedding<Pose>::by_pose(by_pose);
+  out.J_z_landmark = Embedding<Pose>::by_point(by_landmark);
   return out.z.allFinite() && out.J_z_pose.allFinite() && out.J_z_landmark.allFinite();
 }
 
-bool CustomSensor::place(const SE3& T_map_body, const Vector3& z, const Vector2&, Placement& out) const {
+template <class Pose>
+bool CustomSensor<Pose>::place(const Pose& T_map_body, const Vector3& z, const Mount&, Placement<Pose>& out) const {
   if (!places()) return false;
   const int n = rows();
-  const std::array<double, 7> pose = pack(T_map_body);
+  const std::array<double, 7> pose = pack(Embedding<Pose>::up(T_map_body));
   double landmark[3] = {kUnset, kUnset, kUnset}, J_pose[18] = {}, J_z[9] = {};
   if (parameters_.place(parameters_.user, pose.data(), z.data(), landmark, J_pose, J_z) != 0) return false;
-  out = Placement();
-  out.landmark = Eigen::Map<const Vector3>(landmark);
-  out.J_landmark_pose = Packed(J_pose, 3, 6);
-  out.J_landmark_z.leftCols(n) = Packed(J_z, 3, n);
+  out = Placement<Pose>();
+  out.landmark = Embedding<Pose>::down(Vector3(landmark));
+  out.J_landmark_pose = Embedding<Pose>::by_pose(Packed(J_pose, 3, 6)).template topRows<Pose::kDim>();
+  out.J_landmark_z.leftCols(n) = Packed(J_z, 3, n).template topRows<Pose::kDim>();
   return out.landmark.allFinite() && out.J_landmark_pose.allFinite() && out.J_landmark_z.allFinite();
 }
 
-Vector3 CustomSensor::residual(const Vector3& z, const Vector3& predicted) const {
+template <class Pose>
+Vector3 CustomSensor<Pose>::residual(const Vector3& z, const Vector3& predicted) const {
   Vector3 r = Vector3::Zero();
   for (int i = 0; i < rows(); ++i) {
     const double difference = z[i] - predicted[i];
@@ -61,6 +72,9 @@ Vector3 CustomSensor::residual(const Vector3& z, const Vector3& predicted) const
   }
   return r;
 }
+
+template class CustomSensor<SE2>;
+template class CustomSensor<SE3>;
 
 namespace {
 
@@ -92,9 +106,9 @@ double step_pose(const SE3& T, int i, SE3& above, SE3& below) {
 
 }  // namespace
 
-bool check_custom(const CustomSensor& sensor, const SE3& T_map_body, const Vector3& p_map, double& worst) {
+bool check_custom(const CustomSensor<SE3>& sensor, const SE3& T_map_body, const Vector3& p_map, double& worst) {
   const Vector2 mount = Vector2::Zero();
-  Prediction at, up, down;
+  Prediction<SE3> at, up, down;
   if (!sensor.predict(T_map_body, p_map, mount, at)) return false;
   double largest = 0;
   SE3 T_up, T_down;
@@ -112,7 +126,7 @@ bool check_custom(const CustomSensor& sensor, const SE3& T_map_body, const Vecto
   worst = largest;
   if (!sensor.places()) return true;
 
-  Placement placed, above, below;
+  Placement<SE3> placed, above, below;
   if (!sensor.place(T_map_body, at.z, mount, placed)) return false;
   for (int i = 0; i < 6; ++i) {
     const double width = step_pose(T_map_body, i, T_up, T_down);

@@ -25,17 +25,22 @@ struct CustomParameters {
   Vector3 sigma = Vector3::Ones();  // of each value
 };
 
-// A sensor of the caller's own. What it returns is refused where it isn't finite.
-class CustomSensor final : public Sensor {
+// A sensor of the caller's own. What it returns is refused where it isn't finite. In the plane it speaks of space all the
+// same: of its Jacobians the columns of x, y and yaw count.
+template <class Pose>
+class CustomSensor final : public Sensor<Pose> {
  public:
+  using typename Sensor<Pose>::Point;
+  using typename Sensor<Pose>::Mount;
+
   explicit CustomSensor(const CustomParameters& parameters);
 
   int rows() const override { return parameters_.rows; }
   bool relative() const override { return parameters_.relative; }
   bool places() const { return parameters_.place != nullptr; }
   const Matrix3& noise() const override { return noise_; }
-  bool predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction& out) const override;
-  bool place(const SE3& T_map_body, const Vector3& z, const Vector2& mount, Placement& out) const override;
+  bool predict(const Pose& T_map_body, const Point& p_map, const Mount& mount, Prediction<Pose>& out) const override;
+  bool place(const Pose& T_map_body, const Vector3& z, const Mount& mount, Placement<Pose>& out) const override;
   Vector3 residual(const Vector3& z, const Vector3& predicted) const override;
 
  private:
@@ -43,10 +48,13 @@ class CustomSensor final : public Sensor {
   Matrix3 noise_;
 };
 
+extern template class CustomSensor<SE2>;
+extern template class CustomSensor<SE3>;
+
 // Compares the sensor's Jacobians with central differences on the manifold at one pose and landmark, and, where the
 // sensor places landmarks, those of the placement at the predicted observation, and that placing leads back: to the
 // landmark, or, where fewer than three values can't tell where it lies, to the observation. `worst` is the largest
 // difference, relative to max(1, |numerical value|). False where the sensor refuses one of the points it is asked for.
-bool check_custom(const CustomSensor& sensor, const SE3& T_map_body, const Vector3& p_map, double& worst);
+bool check_custom(const CustomSensor<SE3>& sensor, const SE3& T_map_body, const Vector3& p_map, double& worst);
 
 }  // namespace cairn

@@ -1,80 +1,116 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the filter asks of a sensor that sees landmarks. A sensor has no state but its calibration: value and Jacobians.
+// What the filter asks of a sensor that sees landmarks, in space or in the plane. A sensor has no state but its
+// calibration: value and Jacobians.
 #pragma once
 
+#include "geometry/se2.hpp"
 #include "geometry/se3.hpp"
 #include "geometry/types.hpp"
 
 namespace cairn {
 
+// An observation has up to so many values, in space and in the plane: vectors and Jacobians have room for them, of
+// which the first rows() count.
+constexpr int kMostRows = 3;
+
+// Errors of the mount that a frame's observations may have in common: a head's two angles; of a mount in the plane, how
+// far and whereto it stands, and how it is turned.
+template <class Pose>
+constexpr int kMountErrors = Pose::kDim == 3 ? 2 : 3;
+
+template <class Pose>
+using MountError = Eigen::Matrix<double, kMountErrors<Pose>, 1>;
+template <class Pose>
+using MountSquare = Eigen::Matrix<double, kMountErrors<Pose>, kMountErrors<Pose>>;
+
 // A sensor's prediction of one landmark. Pose columns are those of the ordinary error [dp; dtheta] in the map's axes
-// (docs/notation.md); mount columns those of the error of the mount's angles. Only the first rows() rows count.
+// (docs/notation.md); mount columns those of the mount's error.
+template <class Pose>
 struct Prediction {
+  using ByPose = Eigen::Matrix<double, kMostRows, Pose::kDof>;
+  using ByLandmark = Eigen::Matrix<double, kMostRows, Pose::kDim>;
+  using ByMount = Eigen::Matrix<double, kMostRows, kMountErrors<Pose>>;
   Vector3 z = Vector3::Zero();
-  Matrix36 J_z_pose = Matrix36::Zero();
-  Matrix3 J_z_landmark = Matrix3::Zero();
-  Matrix32 J_z_mount = Matrix32::Zero();
+  ByPose J_z_pose = ByPose::Zero();
+  ByLandmark J_z_landmark = ByLandmark::Zero();
+  ByMount J_z_mount = ByMount::Zero();
 };
 
 // The landmark that one observation places, and what it depends on.
+template <class Pose>
 struct Placement {
-  Vector3 landmark = Vector3::Zero();
-  Matrix36 J_landmark_pose = Matrix36::Zero();
-  Matrix3 J_landmark_z = Matrix3::Zero();
-  Matrix32 J_landmark_mount = Matrix32::Zero();
+  using ByPose = Eigen::Matrix<double, Pose::kDim, Pose::kDof>;
+  using ByObservation = Eigen::Matrix<double, Pose::kDim, kMostRows>;
+  using ByMount = Eigen::Matrix<double, Pose::kDim, kMountErrors<Pose>>;
+  typename Pose::Point landmark = Pose::Point::Zero();
+  ByPose J_landmark_pose = ByPose::Zero();
+  ByObservation J_landmark_z = ByObservation::Zero();
+  ByMount J_landmark_mount = ByMount::Zero();
 };
 
-// How the noise of the mount's angles enters.
+// How the noise of the mount enters.
 enum class MountNoise { none, per_observation, per_frame };
 
+template <class Pose>
 class Sensor {
  public:
+  using Point = typename Pose::Point;
+  using Mount = MountError<Pose>;
+
   virtual ~Sensor() = default;
 
-  virtual int rows() const { return 3; }
+  virtual int rows() const { return Pose::kDim; }
   // Pose and landmark enter as the body point y = R^T (l - p) alone.
   virtual bool relative() const { return true; }
   // Default noise of an observation; the upper left rows() x rows() block counts.
   virtual const Matrix3& noise() const = 0;
   virtual MountNoise mount_noise_mode() const { return MountNoise::none; }
-  virtual Matrix2 mount_noise() const { return Matrix2::Zero(); }
+  virtual MountSquare<Pose> mount_noise() const { return MountSquare<Pose>::Zero(); }
 
   // False where the landmark gives no observation from there: behind the lens, too near, too steep.
-  // `mount` is the assumed error of the mount's angles (zero but for an iterate of a per-frame mount).
-  virtual bool predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction& out) const = 0;
+  // `mount` is the assumed error of the mount (zero but for an iterate of a per-frame mount).
+  virtual bool predict(const Pose& T_map_body, const Point& p_map, const Mount& mount, Prediction<Pose>& out) const = 0;
 
   // False where the observation places no landmark.
-  virtual bool place(const SE3& T_map_body, const Vector3& z, const Vector2& mount, Placement& out) const = 0;
+  virtual bool place(const Pose& T_map_body, const Vector3& z, const Mount& mount, Placement<Pose>& out) const = 0;
 
   // z - predicted, angles wrapped to (-pi, pi].
   virtual Vector3 residual(const Vector3& z, const Vector3& predicted) const { return z - predicted; }
 };
 
 // J_p P J_q^T for the images of two landmarks, number k and l in the joint covariance P of [pose; landmarks].
-inline Matrix3 image_covariance(const Eigen::Ref<const Eigen::MatrixXd>& P, const Prediction& p, Eigen::Index k,
-                                const Prediction& q, Eigen::Index l) {
-  const Eigen::Index row = 6 + 3 * k, column = 6 + 3 * l;
-  const Matrix36 by_pose = p.J_z_pose * P.topLeftCorner<6, 6>() + p.J_z_landmark * P.block<3, 6>(row, 0);
-  const Matrix3 by_landmark = p.J_z_pose * P.block<6, 3>(0, column) + p.J_z_landmark * P.block<3, 3>(row, column);
+template <class Pose>
+Matrix3 image_covariance(const Eigen::Ref<const Eigen::MatrixXd>& P, const Prediction<Pose>& p, Eigen::Index k,
+                         const Prediction<Pose>& q, Eigen::Index l) {
+  constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  const Eigen::Index row = kDof + kDim * k, column = kDof + kDim * l;
+  const typename Prediction<Pose>::ByPose by_pose =
+      p.J_z_pose * P.topLeftCorner<kDof, kDof>() + p.J_z_landmark * P.block<kDim, kDof>(row, 0);
+  const typename Prediction<Pose>::ByLandmark by_landmark =
+      p.J_z_pose * P.block<kDof, kDim>(0, column) + p.J_z_landmark * P.block<kDim, kDim>(row, column);
   return by_pose * q.J_z_pose.transpose() + by_landmark * q.J_z_landmark.transpose();
 }
 
 // Chain rule for a sensor that sees the point y = R^T (l - p) of the body frame, given J_z_y at y.
-inline void map_jacobians(const SE3& T_map_body, const Vector3& p_map, const Matrix3& J_z_y, Prediction& out) {
-  const Matrix3 J_z_l = J_z_y * T_map_body.rotation().matrix().transpose();
+template <class Pose>
+void map_jacobians(const Pose& T_map_body, const typename Pose::Point& p_map,
+                   const typename Prediction<Pose>::ByLandmark& J_z_y, Prediction<Pose>& out) {
+  const typename Prediction<Pose>::ByLandmark J_z_l = J_z_y * T_map_body.rotation().matrix().transpose();
   out.J_z_landmark = J_z_l;
-  out.J_z_pose.leftCols<3>() = -J_z_l;
-  // R = Exp(dtheta) R_hat: dy = -R^T [dtheta]x (l - p) = R^T [l - p]x dtheta
-  out.J_z_pose.rightCols<3>() = J_z_l * hat(p_map - T_map_body.translation());
+  out.J_z_pose.template leftCols<Pose::kDim>() = -J_z_l;
+  // R = Exp(dtheta) R_hat: dy = -R^T turn(l - p) dtheta
+  out.J_z_pose.template rightCols<Pose::kTurn>() = -J_z_l * Pose::Rotation::turn(p_map - T_map_body.translation());
 }
 
 // The landmark l = p + R y of a body point y, given J_y_z.
-inline void place_body_point(const SE3& T_map_body, const Vector3& y, const Matrix3& J_y_z, Placement& out) {
-  const Matrix3 R = T_map_body.rotation().matrix();
-  const Vector3 arm = R * y;
+template <class Pose>
+void place_body_point(const Pose& T_map_body, const typename Pose::Point& y,
+                      const typename Placement<Pose>::ByObservation& J_y_z, Placement<Pose>& out) {
+  const typename Pose::Rotation::Matrix R = T_map_body.rotation().matrix();
+  const typename Pose::Point arm = R * y;
   out.landmark = T_map_body.translation() + arm;
-  out.J_landmark_pose.leftCols<3>().setIdentity();
-  out.J_landmark_pose.rightCols<3>() = -hat(arm);
+  out.J_landmark_pose.template leftCols<Pose::kDim>().setIdentity();
+  out.J_landmark_pose.template rightCols<Pose::kTurn>() = Pose::Rotation::turn(arm);
   out.J_landmark_z = R * J_y_z;
 }
 

@@ -13,7 +13,7 @@ StereoCamera::StereoCamera(const StereoCameraParameters& parameters)
       least_disparity_(std::max(parameters.min_disparity,
                                 parameters.min_disparity_sigmas * parameters.sigma.head<2>().norm())) {}
 
-bool StereoCamera::predict(const SE3& T_map_body, const Vector3& p_map, const Vector2&, Prediction& out) const {
+bool StereoCamera::predict(const SE3& T_map_body, const Vector3& p_map, const Vector2&, Prediction<SE3>& out) const {
   const StereoCameraParameters& c = parameters_;
   const Vector3 p_body = T_map_body.rotation().inverse() * (p_map - T_map_body.translation());
   const Vector3 p_camera = R_body_camera_.transpose() * (p_body - c.T_body_camera.translation());
@@ -31,7 +31,7 @@ bool StereoCamera::predict(const SE3& T_map_body, const Vector3& p_map, const Ve
   return out.z.allFinite() && out.J_z_pose.allFinite();  // a far point far off the axis overflows
 }
 
-bool StereoCamera::place(const SE3& T_map_body, const Vector3& z, const Vector2&, Placement& out) const {
+bool StereoCamera::place(const SE3& T_map_body, const Vector3& z, const Vector2&, Placement<SE3>& out) const {
   const StereoCameraParameters& c = parameters_;
   const double disparity = z[0] - z[1];
   if (!z.allFinite() || disparity < least_disparity_) return false;

@@ -21,13 +21,13 @@ struct StereoCameraParameters {
 
 // Rectified stereo camera: z = (u_left, u_right, v) in pixels of a point (x, y, z) of the left camera's frame,
 // u_left = fu x/z + cu, u_right = fu (x - baseline)/z + cu, v = fv y/z + cv.
-class StereoCamera final : public Sensor {
+class StereoCamera final : public Sensor<SE3> {
  public:
   explicit StereoCamera(const StereoCameraParameters& parameters = {});
 
   const Matrix3& noise() const override { return noise_; }
-  bool predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction& out) const override;
-  bool place(const SE3& T_map_body, const Vector3& z, const Vector2& mount, Placement& out) const override;
+  bool predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction<SE3>& out) const override;
+  bool place(const SE3& T_map_body, const Vector3& z, const Vector2& mount, Placement<SE3>& out) const override;
 
  private:
   StereoCameraParameters parameters_;

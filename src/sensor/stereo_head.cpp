@@ -38,7 +38,7 @@ Matrix2 StereoHead::mount_noise() const {
   return Vector2(parameters_.pan_sigma, parameters_.stick_sigma).cwiseAbs2().asDiagonal();
 }
 
-bool StereoHead::predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction& out) const {
+bool StereoHead::predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction<SE3>& out) const {
   const Axes axes = mount.isZero(0) ? axes_ : axes_at(pan_ + mount[0], stick_ + mount[1]);
   const Vector3 m_b = T_map_body.rotation().inverse() * (p_map - T_map_body.translation());
   // (Mars paper, eq. 4), solved for m_c, one joint at a time
@@ -71,7 +71,7 @@ bool StereoHead::predict(const SE3& T_map_body, const Vector3& p_map, const Vect
   return true;
 }
 
-bool StereoHead::place(const SE3& T_map_body, const Vector3& z, const Vector2& mount, Placement& out) const {
+bool StereoHead::place(const SE3& T_map_body, const Vector3& z, const Vector2& mount, Placement<SE3>& out) const {
   if (!z.allFinite() || z[0] < parameters_.near_range || std::abs(z[2]) > parameters_.max_elevation) return false;
   const Axes axes = mount.isZero(0) ? axes_ : axes_at(pan_ + mount[0], stick_ + mount[1]);
   const double range = z[0], ca = std::cos(z[1]), sa = std::sin(z[1]), ce = std::cos(z[2]), se = std::sin(z[2]);

@@ -22,7 +22,7 @@ struct StereoHeadParameters {
 // Stereo head on a pan and tilt mount (Mars paper, Figures 2 and 3, eq. 4), observing range, azimuth and elevation:
 //   m_b = d + Rz(pan) Ry(stick) (s + R_stick_camera m_c).
 // True mount angles are the encoders' plus the mount error (pan, stick).
-class StereoHead final : public Sensor {
+class StereoHead final : public Sensor<SE3> {
  public:
   explicit StereoHead(const StereoHeadParameters& parameters = {});
 
@@ -34,8 +34,8 @@ class StereoHead final : public Sensor {
   const Matrix3& noise() const override { return noise_; }
   MountNoise mount_noise_mode() const override;
   Matrix2 mount_noise() const override;
-  bool predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction& out) const override;
-  bool place(const SE3& T_map_body, const Vector3& z, const Vector2& mount, Placement& out) const override;
+  bool predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction<SE3>& out) const override;
+  bool place(const SE3& T_map_body, const Vector3& z, const Vector2& mount, Placement<SE3>& out) const override;
   Vector3 residual(const Vector3& z, const Vector3& predicted) const override;
 
  private:

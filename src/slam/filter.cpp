@@ -8,10 +8,15 @@
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
+#include "slam/filter_absolute.hpp"
+#include "slam/filter_association.hpp"
+#include "slam/filter_submaps.hpp"
+#include "slam/filter_update.hpp"
 
 namespace cairn {
 
-Filter::Filter(Arena& arena, const FilterOptions& options)
+template <class Pose>
+Filter<Pose>::Filter(Arena& arena, const FilterOptions<Pose>& options)
     : options_(options),
       ekf_(arena, options.error, {options.local_landmarks(), options.max_observations}),
       slots_(arena, static_cast<std::size_t>(options.local_landmarks())),
@@ -27,8 +32,8 @@ Filter::Filter(Arena& arena, const FilterOptions& options)
       kept_(arena.take<Index>(options.max_observations)),
       new_ones_(arena.take<Index>(options.max_observations)),
       unknowns_(arena, options),
-      residual_(arena.take<double>(3 * options.max_observations + 6)),
-      thresholds_(arena.take<double>(3 * options.max_observations + 7)) {
+      residual_(arena.take<double>(kDim * options.max_observations + kDof)),
+      thresholds_(arena.take<double>(kDim * options.max_observations + kDof + 1)) {
   static_assert(alignof(AnySensorSlot) <= Arena::kAlignment, "the arena aligns to a cache line");
   if (arena.measuring()) return;
   for (int rows = 1; rows <= 6; ++rows) gate_thresholds_[rows] = chi_square_quantile(rows, options.gate_probability);
@@ -36,22 +41,25 @@ Filter::Filter(Arena& arena, const FilterOptions& options)
   if (options.single_map()) {
     ekf_.start(options.initial_pose, options.initial_covariance);
   } else {
-    ekf_.start(SE3(), Matrix6::Zero());
+    ekf_.start(Pose(), Square::Zero());
     map_ = make_map(options);
   }
 }
 
-Filter::~Filter() {
+template <class Pose>
+Filter<Pose>::~Filter() {
   for (int i = 0; i < sensor_count_; ++i) sensor_slot(i).~AnySensorSlot();
 }
 
-std::size_t Filter::arena_bytes(const FilterOptions& options) {
+template <class Pose>
+std::size_t Filter<Pose>::arena_bytes(const FilterOptions<Pose>& options) {
   Arena measure;
   const Filter unused(measure, options);
   return measure.used();
 }
 
-int Filter::add_sensor(const AnySensorSlot& sensor) {
+template <class Pose>
+int Filter<Pose>::add_sensor(const AnySensorSlot& sensor) {
   if (sensor_count_ == options_.max_sensors)
     throw Error(ErrorCode::capacity, "sensor: all %d are taken; create the filter with a larger max_sensors",
                 sensor_count_);
@@ -59,27 +67,35 @@ int Filter::add_sensor(const AnySensorSlot& sensor) {
   return sensor_count_++;
 }
 
-Filter::AnySensorSlot& Filter::sensor_slot(int sensor) {
+template <class Pose>
+typename Filter<Pose>::AnySensorSlot& Filter<Pose>::sensor_slot(int sensor) {
   if (sensor < 0 || sensor >= sensor_count_)
     throw Error(ErrorCode::not_found, "sensor: there is no number %d; %d have been added, counted from 0", sensor,
                 sensor_count_);
   return *std::launder(reinterpret_cast<AnySensorSlot*>(sensor_storage_ + sensor * sizeof(AnySensorSlot)));
 }
 
-const Sensor& Filter::sensor_at(int sensor) {
-  return std::visit([](auto& s) -> const Sensor& { return s; }, sensor_slot(sensor));
+template <class Pose>
+const Sensor<Pose>& Filter<Pose>::sensor_at(int sensor) {
+  return std::visit([](auto& s) -> const Sensor<Pose>& { return s; }, sensor_slot(sensor));
 }
 
-void Filter::point_head(int sensor, double pan, double stick) {
-  StereoHead* head = std::get_if<StereoHead>(&sensor_slot(sensor));
+template <class Pose>
+void Filter<Pose>::point_head(int sensor, double pan, double stick) {
+  StereoHead* head = nullptr;
+  if constexpr (kDim == 3)
+    head = std::get_if<StereoHead>(&sensor_slot(sensor));
+  else
+    sensor_slot(sensor);  // there is one of this number
   if (head == nullptr)
     throw Error(ErrorCode::argument, "sensor: number %d is no stereo head and can't be pointed", sensor);
   head->point(pan, stick);
 }
 
-void Filter::propagate(const Increment<SE3>& increment) {
+template <class Pose>
+void Filter<Pose>::propagate(const Increment<Pose>& increment) {
   constexpr double kTurnSquared = 39.478417604357432;  // (2 pi)^2
-  if (!(increment.covariance.diagonal().tail<3>().maxCoeff() <= kTurnSquared))
+  if (!(increment.covariance.diagonal().template tail<kTurn>().maxCoeff() <= kTurnSquared))
     throw Error(ErrorCode::numerical,
                 "prediction: the attitude's noise of this step exceeds a whole turn; nothing was changed");
   if (!ekf_.propagate(increment))
@@ -88,7 +104,8 @@ void Filter::propagate(const Increment<SE3>& increment) {
   driven_ += increment.T_before_after.translation().norm();
 }
 
-void Filter::forget_local(std::int32_t slot) {
+template <class Pose>
+void Filter<Pose>::forget_local(std::int32_t slot) {
   const Index last = ekf_.size() - 1;
   const std::uint64_t id = ids_[slot];
   ekf_.remove(slot);
@@ -99,7 +116,8 @@ void Filter::forget_local(std::int32_t slot) {
   slots_.set(ids_[slot], slot);
 }
 
-void Filter::remove_landmark(std::uint64_t id) {
+template <class Pose>
+void Filter<Pose>::remove_landmark(std::uint64_t id) {
   const std::int32_t slot = slots_.find(id);
   std::size_t index = 0;
   const bool mapped = map_ != nullptr && map_->find(id, index);
@@ -109,21 +127,25 @@ void Filter::remove_landmark(std::uint64_t id) {
   if (slot != IdTable::kAbsent) forget_local(slot);
 }
 
-bool Filter::find(std::uint64_t id, std::size_t& index) const {
+template <class Pose>
+bool Filter<Pose>::find(std::uint64_t id, std::size_t& index) const {
   const std::int32_t slot = slots_.find(id);
   if (slot == IdTable::kAbsent) return false;
   index = static_cast<std::size_t>(slot);
   return true;
 }
 
-void Filter::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+template <class Pose>
+void Filter<Pose>::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
   const std::vector<Index> slots(indices, indices + count);
-  std::vector<double> joint((6 + 3 * count) * (6 + 3 * count));
-  ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), joint.data(), static_cast<Index>(6 + 3 * count));
-  without_pose(joint.data(), count, matrix);
+  const std::size_t n = kDof + kDim * count;
+  std::vector<double> joint(n * n);
+  ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), joint.data(), static_cast<Index>(n));
+  without_pose<Pose>(joint.data(), count, matrix);
 }
 
-void Filter::say(const char* format, ...) const {
+template <class Pose>
+void Filter<Pose>::say(const char* format, ...) const {
   if (log_ == nullptr) return;
   char line[256];
   va_list arguments;
@@ -132,5 +154,8 @@ void Filter::say(const char* format, ...) const {
   va_end(arguments);
   log_(log_payload_, line);
 }
+
+template class Filter<SE2>;
+template class Filter<SE3>;
 
 }  // namespace cairn

@@ -12,11 +12,13 @@
 #include "core/id_table.hpp"
 #include "ekf/ekf.hpp"
 #include "ekf/iterate.hpp"
+#include "geometry/embedding.hpp"
 #include "map/global_map.hpp"
 #include "map/naming.hpp"
 #include "motion/motion.hpp"
 #include "sensor/cartesian.hpp"
 #include "sensor/custom.hpp"
+#include "sensor/range_bearing.hpp"
 #include "sensor/stereo_camera.hpp"
 #include "sensor/stereo_head.hpp"
 
@@ -27,6 +29,7 @@ constexpr std::uint64_t kNoId = UINT64_MAX;
 enum class JoinKind { automatic, dense, sparse };
 enum class AssociationKind { known, nearest, joint };
 
+template <class Pose>
 struct FilterOptions {
   ErrorKind error = ErrorKind::invariant;
   Index max_landmarks = 1000;
@@ -36,8 +39,8 @@ struct FilterOptions {
   double iteration_tolerance = 0.1;
   double gate_probability = 0.99;
   double batch_gate_probability = 0.9999;
-  SE3 initial_pose;
-  Matrix6 initial_covariance = Matrix6::Zero();
+  Pose initial_pose;
+  typename Pose::Square initial_covariance = Pose::Square::Zero();
   Index submap_landmarks = 0;  // 0: a single map
   JoinKind join = JoinKind::automatic;
   double submap_distance = 0.0, submap_extent = 0.0, submap_sigma = 0.0;  // 0: no matter
@@ -97,17 +100,37 @@ struct UpdateReport {
   double association_seconds = 0.0;
 };
 
+// Sensors that a filter can hold.
+template <class Pose>
+struct SensorKinds;
+template <>
+struct SensorKinds<SE3> {
+  using Any = std::variant<StereoHead, StereoCamera, Cartesian<SE3>, CustomSensor<SE3>>;
+};
+template <>
+struct SensorKinds<SE2> {
+  using Any = std::variant<RangeBearing, Cartesian<SE2>, CustomSensor<SE2>, ExtendedObservation>;
+};
+
+// In space (SE3) or in the plane (SE2). As Landmarks it speaks of space in either case.
+template <class Pose>
 class Filter final : public Landmarks {
  public:
+  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  using Point = typename Pose::Point;
+  using Rotation = typename Pose::Rotation;
+  using Square = typename Pose::Square;
+  using PointSquare = typename AbsoluteFix<Pose>::PointSquare;
+  using Mount = MountError<Pose>;
   using Log = void (*)(void* payload, const char* line);
 
-  Filter(Arena& arena, const FilterOptions& options);
+  Filter(Arena& arena, const FilterOptions<Pose>& options);
   ~Filter() override;
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
-  static std::size_t arena_bytes(const FilterOptions& options);     // of the arena that the constructor wants
-  static std::size_t required_bytes(const FilterOptions& options);  // of all that it takes
-  const FilterOptions& options() const { return options_; }
+  static std::size_t arena_bytes(const FilterOptions<Pose>& options);     // of the arena that the constructor wants
+  static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of all that it takes
+  const FilterOptions<Pose>& options() const { return options_; }
   void set_log(Log log, void* payload) { log_ = log, log_payload_ = payload; }
 
   // --- sensors --- numbered from 0 as they come
@@ -121,11 +144,11 @@ class Filter final : public Landmarks {
   // --- motion --- throws where the result is not finite, with nothing changed
   void set_wheels(const Wheels& wheels) { wheels_ = wheels; }
   void set_twist_noise(const TwistNoise& noise) { twist_noise_ = noise; }
-  void predict_wheels(double dt, double left, double right) { propagate(drive_wheels(wheels_, left, right, dt)); }
+  void predict_wheels(double dt, double left, double right) { propagate(drive_wheels<Pose>(wheels_, left, right, dt)); }
   void predict_twist(double dt, const Vector3& v, const Vector3& w) {
-    propagate(integrate_twist(v, w, dt, twist_noise_));
+    propagate(integrate_twist<Pose>(v, w, dt, twist_noise_));
   }
-  void propagate(const Increment<SE3>& increment);
+  void propagate(const Increment<Pose>& increment);
 
   // --- observations --- each throws with nothing changed; decisions() holds one a observation after it
   Observation* staging() { return observations_; }  // room for max_observations
@@ -137,7 +160,7 @@ class Filter final : public Landmarks {
     const double* residual;
     Index rows;
     const double* covariance;  // rows x rows
-    const double* J_pose;      // rows x 6 row-major, or null
+    const double* J_pose;      // rows x 6 row-major, or null; of space, the plane takes its columns
     const std::uint64_t* landmarks;
     Index count;
     const double* J_landmarks;  // rows x 3 count row-major
@@ -145,19 +168,19 @@ class Filter final : public Landmarks {
   void update_linear(const Linear& linear) {
     logged([&] { take_in(linear); });
   }
-  void update_fix(const AbsoluteFix& fix) {
+  void update_fix(const AbsoluteFix<Pose>& fix) {
     logged([&] { take_in(fix); });
   }
-  void update_position(const Vector3& position, const Matrix3& covariance, const Vector3& lever_arm) {
-    update_fix(AbsoluteFix::position(position, covariance, lever_arm));
+  void update_position(const Point& position, const PointSquare& covariance, const Point& lever_arm) {
+    update_fix(AbsoluteFix<Pose>::position(position, covariance, lever_arm));
   }
-  void update_attitude(const SO3& attitude, const Matrix3& covariance) {
-    update_fix(AbsoluteFix::attitude(attitude, covariance));
+  void update_attitude(const Rotation& attitude, const typename Rotation::Jacobian& covariance) {
+    update_fix(AbsoluteFix<Pose>::attitude(attitude, covariance));
   }
-  void update_heading(double heading, double sigma) { update_fix(AbsoluteFix::heading(heading, sigma)); }
+  void update_heading(double heading, double sigma) { update_fix(AbsoluteFix<Pose>::heading(heading, sigma)); }
   double* workspace() {
     return ekf_.scratch();
-  }  // m^2 + cholesky_workspace(m) doubles, m = 3 max_observations; free between updates
+  }  // m^2 + cholesky_workspace(m) doubles, m = kDim max_observations; free between updates
   const Match* decisions() const { return matches_; }
   const UpdateReport& report() const { return report_; }
 
@@ -168,43 +191,47 @@ class Filter final : public Landmarks {
   const ClosingReport& closing() const { return closing_; }
 
   // --- queries ---
-  SE3 pose() const { return map_ != nullptr ? map_->base() * ekf_.pose() : ekf_.pose(); }
-  Matrix6 pose_covariance() const;
-  SE3 local_pose() const { return ekf_.pose(); }
-  Matrix6 local_pose_covariance() const { return ekf_.pose_covariance(); }
-  double pose_nees(const SE3& truth) const;
+  Pose pose() const { return map_ != nullptr ? map_->base() * ekf_.pose() : ekf_.pose(); }
+  Square pose_covariance() const;
+  Pose local_pose() const { return ekf_.pose(); }
+  Square local_pose_covariance() const { return ekf_.pose_covariance(); }
+  double pose_nees(const Pose& truth) const;
   double smallest_pivot() { return ekf_.smallest_pivot(); }
   // The map that the caller sees; null: this filter's own landmarks are it.
-  const GlobalMap* map() const { return map_.get(); }
+  const GlobalMap<Pose>* map() const { return map_.get(); }
   const Landmarks& landmarks() const { return map_ != nullptr ? static_cast<const Landmarks&>(*map_) : *this; }
-  // Pose, then landmarks of landmarks(); square of 6 + 3 count.
+  // Pose, then landmarks of landmarks(), in space; square of 6 + 3 count.
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 
   // Landmarks: of the open submap, or of the single map
   std::size_t size() const override { return static_cast<std::size_t>(ekf_.size()); }
   std::uint64_t id(std::size_t index) const override { return ids_[index]; }
   std::uint64_t observations(std::size_t index) const override { return counts_[index]; }
-  Vector3 position(std::size_t index) const override { return ekf_.landmark(static_cast<Index>(index)); }
-  Matrix3 covariance(std::size_t index) const override { return ekf_.landmark_covariance(static_cast<Index>(index)); }
+  Vector3 position(std::size_t index) const override {
+    return Embedding<Pose>::up(ekf_.landmark(static_cast<Index>(index)));
+  }
+  Matrix3 covariance(std::size_t index) const override {
+    return Embedding<Pose>::up(ekf_.landmark_covariance(static_cast<Index>(index)));
+  }
   bool find(std::uint64_t id, std::size_t& index) const override;
   void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override;
 
  private:
-  using AnySensorSlot = std::variant<StereoHead, StereoCamera, Cartesian, CustomSensor>;
+  using AnySensorSlot = typename SensorKinds<Pose>::Any;
 
   // A known landmark that this frame may update.
   struct Candidate {
     Index observation;
     Index slot;
     Matrix3 noise;
-    Prediction prediction;  // at the estimate
+    Prediction<Pose> prediction;  // at the estimate
     Index number;           // in the window
   };
   // A landmark that the sensor may see, where observations bring no names.
   struct Expected {
     Index slot;
     Index window;  // among those of all pairs, or kUnpaired
-    Prediction prediction;
+    Prediction<Pose> prediction;
     Matrix3 innovation;  // covariance of the prediction
   };
   struct Pair {
@@ -215,7 +242,7 @@ class Filter final : public Landmarks {
   class PairInnovations;
   // Memory of association, where there is any.
   struct Unknowns {
-    Unknowns(Arena& arena, const FilterOptions& options);
+    Unknowns(Arena& arena, const FilterOptions<Pose>& options);
     static constexpr Index kPairs = 8;  // of one observation, the nearest
     Index most_landmarks, most_pairs, most_window;
     Association association;
@@ -244,49 +271,49 @@ class Filter final : public Landmarks {
   }
   void take_in(int sensor, Index count);
   void take_in(const Linear& linear);
-  void take_in(const AbsoluteFix& fix);
+  void take_in(const AbsoluteFix<Pose>& fix);
   int add_sensor(const AnySensorSlot& sensor);
   AnySensorSlot& sensor_slot(int sensor);
-  const Sensor& sensor_at(int sensor);
-  void sort_out(const Sensor& sensor, Index count);
-  void sort_by_id(const Sensor& sensor, Index count);
-  void sort_by_association(const Sensor& sensor, Index count);
-  void predict_all(const Sensor& sensor);
-  void find_pairs(const Sensor& sensor, Index count);
-  bool confusable(const Sensor& sensor, Index count, Index observation, const Pair& pair) const;
-  void demand_support(const Sensor& sensor, Index count);
-  void settle_pairs(const Sensor& sensor, Index count);
-  void add_candidate(const Sensor& sensor, Index observation, Index slot, const Prediction& prediction);
-  void add_new_one(const Sensor& sensor, Index observation);
-  Matrix3 noise_of(const Sensor& sensor, const Observation& observation) const;
-  bool linearise(const Sensor& sensor, double* residual_only);
-  void open_candidates(const Sensor& sensor);
+  const Sensor<Pose>& sensor_at(int sensor);
+  void sort_out(const Sensor<Pose>& sensor, Index count);
+  void sort_by_id(const Sensor<Pose>& sensor, Index count);
+  void sort_by_association(const Sensor<Pose>& sensor, Index count);
+  void predict_all(const Sensor<Pose>& sensor);
+  void find_pairs(const Sensor<Pose>& sensor, Index count);
+  bool confusable(const Sensor<Pose>& sensor, Index count, Index observation, const Pair& pair) const;
+  void demand_support(const Sensor<Pose>& sensor, Index count);
+  void settle_pairs(const Sensor<Pose>& sensor, Index count);
+  void add_candidate(const Sensor<Pose>& sensor, Index observation, Index slot, const Prediction<Pose>& prediction);
+  void add_new_one(const Sensor<Pose>& sensor, Index observation);
+  Matrix3 noise_of(const Sensor<Pose>& sensor, const Observation& observation) const;
+  bool linearise(const Sensor<Pose>& sensor, double* residual_only);
+  void open_candidates(const Sensor<Pose>& sensor);
   void gate_each();
   void keep(Index count, Index rows);
-  void gate_batch(const Sensor& sensor);
+  void gate_batch(const Sensor<Pose>& sensor);
   template <class Linearise>
   void iterate(int iterations, bool relative, Linearise&& linearise);
-  void place_new(const Sensor& sensor);
+  void place_new(const Sensor<Pose>& sensor);
   template <class Linearise>
   void update_alone(Index rows, int iterations, std::uint64_t landmark, Linearise&& linearise);
   void start_report(Index count);
   void finish_report(Index count);
   double batch_threshold(Index rows);
   double single_threshold(Index rows) const;
-  void update_map_by_fix(const AbsoluteFix& fix);
+  void update_map_by_fix(const AbsoluteFix<Pose>& fix);
   ClosedBy full() const;
-  Submap take_submap() const;
-  void join_submap(ClosedBy reason, FixRequest* fix = nullptr);
+  Submap<Pose> take_submap() const;
+  void join_submap(ClosedBy reason, FixRequest<Pose>* fix = nullptr);
   void close_if_full();
   void forget_local(std::int32_t slot);
-  static std::unique_ptr<GlobalMap> make_map(const FilterOptions& options);
-  Matrix6 base_to_pose() const;
-  Matrix6 local_part() const;
+  static std::unique_ptr<GlobalMap<Pose>> make_map(const FilterOptions<Pose>& options);
+  Square base_to_pose() const;
+  Square local_part() const;
   void say(const char* format, ...) const __attribute__((format(printf, 2, 3)));
 
-  FilterOptions options_;
-  Ekf<SE3> ekf_;
-  std::unique_ptr<GlobalMap> map_;  // null: a single map
+  FilterOptions<Pose> options_;
+  Ekf<Pose> ekf_;
+  std::unique_ptr<GlobalMap<Pose>> map_;  // null: a single map
   double driven_ = 0.0;             // in the open submap, m
   ClosingReport closing_;
   std::size_t frames_to_wait_ = 0, next_wait_ = 1;  // before another attempt to close
@@ -320,12 +347,16 @@ class Filter final : public Landmarks {
 };
 
 // Gauss-Newton on the batch, which stands factored at the prediction, and the commit; see iterate_and_commit().
+template <class Pose>
 template <class Linearise>
-void Filter::iterate(int iterations, bool relative, Linearise&& linearise) {
+void Filter<Pose>::iterate(int iterations, bool relative, Linearise&& linearise) {
   next_report_.nis = ekf_.nis();
   next_report_.iterations =
       iterate_and_commit(ekf_, {iterations, options_.iteration_tolerance, relative}, residual_, linearise);
   next_report_.rows = ekf_.batch().rows();
 }
+
+extern template class Filter<SE2>;
+extern template class Filter<SE3>;
 
 }  // namespace cairn

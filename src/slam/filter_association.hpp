@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which landmark each observation of a frame is of, where the frame brings no names (docs/association.md).
+// Which landmark each observation of a frame is of, where the frame brings no names (docs/association.md). Included by filter.cpp alone.
+#pragma once
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
@@ -8,7 +10,9 @@
 #include "slam/filter.hpp"
 
 namespace cairn {
-Filter::Unknowns::Unknowns(Arena& arena, const FilterOptions& options)
+
+template <class Pose>
+Filter<Pose>::Unknowns::Unknowns(Arena& arena, const FilterOptions<Pose>& options)
     : most_landmarks(options.association == AssociationKind::known ? 0 : options.local_landmarks()),
       most_pairs(most_landmarks == 0 ? 0 : kPairs * options.max_observations),
       most_window(std::min(most_landmarks, 2 * options.max_observations)),
@@ -18,20 +22,21 @@ Filter::Unknowns::Unknowns(Arena& arena, const FilterOptions& options)
       details(arena.take<Pair>(static_cast<std::size_t>(most_pairs))),
       window(arena.take<Index>(static_cast<std::size_t>(most_window))),
       covariance(arena.take<double>(
-          most_landmarks == 0 ? 0 : static_cast<std::size_t>((6 + 3 * most_window) * (6 + 3 * most_window)))),
+          most_landmarks == 0 ? 0 : static_cast<std::size_t>((kDof + kDim * most_window) * (kDof + kDim * most_window)))),
       nearest(arena.take<Match>(most_landmarks == 0 ? 0 : static_cast<std::size_t>(options.max_observations))),
       chosen(arena.take<Index>(most_landmarks == 0 ? 0 : static_cast<std::size_t>(options.max_observations))),
       doubtful(arena.take<char>(most_landmarks == 0 ? 0 : static_cast<std::size_t>(options.max_observations))) {}
 
 // Of the pairs that were found.
-class Filter::PairInnovations final : public Innovations {
+template <class Pose>
+class Filter<Pose>::PairInnovations final : public Innovations {
  public:
-  PairInnovations(Filter& filter, const Sensor& sensor)
+  PairInnovations(Filter& filter, const Sensor<Pose>& sensor)
       : filter_(filter),
         unknowns_(filter.unknowns_),
         rows_(sensor.rows()),
         common_mount_(sensor.mount_noise_mode() == MountNoise::per_frame ? sensor.mount_noise()
-                                                                         : Matrix2(Matrix2::Zero())) {}
+                                                                         : MountSquare<Pose>(MountSquare<Pose>::Zero())) {}
 
   Index rows() const override { return rows_; }
   double threshold(Index rows) const override {
@@ -46,7 +51,7 @@ class Filter::PairInnovations final : public Innovations {
       S = unknowns_.details[a].innovation;
     } else {
       const Expected &first = expected(a), &second = expected(b);
-      const Index n = 6 + 3 * unknowns_.window_count;
+      const Index n = kDof + kDim * unknowns_.window_count;
       S = image_covariance(Eigen::Map<const Eigen::MatrixXd>(unknowns_.covariance, n, n), first.prediction,
                            first.window, second.prediction, second.window) +
           first.prediction.J_z_mount * common_mount_ * second.prediction.J_z_mount.transpose();
@@ -60,23 +65,25 @@ class Filter::PairInnovations final : public Innovations {
   Filter& filter_;
   const Unknowns& unknowns_;
   Index rows_;
-  Matrix2 common_mount_;
+  MountSquare<Pose> common_mount_;
 };
 
 // Images of all landmarks that give one, with their covariance.
-void Filter::predict_all(const Sensor& sensor) {
+template <class Pose>
+void Filter<Pose>::predict_all(const Sensor<Pose>& sensor) {
   unknowns_.expected_count = 0;
-  const SE3 pose = ekf_.pose();
+  const Pose pose = ekf_.pose();
   for (Index slot = 0; slot < ekf_.size(); ++slot) {
     Expected& next = unknowns_.expected[unknowns_.expected_count];
-    if (!sensor.predict(pose, ekf_.landmark(slot), Vector2::Zero(), next.prediction)) continue;
+    if (!sensor.predict(pose, ekf_.landmark(slot), Mount::Zero(), next.prediction)) continue;
     ++unknowns_.expected_count;
     next.slot = slot;
     next.window = kUnpaired;
-    double P[81];
-    ekf_.gather_ordinary(&slot, 1, P, 9);
+    constexpr Index n = kDof + kDim;
+    double P[n * n];
+    ekf_.gather_ordinary(&slot, 1, P, n);
     next.innovation =
-        image_covariance(Eigen::Map<const Eigen::MatrixXd>(P, 9, 9), next.prediction, 0, next.prediction, 0);
+        image_covariance(Eigen::Map<const Eigen::MatrixXd>(P, n, n), next.prediction, 0, next.prediction, 0);
     if (sensor.mount_noise_mode() != MountNoise::none)
       next.innovation += next.prediction.J_z_mount * sensor.mount_noise() * next.prediction.J_z_mount.transpose();
   }
@@ -84,7 +91,8 @@ void Filter::predict_all(const Sensor& sensor) {
 
 // Pairs that pass the gate of one, the nearest of each observation; and the nearest landmark of each whatever it
 // passes.
-void Filter::find_pairs(const Sensor& sensor, Index count) {
+template <class Pose>
+void Filter<Pose>::find_pairs(const Sensor<Pose>& sensor, Index count) {
   Unknowns& u = unknowns_;
   const Index rows = sensor.rows();
   const double bound = new_thresholds_[rows], gate = std::min(gate_thresholds_[rows], bound);
@@ -133,7 +141,8 @@ void Filter::find_pairs(const Sensor& sensor, Index count) {
   u.pair_count = kept;
 }
 
-bool Filter::confusable(const Sensor& sensor, Index count, Index observation, const Pair& pair) const {
+template <class Pose>
+bool Filter<Pose>::confusable(const Sensor<Pose>& sensor, Index count, Index observation, const Pair& pair) const {
   const Index rows = sensor.rows();
   const Expected& own = unknowns_.expected[pair.expected];
   const Matrix3 noise = pair.innovation - own.innovation;
@@ -149,7 +158,8 @@ bool Filter::confusable(const Sensor& sensor, Index count, Index observation, co
 
 // Pairs that could be chance are taken together or not at all: at the first sight of a known place one of them fits
 // easily, and would bend the map; several fit by chance together hardly ever.
-void Filter::demand_support(const Sensor& sensor, Index count) {
+template <class Pose>
+void Filter<Pose>::demand_support(const Sensor<Pose>& sensor, Index count) {
   Index doubtful = 0;
   for (Index i = 0; i < count; ++i) {
     const Index chosen = unknowns_.association.chosen(i);
@@ -163,7 +173,8 @@ void Filter::demand_support(const Sensor& sensor, Index count) {
 }
 
 // What was paired goes to the batch; of the rest, what is far from every landmark is new.
-void Filter::settle_pairs(const Sensor& sensor, Index count) {
+template <class Pose>
+void Filter<Pose>::settle_pairs(const Sensor<Pose>& sensor, Index count) {
   const Index rows = sensor.rows();
   for (Index i = 0; i < count; ++i) {
     Match& match = next_matches_[i];
@@ -183,7 +194,8 @@ void Filter::settle_pairs(const Sensor& sensor, Index count) {
   }
 }
 
-void Filter::sort_by_association(const Sensor& sensor, Index count) {
+template <class Pose>
+void Filter<Pose>::sort_by_association(const Sensor<Pose>& sensor, Index count) {
   const auto start = std::chrono::steady_clock::now();
   Unknowns& u = unknowns_;
   predict_all(sensor);
@@ -191,7 +203,7 @@ void Filter::sort_by_association(const Sensor& sensor, Index count) {
   if (options_.association == AssociationKind::nearest) {
     u.association.nearest_neighbour(u.pairs, u.pair_count, count);
   } else {
-    ekf_.gather_ordinary(u.window, u.window_count, u.covariance, 6 + 3 * u.window_count);
+    ekf_.gather_ordinary(u.window, u.window_count, u.covariance, kDof + kDim * u.window_count);
     const PairInnovations innovations(*this, sensor);
     u.association.joint_compatibility(u.pairs, u.pair_count, count, innovations, options_.association_nodes);
     next_report_.association_nodes = u.association.nodes();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The life of submaps: when one is closed, how it joins the map, and what the caller's pose is meanwhile.
+// The life of submaps: when one is closed, how it joins the map, and what the caller's pose is meanwhile. Included by filter.cpp alone.
+#pragma once
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <chrono>
@@ -16,8 +18,9 @@ namespace {
 // Up to here a dense closing is the cheaper one (docs/submaps.md).
 constexpr Index kDenseAtMost = 100;
 
-MapOptions map_options(const FilterOptions& options) {
-  MapOptions map;
+template <class Pose>
+MapOptions<Pose> map_options(const FilterOptions<Pose>& options) {
+  MapOptions<Pose> map;
   map.error = options.error;
   map.max_landmarks = static_cast<std::size_t>(options.max_landmarks);
   map.submap_capacity = static_cast<std::size_t>(options.local_landmarks());
@@ -31,7 +34,8 @@ MapOptions map_options(const FilterOptions& options) {
   return map;
 }
 
-NamingOptions naming_options(const FilterOptions& options) {
+template <class Pose>
+NamingOptions naming_options(const FilterOptions<Pose>& options) {
   NamingOptions naming;
   naming.joint = options.association == AssociationKind::joint;
   naming.nodes = options.association_nodes;
@@ -44,25 +48,35 @@ NamingOptions naming_options(const FilterOptions& options) {
 
 }  // namespace
 
-bool FilterOptions::sparse() const {
+template <class Pose>
+bool FilterOptions<Pose>::sparse() const {
   if (single_map()) return false;
   return join == JoinKind::sparse || (join == JoinKind::automatic && max_landmarks > kDenseAtMost);
 }
 
-std::unique_ptr<GlobalMap> Filter::make_map(const FilterOptions& options) {
+template <class Pose>
+std::unique_ptr<GlobalMap<Pose>> Filter<Pose>::make_map(const FilterOptions<Pose>& options) {
   if (options.single_map()) return nullptr;
-  if (options.sparse()) return std::make_unique<SparseMap>(map_options(options));
-  return std::make_unique<DenseMap>(map_options(options));
+  if constexpr (kDim == 3) {  // TEMPORARY
+    if (options.sparse()) return std::make_unique<SparseMap>(map_options(options));
+    return std::make_unique<DenseMap>(map_options(options));
+  } else {
+    throw Error(ErrorCode::state, "filter: no submaps in the plane yet");
+  }
 }
 
-std::size_t Filter::required_bytes(const FilterOptions& options) {
+template <class Pose>
+std::size_t Filter<Pose>::required_bytes(const FilterOptions<Pose>& options) {
   std::size_t bytes = arena_bytes(options);
-  if (!options.single_map() && !options.sparse()) bytes += DenseMap::required_bytes(map_options(options));
+  if constexpr (kDim == 3) {  // TEMPORARY
+    if (!options.single_map() && !options.sparse()) bytes += DenseMap::required_bytes(map_options(options));
+  }
   return bytes;
 }
 
 // Which limit the open submap has reached.
-ClosedBy Filter::full() const {
+template <class Pose>
+ClosedBy Filter<Pose>::full() const {
   if (ekf_.size() >= options_.submap_landmarks) return ClosedBy::landmarks;
   if (ekf_.size() == 0) return ClosedBy::none;
   if (options_.submap_distance > 0.0 && driven_ >= options_.submap_distance) return ClosedBy::distance;
@@ -70,16 +84,17 @@ ClosedBy Filter::full() const {
     for (Index slot = 0; slot < ekf_.size(); ++slot)
       if (ekf_.landmark(slot).norm() >= options_.submap_extent) return ClosedBy::extent;
   if (options_.submap_sigma > 0.0) {
-    const Matrix3 P = ekf_.pose_covariance().topLeftCorner<3, 3>();
-    Eigen::SelfAdjointEigenSolver<Matrix3> solver;
+    const PointSquare P = ekf_.pose_covariance().template topLeftCorner<kDim, kDim>();
+    Eigen::SelfAdjointEigenSolver<PointSquare> solver;
     solver.computeDirect(P, Eigen::EigenvaluesOnly);
     if (solver.eigenvalues().maxCoeff() >= options_.submap_sigma * options_.submap_sigma) return ClosedBy::sigma;
   }
   return ClosedBy::none;
 }
 
-Submap Filter::take_submap() const {
-  Submap submap;
+template <class Pose>
+Submap<Pose> Filter<Pose>::take_submap() const {
+  Submap<Pose> submap;
   const Index n = ekf_.states();
   submap.error = options_.error;
   submap.T_base_end = ekf_.pose();
@@ -96,20 +111,22 @@ Submap Filter::take_submap() const {
 }
 
 // Closes the open submap, whatever it holds, and starts anew at the vehicle's pose (Mars paper, eq. 14-16).
-void Filter::join_submap(ClosedBy reason, FixRequest* fix) {
+template <class Pose>
+void Filter<Pose>::join_submap(ClosedBy reason, FixRequest<Pose>* fix) {
   ClosingReport next;
   const auto begin = std::chrono::steady_clock::now();
   next.reason = reason;
   next.landmarks = ekf_.size();
-  Submap submap = take_submap();
+  Submap<Pose> submap = take_submap();
   if (options_.association != AssociationKind::known) {
-    next.naming = name_landmarks(*map_, naming_options(options_), submap);
+    if constexpr (kDim == 3)  // TEMPORARY
+      next.naming = name_landmarks(*map_, naming_options(options_), submap);
     if (next.naming.exhausted)
       say("closing: association stopped at %td joint tests, with %zu of %td landmarks named", next.naming.nodes,
           next.naming.named, next.landmarks);
   }
   next.join = map_->join_and_fix(submap, fix);
-  ekf_.start(SE3(), Matrix6::Zero());
+  ekf_.start(Pose(), Square::Zero());
   slots_.clear();
   driven_ = 0.0;
   frames_to_wait_ = 0;
@@ -122,7 +139,8 @@ void Filter::join_submap(ClosedBy reason, FixRequest* fix) {
         next.join.refused + next.join.fused);
 }
 
-void Filter::close_submap() {
+template <class Pose>
+void Filter<Pose>::close_submap() {
   if (map_ == nullptr)
     throw Error(ErrorCode::state, "filter: it keeps a single map; create it with submap_landmarks to have submaps");
   if (ekf_.size() == 0) throw Error(ErrorCode::state, "filter: the open submap holds no landmark; nothing to close");
@@ -131,7 +149,8 @@ void Filter::close_submap() {
 
 // A closing that fails leaves the submap open; the update before it stands. Later frames try again, after ever more of
 // them.
-void Filter::close_if_full() {
+template <class Pose>
+void Filter<Pose>::close_if_full() {
   if (map_ == nullptr) return;
   const ClosedBy reason = full();
   if (reason == ClosedBy::none) return;
@@ -160,13 +179,14 @@ void Filter::close_if_full() {
 
 // A fix speaks of the map, and the open submap knows nothing of where it lies there: it is closed, so that the pose is
 // the base of the next one, and the map's to improve.
-void Filter::update_map_by_fix(const AbsoluteFix& fix) {
+template <class Pose>
+void Filter<Pose>::update_map_by_fix(const AbsoluteFix<Pose>& fix) {
   const bool moved = ekf_.size() > 0 || driven_ > 0.0 || !ekf_.pose_covariance().isZero(0.0) ||
                      !ekf_.pose().rotation().matrix().isIdentity(0.0);
   Match& match = next_matches_[0];
   match.landmark = kNoId;
   match.threshold = single_threshold(fix.rows());
-  FixRequest request{fix, match.threshold, {}};
+  FixRequest<Pose> request{fix, match.threshold, {}};
   if (moved)
     join_submap(ClosedBy::fix, &request);
   else
@@ -186,46 +206,53 @@ void Filter::update_map_by_fix(const AbsoluteFix& fix) {
 }
 
 // e_p = e_pS + G(R_S p_L) e_RS + R_S e_pL,  e_R = e_RS + R_S e_RL: base and open submap share nothing.
-Matrix6 Filter::base_to_pose() const {
-  Matrix6 J = Matrix6::Identity();
-  J.topRightCorner<3, 3>() = SO3::turn(map_->base().rotation() * ekf_.pose().translation());
+template <class Pose>
+typename Filter<Pose>::Square Filter<Pose>::base_to_pose() const {
+  Square J = Square::Identity();
+  J.template topRightCorner<kDim, kTurn>() = Rotation::turn(map_->base().rotation() * ekf_.pose().translation());
   return J;
 }
 
-Matrix6 Filter::local_part() const {
-  Matrix6 R = Matrix6::Zero();
-  R.topLeftCorner<3, 3>() = R.bottomRightCorner<3, 3>() = map_->base().rotation().matrix();
+template <class Pose>
+typename Filter<Pose>::Square Filter<Pose>::local_part() const {
+  Square R = Square::Zero();
+  R.template topLeftCorner<kDim, kDim>() = map_->base().rotation().matrix();
+  R.template bottomRightCorner<kTurn, kTurn>() = map_->base().rotation().adjoint();
   return R * ekf_.pose_covariance() * R.transpose();
 }
 
-Matrix6 Filter::pose_covariance() const {
+template <class Pose>
+typename Filter<Pose>::Square Filter<Pose>::pose_covariance() const {
   if (map_ == nullptr) return ekf_.pose_covariance();
-  const Matrix6 J = base_to_pose();
-  const Matrix6 lower = J * map_->base_covariance() * J.transpose() + local_part();
-  return lower.selfadjointView<Eigen::Lower>();
+  const Square J = base_to_pose();
+  const Square lower = J * map_->base_covariance() * J.transpose() + local_part();
+  return lower.template selfadjointView<Eigen::Lower>();
 }
 
-void Filter::pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
-  const std::size_t size = 6 + 3 * count;
+template <class Pose>
+void Filter<Pose>::pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  const std::size_t size = kDof + kDim * count;
+  const auto n = static_cast<Eigen::Index>(size), landmarks = static_cast<Eigen::Index>(kDim * count);
+  Eigen::MatrixXd joint(n, n);
   if (map_ == nullptr) {
     const std::vector<Index> slots(indices, indices + count);
-    ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), matrix, static_cast<Index>(size));
-    return;
+    ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), joint.data(), n);
+  } else {
+    map_->base_joint_covariance(indices, count, joint.data());
+    const Square J = base_to_pose();
+    const Square pose = J * joint.topLeftCorner<kDof, kDof>() * J.transpose() + local_part();
+    const Eigen::MatrixXd across = joint.bottomLeftCorner(landmarks, kDof) * J.transpose();
+    joint.topLeftCorner<kDof, kDof>() = pose.template selfadjointView<Eigen::Lower>();
+    joint.bottomLeftCorner(landmarks, kDof) = across;
+    joint.topRightCorner(kDof, landmarks) = across.transpose();
   }
-  map_->base_joint_covariance(indices, count, matrix);
-  Eigen::Map<Eigen::MatrixXd> joint(matrix, static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size));
-  const Matrix6 J = base_to_pose();
-  const auto landmarks = static_cast<Eigen::Index>(3 * count);
-  const Matrix6 pose = J * joint.topLeftCorner<6, 6>() * J.transpose() + local_part();
-  const Eigen::MatrixXd across = joint.bottomLeftCorner(landmarks, 6) * J.transpose();
-  joint.topLeftCorner<6, 6>() = pose.selfadjointView<Eigen::Lower>();
-  joint.bottomLeftCorner(landmarks, 6) = across;
-  joint.topRightCorner(6, landmarks) = across.transpose();
+  with_pose<Pose>(joint.data(), count, matrix);
 }
 
-double Filter::pose_nees(const SE3& truth) const {
+template <class Pose>
+double Filter<Pose>::pose_nees(const Pose& truth) const {
   if (map_ == nullptr) return ekf_.pose_nees(truth);
-  return Ekf<SE3>::nees(options_.error, options_.initial_pose.translation(), truth, pose(), pose_covariance());
+  return Ekf<Pose>::nees(options_.error, options_.initial_pose.translation(), truth, pose(), pose_covariance());
 }
 
 }  // namespace cairn

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Updates of one batch that is gated as a whole: absolute position, attitude, heading, and what the caller linearised.
+// Updates of one batch that is gated as a whole: absolute position, attitude, heading, and what the caller linearised. Included by filter.cpp alone.
+#pragma once
+
 #include <algorithm>
 
 #include "core/chi_square.hpp"
@@ -9,8 +11,9 @@
 namespace cairn {
 
 // A batch that touches no landmark, or such as the caller linearised: gated as a whole.
+template <class Pose>
 template <class Linearise>
-void Filter::update_alone(Index rows, int iterations, std::uint64_t landmark, Linearise&& linearise) {
+void Filter<Pose>::update_alone(Index rows, int iterations, std::uint64_t landmark, Linearise&& linearise) {
   fill_batch(ekf_, linearise);
   Match& match = next_matches_[0];
   match.landmark = landmark;
@@ -27,7 +30,8 @@ void Filter::update_alone(Index rows, int iterations, std::uint64_t landmark, Li
   finish_report(1);
 }
 
-void Filter::take_in(const AbsoluteFix& fix) {
+template <class Pose>
+void Filter<Pose>::take_in(const AbsoluteFix<Pose>& fix) {
   start_report(1);
   if (!fix.defined(pose())) {
     next_matches_[0].reason = Reason::no_image;
@@ -40,7 +44,8 @@ void Filter::take_in(const AbsoluteFix& fix) {
                [&](double* residual_only) { return linearise_fix(ekf_, fix, residual_only); });
 }
 
-void Filter::take_in(const Linear& linear) {
+template <class Pose>
+void Filter<Pose>::take_in(const Linear& linear) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   start_report(1);
   frame_ids_.clear();
@@ -61,11 +66,14 @@ void Filter::take_in(const Linear& linear) {
     const Index row = ekf_.batch().add_rows(rows);
     std::copy_n(linear.residual, rows, ekf_.batch().residual());
     std::copy_n(linear.covariance, rows * rows, ekf_.batch().add_noise(row, rows));
-    const auto J_pose = [&](Index r, Index c) { return linear.J_pose != nullptr ? linear.J_pose[r * 6 + c] : 0.0; };
+    const auto J_pose = [&](Index r, Index c) {
+      return linear.J_pose != nullptr ? linear.J_pose[r * 6 + Embedding<Pose>::axis(c)] : 0.0;
+    };
     const auto pose = ekf_.add_pose_block(row, rows, J_pose, false);
     if (linear.count == 0) return true;
     const Eigen::Map<const RowMajor> J(linear.J_landmarks, rows, 3 * linear.count);
-    for (Index k = 0; k < linear.count; ++k) ekf_.add_landmark_block(row, rows, J.middleCols<3>(3 * k), k, pose);
+    for (Index k = 0; k < linear.count; ++k)
+      ekf_.add_landmark_block(row, rows, J.template middleCols<kDim>(3 * k), k, pose);
     return true;
   });
   if (matches_[0].decision == Decision::matched)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Observations: sorted into known and new, gated, taken in as one batch, and the new ones placed.
+// Observations: sorted into known and new, gated, taken in as one batch, and the new ones placed. Included by filter.cpp alone.
+#pragma once
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,19 +19,22 @@ bool given(const Observation& observation) {
 
 }  // namespace
 
-double Filter::batch_threshold(Index rows) {
+template <class Pose>
+double Filter<Pose>::batch_threshold(Index rows) {
   if (thresholds_[rows] == 0.0)
     thresholds_[rows] = chi_square_quantile(static_cast<double>(rows), options_.batch_gate_probability);
   return thresholds_[rows];
 }
 
 // Gate of a batch that is taken as a whole.
-double Filter::single_threshold(Index rows) const {
+template <class Pose>
+double Filter<Pose>::single_threshold(Index rows) const {
   return rows <= 6 ? gate_thresholds_[rows] : chi_square_quantile(static_cast<double>(rows), options_.gate_probability);
 }
 
 // The noise of one observation's values; that of the mount's angles comes on top.
-Matrix3 Filter::noise_of(const Sensor& sensor, const Observation& observation) const {
+template <class Pose>
+Matrix3 Filter<Pose>::noise_of(const Sensor<Pose>& sensor, const Observation& observation) const {
   if (!given(observation)) return sensor.noise();
   Matrix3 noise = Matrix3::Zero();
   const int rows = sensor.rows();
@@ -38,12 +43,14 @@ Matrix3 Filter::noise_of(const Sensor& sensor, const Observation& observation) c
   return noise;
 }
 
-void Filter::start_report(Index count) {
+template <class Pose>
+void Filter<Pose>::start_report(Index count) {
   next_report_ = UpdateReport();
   for (Index i = 0; i < count; ++i) next_matches_[i] = Match();
 }
 
-void Filter::finish_report(Index count) {
+template <class Pose>
+void Filter<Pose>::finish_report(Index count) {
   for (Index i = 0; i < count; ++i) {
     const Match& match = next_matches_[i];
     next_report_.matched += match.decision == Decision::matched;
@@ -55,7 +62,8 @@ void Filter::finish_report(Index count) {
 }
 
 // Candidates for the batch, and observations that could place a landmark; all others get their reason.
-void Filter::sort_out(const Sensor& sensor, Index count) {
+template <class Pose>
+void Filter<Pose>::sort_out(const Sensor<Pose>& sensor, Index count) {
   candidate_count_ = new_count_ = 0;
   if (options_.association == AssociationKind::known)
     sort_by_id(sensor, count);
@@ -72,21 +80,24 @@ void Filter::sort_out(const Sensor& sensor, Index count) {
               new_count_, ekf_.size(), room);
 }
 
-void Filter::add_candidate(const Sensor& sensor, Index observation, Index slot, const Prediction& prediction) {
+template <class Pose>
+void Filter<Pose>::add_candidate(const Sensor<Pose>& sensor, Index observation, Index slot, const Prediction<Pose>& prediction) {
   candidates_[candidate_count_] = {observation, slot, noise_of(sensor, observations_[observation]), prediction,
                                    candidate_count_};
   ++candidate_count_;
 }
 
-void Filter::add_new_one(const Sensor& sensor, Index observation) {
-  Placement placement;
-  if (sensor.place(ekf_.pose(), Vector3(observations_[observation].z), Vector2::Zero(), placement))
+template <class Pose>
+void Filter<Pose>::add_new_one(const Sensor<Pose>& sensor, Index observation) {
+  Placement<Pose> placement;
+  if (sensor.place(ekf_.pose(), Vector3(observations_[observation].z), Mount::Zero(), placement))
     new_ones_[new_count_++] = observation;
   else
     next_matches_[observation].reason = Reason::no_place;
 }
 
-void Filter::sort_by_id(const Sensor& sensor, Index count) {
+template <class Pose>
+void Filter<Pose>::sort_by_id(const Sensor<Pose>& sensor, Index count) {
   frame_ids_.clear();
   for (Index i = 0; i < count; ++i) {
     const Observation& observation = observations_[i];
@@ -101,32 +112,34 @@ void Filter::sort_by_id(const Sensor& sensor, Index count) {
       continue;
     }
     match.landmark = observation.id;
-    Prediction prediction;
-    if (sensor.predict(ekf_.pose(), ekf_.landmark(slot), Vector2::Zero(), prediction))
+    Prediction<Pose> prediction;
+    if (sensor.predict(ekf_.pose(), ekf_.landmark(slot), Mount::Zero(), prediction))
       add_candidate(sensor, i, slot, prediction);
     else
       match.reason = Reason::no_image;
   }
 }
 
-void Filter::open_candidates(const Sensor& sensor) {
+template <class Pose>
+void Filter<Pose>::open_candidates(const Sensor<Pose>& sensor) {
   for (Index a = 0; a < candidate_count_; ++a) window_slots_[a] = candidates_[a].slot;
-  const Matrix2 mount = sensor.mount_noise();
+  const MountSquare<Pose> mount = sensor.mount_noise();
   ekf_.open(window_slots_, candidate_count_, sensor.mount_noise_mode() == MountNoise::per_frame ? &mount : nullptr);
 }
 
 // Fills the batch at the iterate; or, where `residual_only` is given, just that. False where a landmark has no image.
-bool Filter::linearise(const Sensor& sensor, double* residual_only) {
+template <class Pose>
+bool Filter<Pose>::linearise(const Sensor<Pose>& sensor, double* residual_only) {
   const Index rows = sensor.rows();
   const MountNoise mode = sensor.mount_noise_mode();
   if (residual_only == nullptr) ekf_.batch().clear();
   for (Index a = 0; a < candidate_count_; ++a) {
     const Candidate& candidate = candidates_[a];
-    Prediction moved;
+    Prediction<Pose> moved;
     if (ekf_.iterating() &&
         !sensor.predict(ekf_.iterate_pose(), ekf_.iterate_landmark(candidate.number), ekf_.iterate_mount(), moved))
       return false;
-    const Prediction& prediction = ekf_.iterating() ? moved : candidate.prediction;
+    const Prediction<Pose>& prediction = ekf_.iterating() ? moved : candidate.prediction;
     const Vector3 residual = sensor.residual(Vector3(observations_[candidate.observation].z), prediction.z);
     double* target = residual_only != nullptr ? residual_only : ekf_.batch().residual();
     for (Index r = 0; r < rows; ++r) target[a * rows + r] = residual(r);
@@ -147,7 +160,8 @@ bool Filter::linearise(const Sensor& sensor, double* residual_only) {
 }
 
 // Chi-square gate of every observation by itself.
-void Filter::gate_each() {
+template <class Pose>
+void Filter<Pose>::gate_each() {
   if (candidate_count_ == 0) return;
   const Index m = ekf_.batch().rows(), rows = m / candidate_count_;
   Index kept = 0;
@@ -166,7 +180,8 @@ void Filter::gate_each() {
 }
 
 // Leaves the candidates that kept_ tells.
-void Filter::keep(Index count, Index rows) {
+template <class Pose>
+void Filter<Pose>::keep(Index count, Index rows) {
   if (count == candidate_count_) return;
   for (Index k = 0; k < count; ++k) candidates_[k] = candidates_[kept_[k]];
   candidate_count_ = count;
@@ -174,7 +189,8 @@ void Filter::keep(Index count, Index rows) {
 }
 
 // Chi-square gate of the batch: what does not fit with the rest goes.
-void Filter::gate_batch(const Sensor& sensor) {
+template <class Pose>
+void Filter<Pose>::gate_batch(const Sensor<Pose>& sensor) {
   if (ekf_.batch().rows() == 0) return;
   const auto bound = [&](Index rows) {
     return options_.batch_gate_probability >= 1.0 ? std::numeric_limits<double>::infinity() : batch_threshold(rows);
@@ -197,17 +213,18 @@ void Filter::gate_batch(const Sensor& sensor) {
   if (!ekf_.factor()) throw_not_definite();
 }
 
-void Filter::place_new(const Sensor& sensor) {
+template <class Pose>
+void Filter<Pose>::place_new(const Sensor<Pose>& sensor) {
   const MountNoise mode = sensor.mount_noise_mode();
   for (Index k = 0; k < new_count_; ++k) {
     const Observation& observation = observations_[new_ones_[k]];
     Match& match = next_matches_[new_ones_[k]];
     match.reason = Reason::no_place;
-    Placement placement;
+    Placement<Pose> placement;
     if (!sensor.place(ekf_.pose(), Vector3(observation.z), ekf_.iterate_mount(), placement)) continue;
     const int rows = sensor.rows();
     const auto J_z = placement.J_landmark_z.leftCols(rows);
-    Matrix3 noise = Matrix3::Zero();
+    PointSquare noise = PointSquare::Zero();
     noise.noalias() +=
         J_z.lazyProduct(noise_of(sensor, observation).topLeftCorner(rows, rows).eval().lazyProduct(J_z.transpose()));
     if (mode == MountNoise::per_observation)
@@ -224,8 +241,9 @@ void Filter::place_new(const Sensor& sensor) {
   }
 }
 
-void Filter::take_in(int sensor_number, Index count) {
-  const Sensor& sensor = sensor_at(sensor_number);
+template <class Pose>
+void Filter<Pose>::take_in(int sensor_number, Index count) {
+  const Sensor<Pose>& sensor = sensor_at(sensor_number);
   start_report(count);
   sort_out(sensor, count);
   const auto relinearise = [&](double* residual_only) { return linearise(sensor, residual_only); };

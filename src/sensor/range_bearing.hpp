@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sensor/sensor.hpp"
+
+namespace cairn {
+
+struct RangeBearingParameters {
+  SE2 T_body_sensor;
+  double range_sigma = 0.1;      // m
+  double bearing_sigma = 0.01;   // rad
+  double near_range = 0.01;      // m, > 0: nearer there is hardly a bearing
+};
+
+// Radar, lidar, sonar in the plane: z = (range, bearing) of the landmark in the sensor's frame, left positive.
+class RangeBearing final : public Sensor<SE2> {
+ public:
+  explicit RangeBearing(const RangeBearingParameters& parameters = {});
+
+  const Matrix3& noise() const override { return noise_; }
+  bool predict(const SE2& T_map_body, const Vector2& p_map, const Vector3& mount, Prediction<SE2>& out) const override;
+  bool place(const SE2& T_map_body, const Vector3& z, const Vector3& mount, Placement<SE2>& out) const override;
+  Vector3 residual(const Vector3& z, const Vector3& predicted) const override;
+
+ private:
+  RangeBearingParameters parameters_;
+  Matrix3 noise_;
+};
+
+// What the vehicles of a mutual sighting measured of each other.
+struct MutualSighting {
+  double range = 0.0;    // r_0: from the own vehicle to the teammate, m
+  double bearing = 0.0;  // theta_0: of the teammate as the own vehicle sees it, rad
+  double back = 0.0;     // theta_0': of the own vehicle as the teammate sees it, rad
+  Matrix3 covariance = Matrix3::Zero();
+};
+
+// Extended observation: what a teammate's radar sees of the landmarks, told to the own vehicle through the sighting of
+// both (cooperative paper, section 2.2; docs/team.md). The teammate is the sensor's mount: it stands at r_0 u(theta_0)
+// and is turned by delta = theta_0 - theta_0' + pi, and what the sighting has of errors all observations of the frame
+// have in common. With `shared` unset they count as each observation's own, which is what the paper's diagonal R^e does.
+class ExtendedObservation final : public Sensor<SE2> {
+ public:
+  ExtendedObservation(const RangeBearingParameters& radar, const MutualSighting& sighting, bool shared);
+
+  void set(const MutualSighting& sighting) { sighting_ = sighting; }
+  const Matrix3& noise() const override { return noise_; }
+  MountNoise mount_noise_mode() const override {
+    return shared_ ? MountNoise::per_frame : MountNoise::per_observation;
+  }
+  MountSquare<SE2> mount_noise() const override { return sighting_.covariance; }
+  bool predict(const SE2& T_map_body, const Vector2& p_map, const Vector3& mount, Prediction<SE2>& out) const override;
+  bool place(const SE2& T_map_body, const Vector3& z, const Vector3& mount, Placement<SE2>& out) const override;
+  Vector3 residual(const Vector3& z, const Vector3& predicted) const override;
+
+ private:
+  RangeBearingParameters radar_;
+  MutualSighting sighting_;
+  bool shared_;
+  Matrix3 noise_;
+};
+
+}  // namespace cairn
