@@ -22,6 +22,14 @@ enum {
   CAIRN_ERROR_STANDARD = 1   /**< position, attitude and landmarks apart: standard EKF-SLAM, to compare with */
 };
 
+/** What the filter's vehicle moves in (docs/plane.md). A planar one is told and asked of in space all the same: it lies in
+ *  z = 0 and turns about z. Of covariances that it is given, the rows of x, y and yaw count; those that it gives have zeros
+ *  elsewhere. Jacobians likewise. */
+enum {
+  CAIRN_VEHICLE_SPATIAL = 0, /**< six degrees of freedom; the default */
+  CAIRN_VEHICLE_PLANAR = 1   /**< x, y and heading; landmarks x and y */
+};
+
 /** How a closed submap enters the map (docs/submaps.md). */
 enum {
   CAIRN_JOIN_AUTO = 0,  /**< dense where max_landmarks is at most 100, sparse above; the default */
@@ -68,6 +76,8 @@ typedef struct cairn_filter_options {
   double new_probability;        /**< without known ids: an observation places a new landmark only where its distance from
                                       each that exists exceeds the chi-square bound of this probability, in (0, 1); and
                                       none beyond it is paired, where gate_probability would allow that; default 0.9999 */
+  int32_t vehicle;               /**< CAIRN_VEHICLE_SPATIAL or CAIRN_VEHICLE_PLANAR; default CAIRN_VEHICLE_SPATIAL */
+  uint32_t reserved;             /**< 0 */
 } cairn_filter_options;
 
 /** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
@@ -101,6 +111,11 @@ CAIRN_API cairn_status cairn_filter_add_stereo_head(cairn_filter *filter, const 
 
 /** Adds a stereo camera. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_CAPACITY. \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_add_stereo_camera(cairn_filter *filter, const cairn_stereo_camera *camera,
+                                                      int32_t *sensor);
+
+/** Adds a radar or lidar of the plane. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also where the vehicle is
+ *  spatial), CAIRN_ERROR_CAPACITY. \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_add_range_bearing(cairn_filter *filter, const cairn_range_bearing *radar,
                                                       int32_t *sensor);
 
 /** Adds a sensor of points. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_CAPACITY. \since 0.1.0 */
@@ -158,8 +173,8 @@ CAIRN_API cairn_status cairn_filter_update(cairn_filter *filter, int32_t sensor,
 /** Updates by what the caller linearised itself: `residual = z - h` (rows values), the noise's `covariance`
  *  (rows x rows), `jacobian_pose` = dh/[dp; dtheta] (rows x 6, NULL for zero) and `jacobian_landmarks` = dh/d positions
  *  (rows x 3 count, the columns in the order of `landmarks`); all row-major; with submaps, pose and landmarks are those of the open submap, in its frame. Gated as one observation of that many rows (gate_probability); not iterated.
- *  `match` (or NULL) gets the decision; its landmark is the first one, or CAIRN_ID_NONE. rows is 1 to 3 max_observations,
- *  count at most max_observations.
+ *  `match` (or NULL) gets the decision; its landmark is the first one, or CAIRN_ID_NONE. rows is 1 to 3 max_observations
+ *  (planar: 2), count at most max_observations.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_CAPACITY,
  *  CAIRN_ERROR_NUMERICAL. Complexity: O(n^2 rows). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_update_linear(cairn_filter *filter, const double *residual, size_t rows,
@@ -305,8 +320,8 @@ CAIRN_API const cairn_map *cairn_filter_local_map(const cairn_filter *filter);
  *  Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
 CAIRN_API const cairn_map *cairn_filter_map(const cairn_filter *filter);
 
-/** Normalised estimation error squared of the pose against a true one, in the filter's own error coordinates: about 6
- *  on average for a consistent filter. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT,
+/** Normalised estimation error squared of the pose against a true one, in the filter's own error coordinates: about 6,
+ *  of a planar vehicle 3, on average for a consistent filter. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT,
  *  CAIRN_ERROR_NUMERICAL (the pose's covariance is singular, as at a known start). Complexity: O(1). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_pose_nees(const cairn_filter *filter, const cairn_pose *truth, double *nees);
 

@@ -67,7 +67,23 @@ typedef struct cairn_stereo_camera {
 /** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
 CAIRN_API cairn_status cairn_stereo_camera_init(cairn_stereo_camera *camera, size_t struct_size);
 
-/** Any sensor that gives a point: `z = (x, y, z)` of the landmark in the sensor's frame, m. */
+/** Radar, lidar or sonar of a planar vehicle: `z = (range, bearing)` of the landmark in the sensor's frame, m and rad, left
+ *  positive. */
+typedef struct cairn_range_bearing {
+  uint32_t struct_size;     /**< sizeof(cairn_range_bearing) of the caller */
+  uint32_t reserved;        /**< 0 */
+  cairn_pose T_body_sensor; /**< sensor in the body, in the plane; default identity */
+  double range_sigma;       /**< m, > 0; default 0.1 */
+  double bearing_sigma;     /**< rad, > 0; default 0.01 */
+  double near_range;        /**< a prediction, or an observation that would place a landmark, nearer than this is refused,
+                                 m, > 0; default 0.01 */
+} cairn_range_bearing;
+
+/** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+CAIRN_API cairn_status cairn_range_bearing_init(cairn_range_bearing *radar, size_t struct_size);
+
+/** Any sensor that gives a point: `z = (x, y, z)` of the landmark in the sensor's frame, m; of a planar vehicle
+ *  (x, y). */
 typedef struct cairn_cartesian {
   uint32_t struct_size;     /**< sizeof(cairn_cartesian) of the caller */
   uint32_t reserved;        /**< 0 */
@@ -108,10 +124,10 @@ typedef int32_t (*cairn_custom_place)(void *user, const cairn_pose *pose, const 
  *  must not let an exception or a longjmp pass. */
 typedef struct cairn_custom {
   uint32_t struct_size;         /**< sizeof(cairn_custom) of the caller */
-  uint32_t rows;                /**< values of an observation, 1 to 3; default 3 */
+  uint32_t rows;                /**< values of an observation, 1 to 3, of a planar vehicle 1 or 2; default 3 */
   cairn_custom_predict predict; /**< required */
   cairn_custom_place place;     /**< NULL: this sensor places no landmarks, it only observes those that others placed;
-                                     required to be NULL where rows < 3, which leave a landmark's position open */
+                                     required to be NULL where rows < 3 (planar: 2), which leave a landmark's position open */
   void *user;                   /**< handed to both */
   uint32_t angle_mask;          /**< bit i set: value i is an angle (rad), its residual is wrapped to (-pi, pi] */
   uint32_t relative;            /**< 1: pose and landmark enter as the body point R^T (l - p) alone, which the filter

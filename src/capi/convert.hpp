@@ -4,6 +4,8 @@
 
 #include <cairn/cairn.h>
 
+#include <variant>
+
 #include "slam/filter.hpp"
 
 namespace cairn {
@@ -13,9 +15,16 @@ Wheels read_wheels(const cairn_wheels* user);
 TwistNoise read_twist_noise(const cairn_twist_noise* user);
 StereoHead read_stereo_head(const cairn_stereo_head* user);
 StereoCamera read_stereo_camera(const cairn_stereo_camera* user);
-Cartesian read_cartesian(const cairn_cartesian* user);
-CustomSensor read_custom(const cairn_custom* user);
-FilterOptions read_filter_options(const cairn_filter_options* user);
+RangeBearingParameters read_range_bearing(const cairn_range_bearing* user);
+template <class Pose>
+Cartesian<Pose> read_cartesian(const cairn_cartesian* user);
+template <class Pose>
+CustomSensor<Pose> read_custom(const cairn_custom* user);
+std::variant<FilterOptions<SE3>, FilterOptions<SE2>> read_filter_options(const cairn_filter_options* user);
+
+// A pose of the plane: z = 0, turned about z alone.
+template <class Pose>
+Pose read_pose_of(const cairn_pose* pose, const char* name);
 
 }  // namespace capi
 }  // namespace cairn

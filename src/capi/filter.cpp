@@ -2,7 +2,6 @@
 // Life, sensors, motion and queries of a filter. Its observations: filter_update.cpp.
 #include "capi/convert.hpp"
 #include "capi/filter_handle.hpp"
-#include "core/chi_square.hpp"
 
 using namespace cairn;
 using namespace cairn::capi;
@@ -12,7 +11,7 @@ namespace capi {
 namespace {
 
 cairn_filter_options default_options() {
-  const FilterOptions d;
+  const FilterOptions<SE3> d;
   cairn_filter_options options = {};
   options.struct_size = sizeof options;
   options.error = CAIRN_ERROR_INVARIANT;
@@ -27,15 +26,16 @@ cairn_filter_options default_options() {
   options.submap_landmarks = 0;
   options.join = CAIRN_JOIN_AUTO;
   options.association = CAIRN_ASSOCIATION_KNOWN;
+  options.vehicle = CAIRN_VEHICLE_SPATIAL;
   options.association_nodes = static_cast<std::uint32_t>(d.association_nodes);
   options.new_probability = d.new_probability;
   return options;
 }
 
-}  // namespace
-
-FilterOptions read_filter_options(const cairn_filter_options* user) {
-  const cairn_filter_options o = read_options(user, default_options(), "options");
+void check_filter_options(const cairn_filter_options& o) {
+  if (o.vehicle != CAIRN_VEHICLE_SPATIAL && o.vehicle != CAIRN_VEHICLE_PLANAR)
+    throw Error(ErrorCode::argument, "options.vehicle is %d, neither CAIRN_VEHICLE_SPATIAL nor CAIRN_VEHICLE_PLANAR",
+                o.vehicle);
   if (o.error != CAIRN_ERROR_INVARIANT && o.error != CAIRN_ERROR_STANDARD)
     throw Error(ErrorCode::argument, "options.error is %d, neither CAIRN_ERROR_INVARIANT nor CAIRN_ERROR_STANDARD",
                 o.error);
@@ -54,7 +54,6 @@ FilterOptions read_filter_options(const cairn_filter_options* user) {
   check_positive(o.iteration_tolerance, "options.iteration_tolerance");
   check_probability(o.gate_probability, "options.gate_probability");
   check_probability(o.batch_gate_probability, "options.batch_gate_probability");
-  check_covariance(o.initial_covariance, 6, true, "options.initial_covariance");
   if (o.association != CAIRN_ASSOCIATION_KNOWN && o.association != CAIRN_ASSOCIATION_NEAREST &&
       o.association != CAIRN_ASSOCIATION_JOINT)
     throw Error(ErrorCode::argument,
@@ -65,7 +64,11 @@ FilterOptions read_filter_options(const cairn_filter_options* user) {
   check_probability(o.new_probability, "options.new_probability");
   if (o.new_probability == 1.0)
     throw Error(ErrorCode::argument, "options.new_probability is 1: no observation would ever place a landmark");
-  FilterOptions options;
+}
+
+template <class Pose>
+FilterOptions<Pose> options_of(const cairn_filter_options& o) {
+  FilterOptions<Pose> options;
   options.error = o.error == CAIRN_ERROR_STANDARD ? ErrorKind::standard : ErrorKind::invariant;
   options.max_landmarks = o.max_landmarks;
   options.max_observations = o.max_observations;
@@ -74,8 +77,8 @@ FilterOptions read_filter_options(const cairn_filter_options* user) {
   options.iteration_tolerance = o.iteration_tolerance;
   options.gate_probability = o.gate_probability;
   options.batch_gate_probability = o.batch_gate_probability;
-  options.initial_pose = read_pose(&o.initial_pose, "options.initial_pose");
-  options.initial_covariance = Eigen::Map<const Matrix6>(o.initial_covariance);
+  options.initial_pose = read_pose_of<Pose>(&o.initial_pose, "options.initial_pose");
+  options.initial_covariance = read_pose_covariance<Pose>(o.initial_covariance, "options.initial_covariance");
   options.submap_landmarks = o.submap_landmarks;
   options.join = o.join == CAIRN_JOIN_DENSE    ? JoinKind::dense
                  : o.join == CAIRN_JOIN_SPARSE ? JoinKind::sparse
@@ -91,15 +94,43 @@ FilterOptions read_filter_options(const cairn_filter_options* user) {
   return options;
 }
 
-namespace {
-
-template <class AnySensor>
-void add_sensor(cairn_filter* filter, const AnySensor& sensor, std::int32_t* number) {
+// A sensor that a vehicle of this kind can carry, or a refusal.
+template <class AnyFilter, class AnySensor>
+void add_sensor(AnyFilter& filter, const AnySensor& sensor, std::int32_t* number) {
   check_pointer(number, "sensor");
-  *number = filter->filter.add(sensor);
+  if constexpr (std::is_constructible_v<typename SensorKinds<PoseOf<AnyFilter>>::Any, AnySensor>)
+    *number = filter.add(sensor);
+  else if constexpr (PoseOf<AnyFilter>::kDim == 2)
+    throw Error(ErrorCode::argument, "filter: it is of a planar vehicle, and this sensor sees in space");
+  else
+    throw Error(ErrorCode::argument,
+                "filter: it is of a vehicle in space, and this sensor sees in the plane; create the filter with "
+                "options.vehicle = CAIRN_VEHICLE_PLANAR");
 }
 
 }  // namespace
+
+template <>
+SE3 read_pose_of<SE3>(const cairn_pose* pose, const char* name) {
+  return read_pose(pose, name);
+}
+template <>
+SE2 read_pose_of<SE2>(const cairn_pose* pose, const char* name) {
+  constexpr double kLevel = 1e-9;  // m, rad: what conversions by others leave
+  const SE3 T = read_pose(pose, name);
+  if (std::abs(T.translation().z()) > kLevel ||
+      T.rotation().quaternion().vec().head<2>().norm() > 0.5 * kLevel)
+    throw Error(ErrorCode::argument, "%s lies outside of the plane: z must be 0, and the turn about z alone", name);
+  return Embedding<SE2>::down(T);
+}
+
+std::variant<FilterOptions<SE3>, FilterOptions<SE2>> read_filter_options(const cairn_filter_options* user) {
+  const cairn_filter_options o = read_options(user, default_options(), "options");
+  check_filter_options(o);
+  if (o.vehicle == CAIRN_VEHICLE_PLANAR) return options_of<SE2>(o);
+  return options_of<SE3>(o);
+}
+
 }  // namespace capi
 }  // namespace cairn
 
@@ -111,17 +142,23 @@ cairn_status cairn_filter_options_init(cairn_filter_options* options, size_t str
 
 cairn_status cairn_filter_required_bytes(const cairn_filter_options* options, size_t* bytes) {
   return guard([&] {
-    const FilterOptions checked = read_filter_options(options);
+    const auto checked = read_filter_options(options);
     check_pointer(bytes, "bytes");
-    *bytes = sizeof(cairn_filter) + Filter::required_bytes(checked) + Arena::kAlignment;
+    std::visit(
+        [&](const auto& o) {
+          *bytes = sizeof(cairn_filter) + Filter<PoseOf<decltype(o)>>::required_bytes(o) + Arena::kAlignment;
+        },
+        checked);
   });
 }
 
 cairn_status cairn_filter_create(const cairn_filter_options* options, cairn_filter** filter) {
   return guard([&] {
-    const FilterOptions checked = read_filter_options(options);
+    const auto checked = read_filter_options(options);
     check_pointer(filter, "filter");
-    *filter = new cairn_filter(Filter::arena_bytes(checked), checked);
+    std::visit(
+        [&](const auto& o) { *filter = new cairn_filter(Filter<PoseOf<decltype(o)>>::arena_bytes(o), o); },
+        checked);
   });
 }
 
@@ -130,111 +167,115 @@ void cairn_filter_destroy(cairn_filter* filter) {
 }
 
 cairn_status cairn_filter_set_log(cairn_filter* filter, cairn_log log, void* payload) {
-  return guard([&] { read_filter(filter).set_log(log, payload); });
+  return guard([&] { with_filter(filter, [&](auto& f) { f.set_log(log, payload); }); });
 }
 
 cairn_status cairn_filter_add_stereo_head(cairn_filter* filter, const cairn_stereo_head* head, int32_t* sensor) {
   return guard([&] {
-    read_filter(filter);
-    add_sensor(filter, read_stereo_head(head), sensor);
+    with_filter(filter, [&](auto& f) { add_sensor(f, read_stereo_head(head), sensor); });
   });
 }
 
 cairn_status cairn_filter_add_stereo_camera(cairn_filter* filter, const cairn_stereo_camera* camera, int32_t* sensor) {
   return guard([&] {
-    read_filter(filter);
-    add_sensor(filter, read_stereo_camera(camera), sensor);
+    with_filter(filter, [&](auto& f) { add_sensor(f, read_stereo_camera(camera), sensor); });
+  });
+}
+
+cairn_status cairn_filter_add_range_bearing(cairn_filter* filter, const cairn_range_bearing* radar, int32_t* sensor) {
+  return guard([&] {
+    with_filter(filter, [&](auto& f) { add_sensor(f, RangeBearing(read_range_bearing(radar)), sensor); });
   });
 }
 
 cairn_status cairn_filter_add_cartesian(cairn_filter* filter, const cairn_cartesian* cartesian, int32_t* sensor) {
   return guard([&] {
-    read_filter(filter);
-    add_sensor(filter, read_cartesian(cartesian), sensor);
+    with_filter(filter, [&](auto& f) { add_sensor(f, read_cartesian<PoseOf<decltype(f)>>(cartesian), sensor); });
   });
 }
 
 cairn_status cairn_filter_add_custom(cairn_filter* filter, const cairn_custom* custom, int32_t* sensor) {
   return guard([&] {
-    read_filter(filter);
-    add_sensor(filter, read_custom(custom), sensor);
+    with_filter(filter, [&](auto& f) { add_sensor(f, read_custom<PoseOf<decltype(f)>>(custom), sensor); });
   });
 }
 
 cairn_status cairn_filter_point_head(cairn_filter* filter, int32_t sensor, double pan, double stick) {
   return guard([&] {
-    Filter& f = read_filter(filter);
-    check_finite(pan, "pan");
-    check_finite(stick, "stick");
-    f.point_head(sensor, pan, stick);
+    with_filter(filter, [&](auto& f) {
+      check_finite(pan, "pan");
+      check_finite(stick, "stick");
+      f.point_head(sensor, pan, stick);
+    });
   });
 }
 
 cairn_status cairn_filter_set_wheels(cairn_filter* filter, const cairn_wheels* wheels) {
-  return guard([&] { read_filter(filter).set_wheels(read_wheels(wheels)); });
+  return guard([&] { with_filter(filter, [&](auto& f) { f.set_wheels(read_wheels(wheels)); }); });
 }
 
 cairn_status cairn_filter_set_twist_noise(cairn_filter* filter, const cairn_twist_noise* noise) {
-  return guard([&] { read_filter(filter).set_twist_noise(read_twist_noise(noise)); });
+  return guard([&] { with_filter(filter, [&](auto& f) { f.set_twist_noise(read_twist_noise(noise)); }); });
 }
 
 cairn_status cairn_filter_predict_wheels(cairn_filter* filter, double dt, double left_rad_per_s,
                                          double right_rad_per_s) {
   return guard([&] {
-    Filter& f = read_filter(filter);
-    check_positive(dt, "dt");
-    check_finite(left_rad_per_s, "left_rad_per_s");
-    check_finite(right_rad_per_s, "right_rad_per_s");
-    f.predict_wheels(dt, left_rad_per_s, right_rad_per_s);
+    with_filter(filter, [&](auto& f) {
+      check_positive(dt, "dt");
+      check_finite(left_rad_per_s, "left_rad_per_s");
+      check_finite(right_rad_per_s, "right_rad_per_s");
+      f.predict_wheels(dt, left_rad_per_s, right_rad_per_s);
+    });
   });
 }
 
 cairn_status cairn_filter_predict_twist(cairn_filter* filter, double dt, const double velocity[3],
                                         const double rate[3]) {
   return guard([&] {
-    Filter& f = read_filter(filter);
-    check_positive(dt, "dt");
-    check_pointer(velocity, "velocity");
-    check_finite(velocity, 3, "velocity");
-    check_pointer(rate, "rate");
-    check_finite(rate, 3, "rate");
-    f.predict_twist(dt, Vector3(velocity), Vector3(rate));
+    with_filter(filter, [&](auto& f) {
+      check_positive(dt, "dt");
+      check_pointer(velocity, "velocity");
+      check_finite(velocity, 3, "velocity");
+      check_pointer(rate, "rate");
+      check_finite(rate, 3, "rate");
+      f.predict_twist(dt, Vector3(velocity), Vector3(rate));
+    });
   });
 }
 
 cairn_status cairn_filter_predict_increment(cairn_filter* filter, const cairn_pose* T_before_after,
                                             const double covariance[36]) {
   return guard([&] {
-    Filter& f = read_filter(filter);
-    Increment<SE3> increment;
-    increment.T_before_after = read_pose(T_before_after, "T_before_after");
-    check_pointer(covariance, "covariance");
-    check_covariance(covariance, 6, true, "covariance");
-    increment.covariance = Eigen::Map<const Matrix6>(covariance);
-    f.propagate(increment);
+    with_filter(filter, [&](auto& f) {
+      using Pose = PoseOf<decltype(f)>;
+      Increment<Pose> increment;
+      increment.T_before_after = read_pose_of<Pose>(T_before_after, "T_before_after");
+      increment.covariance = read_pose_covariance<Pose>(covariance, "covariance");
+      f.propagate(increment);
+    });
   });
 }
 
 cairn_status cairn_filter_remove_landmark(cairn_filter* filter, uint64_t id) {
-  return guard([&] { read_filter(filter).remove_landmark(id); });
+  return guard([&] { with_filter(filter, [&](auto& f) { f.remove_landmark(id); }); });
 }
 
 cairn_status cairn_filter_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]) {
   return guard([&] {
-    const Filter& f = read_filter(filter);
-    if (covariance != nullptr) write_square<6>(f.pose_covariance(), covariance);
-    if (pose != nullptr) write_pose(f.pose(), pose);
+    with_filter(filter, [&](const auto& f) { write_estimate(f.pose(), f.pose_covariance(), pose, covariance); });
   });
 }
 
 cairn_status cairn_filter_joint_covariance(const cairn_filter* filter, const uint64_t* ids, size_t count,
                                            double* matrix, size_t capacity, size_t* needed) {
   return guard([&] {
-    const Filter& f = read_filter(filter);
-    const std::vector<std::size_t> indices = read_ids(f.landmarks(), ids, count);
-    const std::size_t size = 6 + 3 * count;
-    if (check_room(matrix, capacity, size * size, needed, "matrix"))
-      f.pose_joint_covariance(indices.data(), count, matrix);
+    with_filter(filter, [&](const auto& f) {
+      const std::vector<std::size_t> indices = read_ids(f.landmarks(), ids, count);
+      const std::size_t size = 6 + 3 * count;
+      if (check_room(matrix, capacity, size * size, needed, "matrix"))
+        f.pose_joint_covariance(indices.data(), count, matrix);
+    });
   });
 }
 
@@ -244,21 +285,23 @@ const cairn_map* cairn_filter_map(const cairn_filter* filter) {
 
 cairn_status cairn_filter_pose_nees(const cairn_filter* filter, const cairn_pose* truth, double* nees) {
   return guard([&] {
-    const Filter& f = read_filter(filter);
-    const SE3 pose = read_pose(truth, "truth");
-    check_pointer(nees, "nees");
-    const double value = f.pose_nees(pose);
-    if (!(value >= 0.0))
-      throw Error(ErrorCode::numerical, "pose covariance is singular: part of the pose is known exactly");
-    *nees = value;
+    with_filter(filter, [&](const auto& f) {
+      const auto pose = read_pose_of<PoseOf<decltype(f)>>(truth, "truth");
+      check_pointer(nees, "nees");
+      const double value = f.pose_nees(pose);
+      if (!(value >= 0.0))
+        throw Error(ErrorCode::numerical, "pose covariance is singular: part of the pose is known exactly");
+      *nees = value;
+    });
   });
 }
 
 cairn_status cairn_filter_audit(cairn_filter* filter, double* min_pivot) {
   return guard([&] {
-    Filter& f = read_filter(filter);
-    check_pointer(min_pivot, "min_pivot");
-    *min_pivot = f.smallest_pivot();
+    with_filter(filter, [&](auto& f) {
+      check_pointer(min_pivot, "min_pivot");
+      *min_pivot = f.smallest_pivot();
+    });
   });
 }
 

@@ -2,20 +2,47 @@
 // What the files behind cairn/filter.h share.
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include "capi/guard.hpp"
+#include "geometry/embedding.hpp"
 
 namespace cairn {
 namespace capi {
 
-inline Filter& read_filter(cairn_filter* filter) {
+// function(filter), whichever kind it is; PoseOf tells which.
+template <class Handle, class Function>
+void with_filter(Handle* filter, Function&& function) {
   check_pointer(filter, "filter");
-  return filter->filter;
+  std::visit(function, filter->filter);
 }
-inline const Filter& read_filter(const cairn_filter* filter) {
-  check_pointer(filter, "filter");
-  return filter->filter;
+template <class AnyFilter>
+using PoseOf = typename std::decay_t<AnyFilter>::PoseType;
+
+// What callers say of space, for a vehicle of either kind: the plane takes what it has of it.
+template <class Pose>
+typename AbsoluteFix<Pose>::PointSquare read_point_covariance(const double* covariance, const char* name) {
+  check_pointer(covariance, name);
+  const Eigen::Map<const Matrix3> whole(covariance);
+  const typename AbsoluteFix<Pose>::PointSquare part = whole.topLeftCorner<Pose::kDim, Pose::kDim>();
+  check_covariance(part.data(), Pose::kDim, false, name);
+  return part;
+}
+template <class Pose>
+typename Pose::Square read_pose_covariance(const double* covariance, const char* name) {
+  check_pointer(covariance, name);
+  const Matrix6 whole = Eigen::Map<const Matrix6>(covariance);
+  const typename Pose::Square part = Embedding<Pose>::down(whole);
+  check_covariance(part.data(), Pose::kDof, true, name);
+  return part;
+}
+
+template <class Pose>
+void write_estimate(const Pose& pose, const typename Pose::Square& covariance, cairn_pose* pose_out,
+                    double* covariance_out) {
+  if (covariance_out != nullptr) write_square<6>(Embedding<Pose>::up(covariance), covariance_out);
+  if (pose_out != nullptr) write_pose(Embedding<Pose>::up(pose), pose_out);
 }
 
 // Indices of landmarks by their ids; an unknown one or one that comes twice is refused.

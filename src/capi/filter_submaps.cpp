@@ -34,11 +34,6 @@ cairn_status closing_status(const ClosingReport& closing) {
   return closing.no_memory ? CAIRN_ERROR_MEMORY : status_of(closing.error);
 }
 
-void write_estimate(const SE3& pose, const Matrix6& covariance, cairn_pose* pose_out, double* covariance_out) {
-  if (covariance_out != nullptr) write_square<6>(covariance, covariance_out);
-  if (pose_out != nullptr) write_pose(pose, pose_out);
-}
-
 }  // namespace
 }  // namespace capi
 }  // namespace cairn
@@ -46,12 +41,13 @@ void write_estimate(const SE3& pose, const Matrix6& covariance, cairn_pose* pose
 extern "C" {
 
 cairn_status cairn_filter_close_submap(cairn_filter* filter) {
-  return guard([&] { read_filter(filter).close_submap(); });
+  return guard([&] { with_filter(filter, [&](auto& f) { f.close_submap(); }); });
 }
 
 cairn_status cairn_filter_last_closing(const cairn_filter* filter, cairn_closing_report* report) {
   return guard([&] {
-    const ClosingReport& c = read_filter(filter).closing();
+    ClosingReport c;
+    with_filter(filter, [&](const auto& f) { c = f.closing(); });
     cairn_closing_report out = {};
     out.status = closing_status(c);
     out.submaps = static_cast<std::uint32_t>(c.submaps);
@@ -78,16 +74,20 @@ cairn_status cairn_filter_last_closing(const cairn_filter* filter, cairn_closing
 
 cairn_status cairn_filter_local_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]) {
   return guard([&] {
-    const Filter& f = read_filter(filter);
-    write_estimate(f.local_pose(), f.local_pose_covariance(), pose, covariance);
+    with_filter(filter,
+                [&](const auto& f) { write_estimate(f.local_pose(), f.local_pose_covariance(), pose, covariance); });
   });
 }
 
 cairn_status cairn_filter_base_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]) {
   return guard([&] {
-    const GlobalMap* map = read_filter(filter).map();
-    write_estimate(map != nullptr ? map->base() : SE3(),
-                   map != nullptr ? map->base_covariance() : Matrix6(Matrix6::Zero()), pose, covariance);
+    with_filter(filter, [&](const auto& f) {
+      using Pose = PoseOf<decltype(f)>;
+      const typename Pose::Square known = Pose::Square::Zero();
+      const GlobalMap<Pose>* map = f.map();
+      write_estimate(map != nullptr ? map->base() : Pose(), map != nullptr ? map->base_covariance() : known, pose,
+                     covariance);
+    });
   });
 }
 
@@ -97,23 +97,27 @@ const cairn_map* cairn_filter_local_map(const cairn_filter* filter) {
 
 cairn_status cairn_filter_submap_count(const cairn_filter* filter, size_t* count) {
   return guard([&] {
-    const GlobalMap* map = read_filter(filter).map();
-    check_pointer(count, "count");
-    *count = map != nullptr ? map->submap_count() : 0;
+    with_filter(filter, [&](const auto& f) {
+      check_pointer(count, "count");
+      *count = f.map() != nullptr ? f.map()->submap_count() : 0;
+    });
   });
 }
 
 cairn_status cairn_filter_submap(const cairn_filter* filter, size_t index, cairn_pose* base, uint64_t* ids,
                                  size_t capacity, size_t* needed) {
   return guard([&] {
-    const GlobalMap* map = read_filter(filter).map();
-    const std::size_t count = map != nullptr ? map->submap_count() : 0;
-    if (index >= count)
-      throw Error(ErrorCode::not_found, "index: there is no submap %zu; %zu are closed, counted from 0", index, count);
-    const std::vector<std::uint64_t>& source = map->submap_ids(index);
-    const bool room = check_room(ids, capacity, source.size(), needed, "ids");
-    if (room) std::copy(source.begin(), source.end(), ids);
-    if (base != nullptr) write_pose(map->submap_base(index), base);
+    with_filter(filter, [&](const auto& f) {
+      const auto* map = f.map();
+      const std::size_t count = map != nullptr ? map->submap_count() : 0;
+      if (index >= count)
+        throw Error(ErrorCode::not_found, "index: there is no submap %zu; %zu are closed, counted from 0", index,
+                    count);
+      const std::vector<std::uint64_t>& source = map->submap_ids(index);
+      const bool room = check_room(ids, capacity, source.size(), needed, "ids");
+      if (room) std::copy(source.begin(), source.end(), ids);
+      if (base != nullptr) write_pose(Embedding<PoseOf<decltype(f)>>::up(map->submap_base(index)), base);
+    });
   });
 }
 

@@ -39,7 +39,8 @@ void write_match(const Match& match, cairn_match* out) {
   out->threshold = match.threshold;
 }
 
-void write_matches(const Filter& filter, std::size_t count, cairn_match* matches) {
+template <class AnyFilter>
+void write_matches(const AnyFilter& filter, std::size_t count, cairn_match* matches) {
   if (matches == nullptr) return;
   for (std::size_t i = 0; i < count; ++i) write_match(filter.decisions()[i], matches + i);
 }
@@ -76,16 +77,17 @@ extern "C" {
 cairn_status cairn_filter_update(cairn_filter* filter, int32_t sensor, const cairn_observation* observations,
                                  size_t count, cairn_match* matches) {
   return guard([&] {
-    Filter& f = read_filter(filter);
-    const std::size_t rows = static_cast<std::size_t>(f.sensor_rows(sensor));
-    if (count > 0) check_pointer(observations, "observations");
-    const std::size_t most = static_cast<std::size_t>(f.options().max_observations);
-    if (count > most)
-      throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu", count, most);
-    const bool named = f.options().association == AssociationKind::known;
-    for (std::size_t i = 0; i < count; ++i) read_observation(observations[i], i, rows, named, f.staging()[i]);
-    f.update(sensor, static_cast<Index>(count));
-    write_matches(f, count, matches);
+    with_filter(filter, [&](auto& f) {
+      const std::size_t rows = static_cast<std::size_t>(f.sensor_rows(sensor));
+      if (count > 0) check_pointer(observations, "observations");
+      const std::size_t most = static_cast<std::size_t>(f.options().max_observations);
+      if (count > most)
+        throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu", count, most);
+      const bool named = f.options().association == AssociationKind::known;
+      for (std::size_t i = 0; i < count; ++i) read_observation(observations[i], i, rows, named, f.staging()[i]);
+      f.update(sensor, static_cast<Index>(count));
+      write_matches(f, count, matches);
+    });
   });
 }
 
@@ -94,87 +96,99 @@ cairn_status cairn_filter_update_linear(cairn_filter* filter, const double* resi
                                         const uint64_t* landmarks, size_t count, const double* jacobian_landmarks,
                                         cairn_match* match) {
   return guard([&] {
-    Filter& f = read_filter(filter);
-    check_pointer(residual, "residual");
-    const std::size_t most = static_cast<std::size_t>(f.options().max_observations);
-    if (rows == 0) throw Error(ErrorCode::argument, "rows is 0; an update has at least one");
-    if (rows > 3 * most) throw Error(ErrorCode::capacity, "rows: %zu, and 3 max_observations is %zu", rows, 3 * most);
-    if (count > most)
-      throw Error(ErrorCode::capacity, "count: %zu landmarks, and max_observations is %zu", count, most);
-    check_finite(residual, rows, "residual");
-    check_pointer(covariance, "covariance");
-    check_covariance(covariance, rows, false, "covariance", f.workspace());
-    if (jacobian_pose != nullptr) check_finite(jacobian_pose, 6 * rows, "jacobian_pose");
-    if (count > 0) {
-      check_pointer(landmarks, "landmarks");
-      check_pointer(jacobian_landmarks, "jacobian_landmarks");
-      check_finite(jacobian_landmarks, 3 * count * rows, "jacobian_landmarks");
-    } else if (jacobian_pose == nullptr) {
-      throw Error(ErrorCode::argument, "jacobian_pose is NULL and count 0: the rows depend on nothing");
-    }
-    f.update_linear({residual, static_cast<Index>(rows), covariance, jacobian_pose, landmarks,
-                     static_cast<Index>(count), jacobian_landmarks});
-    write_matches(f, 1, match);
+    with_filter(filter, [&](auto& f) {
+      check_pointer(residual, "residual");
+      constexpr std::size_t kDim = PoseOf<decltype(f)>::kDim;
+      const std::size_t most = static_cast<std::size_t>(f.options().max_observations);
+      if (rows == 0) throw Error(ErrorCode::argument, "rows is 0; an update has at least one");
+      if (rows > kDim * most)
+        throw Error(ErrorCode::capacity, "rows: %zu, and %zu max_observations is %zu", rows, kDim, kDim * most);
+      if (count > most)
+        throw Error(ErrorCode::capacity, "count: %zu landmarks, and max_observations is %zu", count, most);
+      check_finite(residual, rows, "residual");
+      check_pointer(covariance, "covariance");
+      check_covariance(covariance, rows, false, "covariance", f.workspace());
+      if (jacobian_pose != nullptr) check_finite(jacobian_pose, 6 * rows, "jacobian_pose");
+      if (count > 0) {
+        check_pointer(landmarks, "landmarks");
+        check_pointer(jacobian_landmarks, "jacobian_landmarks");
+        check_finite(jacobian_landmarks, 3 * count * rows, "jacobian_landmarks");
+      } else if (jacobian_pose == nullptr) {
+        throw Error(ErrorCode::argument, "jacobian_pose is NULL and count 0: the rows depend on nothing");
+      }
+      f.update_linear({residual, static_cast<Index>(rows), covariance, jacobian_pose, landmarks,
+                       static_cast<Index>(count), jacobian_landmarks});
+      write_matches(f, 1, match);
+    });
   });
 }
 
 cairn_status cairn_filter_update_position(cairn_filter* filter, const double position[3], const double covariance[9],
                                           const double lever_arm[3], cairn_match* match) {
   return guard([&] {
-    Filter& f = read_filter(filter);
-    check_pointer(position, "position");
-    check_finite(position, 3, "position");
-    check_pointer(covariance, "covariance");
-    check_covariance(covariance, 3, false, "covariance");
-    if (lever_arm != nullptr) check_finite(lever_arm, 3, "lever_arm");
-    f.update_position(Vector3(position), Matrix3(Eigen::Map<const Matrix3>(covariance)),
-                      lever_arm != nullptr ? Vector3(lever_arm) : Vector3(Vector3::Zero()));
-    write_matches(f, 1, match);
+    with_filter(filter, [&](auto& f) {
+      check_pointer(position, "position");
+      check_finite(position, 3, "position");
+      using Pose = PoseOf<decltype(f)>;
+      const auto noise = read_point_covariance<Pose>(covariance, "covariance");
+      if (lever_arm != nullptr) check_finite(lever_arm, 3, "lever_arm");
+      const Vector3 arm = lever_arm != nullptr ? Vector3(lever_arm) : Vector3(Vector3::Zero());
+      f.update_position(Embedding<Pose>::down(Vector3(position)), noise, Embedding<Pose>::down(arm));
+      write_matches(f, 1, match);
+    });
   });
 }
 
 cairn_status cairn_filter_update_attitude(cairn_filter* filter, const double quaternion[4], const double covariance[9],
                                           cairn_match* match) {
   return guard([&] {
-    Filter& f = read_filter(filter);
-    const SO3 attitude = read_quaternion(quaternion, "quaternion");
-    check_pointer(covariance, "covariance");
-    check_covariance(covariance, 3, false, "covariance");
-    f.update_attitude(attitude, Matrix3(Eigen::Map<const Matrix3>(covariance)));
-    write_matches(f, 1, match);
+    with_filter(filter, [&](auto& f) {
+      const SO3 attitude = read_quaternion(quaternion, "quaternion");
+      check_pointer(covariance, "covariance");
+      if constexpr (PoseOf<decltype(f)>::kDim == 2) {
+        check_positive(covariance[8], "covariance of the yaw");
+        f.update_attitude(Embedding<SE2>::down(SE3(attitude, Vector3::Zero())).rotation(), Vector1(covariance[8]));
+      } else {
+        check_covariance(covariance, 3, false, "covariance");
+        f.update_attitude(attitude, Matrix3(Eigen::Map<const Matrix3>(covariance)));
+      }
+      write_matches(f, 1, match);
+    });
   });
 }
 
 cairn_status cairn_filter_update_heading(cairn_filter* filter, double heading, double sigma, cairn_match* match) {
   return guard([&] {
-    Filter& f = read_filter(filter);
-    check_finite(heading, "heading");
-    check_positive(sigma, "sigma");
-    check_positive(sigma * sigma, "square of sigma");
-    f.update_heading(heading, sigma);
-    write_matches(f, 1, match);
+    with_filter(filter, [&](auto& f) {
+      check_finite(heading, "heading");
+      check_positive(sigma, "sigma");
+      check_positive(sigma * sigma, "square of sigma");
+      f.update_heading(heading, sigma);
+      write_matches(f, 1, match);
+    });
   });
 }
 
 cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_report* report) {
   return guard([&] {
-    const Filter& f = read_filter(filter);
-    const UpdateReport& r = f.report();
-    cairn_update_report out = {};
-    out.matched = static_cast<std::uint32_t>(r.matched);
-    out.placed = static_cast<std::uint32_t>(r.placed);
-    out.rejected = static_cast<std::uint32_t>(r.rejected);
-    out.rows = static_cast<std::uint32_t>(r.rows);
-    out.iterations = static_cast<std::uint32_t>(r.iterations);
-    out.nis = r.nis;
-    if (r.rows > 0) {
-      out.nis_lower = chi_square_quantile(static_cast<double>(r.rows), 0.025);
-      out.nis_upper = chi_square_quantile(static_cast<double>(r.rows), 0.975);
-    }
-    out.association_nodes = static_cast<std::uint32_t>(r.association_nodes);
-    out.association_exhausted = r.association_exhausted ? 1 : 0;
-    out.association_seconds = r.association_seconds;
-    write_report(out, report);
+    with_filter(filter, [&](const auto& f) {
+      const UpdateReport& r = f.report();
+      cairn_update_report out = {};
+      out.matched = static_cast<std::uint32_t>(r.matched);
+      out.placed = static_cast<std::uint32_t>(r.placed);
+      out.rejected = static_cast<std::uint32_t>(r.rejected);
+      out.rows = static_cast<std::uint32_t>(r.rows);
+      out.iterations = static_cast<std::uint32_t>(r.iterations);
+      out.nis = r.nis;
+      if (r.rows > 0) {
+        out.nis_lower = chi_square_quantile(static_cast<double>(r.rows), 0.025);
+        out.nis_upper = chi_square_quantile(static_cast<double>(r.rows), 0.975);
+      }
+      out.association_nodes = static_cast<std::uint32_t>(r.association_nodes);
+      out.association_exhausted = r.association_exhausted ? 1 : 0;
+      out.association_seconds = r.association_seconds;
+      write_report(out, report);
+    });
   });
 }
 

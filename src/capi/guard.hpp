@@ -4,6 +4,8 @@
 
 #include <cairn/cairn.h>
 
+#include <variant>
+
 #include "capi/boundary.hpp"
 #include "core/arena.hpp"
 #include "map/owned_map.hpp"
@@ -23,15 +25,17 @@ struct cairn_map {
   std::unique_ptr<cairn::OwnedMap> owned;  // null: a filter's
 };
 
+// Of a vehicle in space or in the plane.
 struct cairn_filter {
-  cairn_filter(std::size_t arena_bytes, const cairn::FilterOptions& options)
+  template <class Pose>
+  cairn_filter(std::size_t arena_bytes, const cairn::FilterOptions<Pose>& options)
       : arena(arena_bytes),
-        filter(arena, options),
+        filter(std::in_place_type<cairn::Filter<Pose>>, arena, options),
         number(cairn::capi::next_filter_number()),
-        map{&filter.landmarks(), number, nullptr},
-        local_map{&filter, number, nullptr} {}
+        map{&std::get<cairn::Filter<Pose>>(filter).landmarks(), number, nullptr},
+        local_map{&std::get<cairn::Filter<Pose>>(filter), number, nullptr} {}
   cairn::Arena arena;
-  cairn::Filter filter;
+  std::variant<cairn::Filter<cairn::SE3>, cairn::Filter<cairn::SE2>> filter;
   std::uint64_t number;  // so that maps know what they have in common
   cairn_map map;
   cairn_map local_map;

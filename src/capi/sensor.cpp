@@ -3,6 +3,7 @@
 
 #include "capi/convert.hpp"
 #include "capi/guard.hpp"
+#include "geometry/embedding.hpp"
 
 namespace cairn {
 namespace capi {
@@ -44,12 +45,23 @@ cairn_stereo_camera default_stereo_camera() {
 }
 
 cairn_cartesian default_cartesian() {
-  const CartesianParameters d;
+  const CartesianParameters<SE3> d;
   cairn_cartesian cartesian = {};
   cartesian.struct_size = sizeof cartesian;
   write_pose(d.T_body_sensor, &cartesian.T_body_sensor);
   std::copy_n(d.sigma.data(), 3, cartesian.sigma);
   return cartesian;
+}
+
+cairn_range_bearing default_range_bearing() {
+  const RangeBearingParameters d;
+  cairn_range_bearing radar = {};
+  radar.struct_size = sizeof radar;
+  write_pose(Embedding<SE2>::up(d.T_body_sensor), &radar.T_body_sensor);
+  radar.range_sigma = d.range_sigma;
+  radar.bearing_sigma = d.bearing_sigma;
+  radar.near_range = d.near_range;
+  return radar;
 }
 
 cairn_custom default_custom() {
@@ -117,26 +129,40 @@ StereoCamera read_stereo_camera(const cairn_stereo_camera* user) {
   return StereoCamera(parameters);
 }
 
-Cartesian read_cartesian(const cairn_cartesian* user) {
-  const cairn_cartesian c = read_options(user, default_cartesian(), "cartesian");
-  check_positive(c.sigma, 3, "cartesian.sigma");
-  CartesianParameters parameters;
-  parameters.T_body_sensor = read_pose(&c.T_body_sensor, "cartesian.T_body_sensor");
-  parameters.sigma = Vector3(c.sigma);
-  return Cartesian(parameters);
+RangeBearingParameters read_range_bearing(const cairn_range_bearing* user) {
+  const cairn_range_bearing r = read_options(user, default_range_bearing(), "radar");
+  check_positive(r.range_sigma, "radar.range_sigma");
+  check_positive(r.bearing_sigma, "radar.bearing_sigma");
+  check_positive(r.near_range, "radar.near_range");
+  return {read_pose_of<SE2>(&r.T_body_sensor, "radar.T_body_sensor"), r.range_sigma, r.bearing_sigma, r.near_range};
 }
+
+template <class Pose>
+Cartesian<Pose> read_cartesian(const cairn_cartesian* user) {
+  const cairn_cartesian c = read_options(user, default_cartesian(), "cartesian");
+  check_positive(c.sigma, Pose::kDim, "cartesian.sigma");
+  CartesianParameters<Pose> parameters;
+  parameters.T_body_sensor = read_pose_of<Pose>(&c.T_body_sensor, "cartesian.T_body_sensor");
+  parameters.sigma = Embedding<Pose>::down(Vector3(c.sigma));
+  return Cartesian<Pose>(parameters);
+}
+template Cartesian<SE2> read_cartesian<SE2>(const cairn_cartesian*);
+template Cartesian<SE3> read_cartesian<SE3>(const cairn_cartesian*);
 
 // The core hands the caller's functions a pose as seven doubles: a cairn_pose, to the byte.
 static_assert(sizeof(cairn_pose) == 7 * sizeof(double) && offsetof(cairn_pose, quaternion) == 3 * sizeof(double),
               "position, then quaternion w x y z");
 
-CustomSensor read_custom(const cairn_custom* user) {
+template <class Pose>
+CustomSensor<Pose> read_custom(const cairn_custom* user) {
+  constexpr std::uint32_t kDim = Pose::kDim;
   const cairn_custom c = read_options(user, default_custom(), "custom");
-  if (c.rows < 1 || c.rows > 3) throw Error(ErrorCode::argument, "custom.rows must lie in [1, 3], and is %u", c.rows);
+  if (c.rows < 1 || c.rows > kDim)
+    throw Error(ErrorCode::argument, "custom.rows must lie in [1, %u], and is %u", kDim, c.rows);
   if (c.predict == nullptr) throw Error(ErrorCode::argument, "custom.predict is NULL; a sensor must predict");
   if (c.angle_mask >> c.rows != 0)
     throw Error(ErrorCode::argument, "custom.angle_mask names values beyond custom.rows = %u", c.rows);
-  if (c.place != nullptr && c.rows < 3)
+  if (c.place != nullptr && c.rows < kDim)
     throw Error(ErrorCode::argument, "custom.place is set, and %u values place no landmark; leave it NULL", c.rows);
   if (c.relative > 1) throw Error(ErrorCode::argument, "custom.relative must be 0 or 1, and is %u", c.relative);
   check_positive(c.sigma, c.rows, "custom.sigma");
@@ -148,8 +174,10 @@ CustomSensor read_custom(const cairn_custom* user) {
   parameters.angle_mask = c.angle_mask;
   parameters.relative = c.relative != 0;
   for (std::uint32_t i = 0; i < c.rows; ++i) parameters.sigma(i) = c.sigma[i];
-  return CustomSensor(parameters);
+  return CustomSensor<Pose>(parameters);
 }
+template CustomSensor<SE2> read_custom<SE2>(const cairn_custom*);
+template CustomSensor<SE3> read_custom<SE3>(const cairn_custom*);
 
 }  // namespace capi
 }  // namespace cairn
@@ -167,6 +195,10 @@ cairn_status cairn_stereo_camera_init(cairn_stereo_camera* camera, size_t struct
   return guard([&] { init_options(camera, struct_size, default_stereo_camera(), "camera"); });
 }
 
+cairn_status cairn_range_bearing_init(cairn_range_bearing* radar, size_t struct_size) {
+  return guard([&] { init_options(radar, struct_size, default_range_bearing(), "radar"); });
+}
+
 cairn_status cairn_cartesian_init(cairn_cartesian* cartesian, size_t struct_size) {
   return guard([&] { init_options(cartesian, struct_size, default_cartesian(), "cartesian"); });
 }
@@ -178,7 +210,7 @@ cairn_status cairn_custom_init(cairn_custom* custom, size_t struct_size) {
 cairn_status cairn_custom_check(const cairn_custom* custom, const cairn_pose* pose, const double landmark[3],
                                 double* worst) {
   return guard([&] {
-    const CustomSensor sensor = read_custom(custom);
+    const CustomSensor<SE3> sensor = read_custom<SE3>(custom);
     const SE3 T = read_pose(pose, "pose");
     check_pointer(landmark, "landmark");
     check_finite(landmark, 3, "landmark");

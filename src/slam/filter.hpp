@@ -31,6 +31,7 @@ enum class AssociationKind { known, nearest, joint };
 
 template <class Pose>
 struct FilterOptions {
+  using PoseType = Pose;
   ErrorKind error = ErrorKind::invariant;
   Index max_landmarks = 1000;
   Index max_observations = 64;
@@ -116,6 +117,7 @@ struct SensorKinds<SE2> {
 template <class Pose>
 class Filter final : public Landmarks {
  public:
+  using PoseType = Pose;
   static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
   using Point = typename Pose::Point;
   using Rotation = typename Pose::Rotation;
