@@ -140,9 +140,10 @@ class Ekf {
   Index companions() const { return companions_; }
   Pose companion(Index k) const { return Pose(companion_rotations_[k], landmark(k)); }
   Square companion_covariance(Index k) const;  // ordinary
-  // One more, independent of all that is known; the landmark that had its slot moves behind the last one. The caller
-  // minds the capacity.
-  void add_companion(const Pose& pose, const Square& ordinary_covariance);
+  // One more, whose ordinary error is J_pose times that of the filter's pose (zero where it was told, not seen) and a
+  // noise of its own; the landmark that had its slot moves behind the last one. The caller minds the capacity. False,
+  // with nothing changed, where a result is not finite.
+  bool add_companion(const Pose& pose, const Square& J_pose, const Square& noise);
   void remove_companion(Index k);  // the last companion becomes number k, the last landmark the first one
   // The filter's pose is companion k's from now on, and companion k is the vehicle that was the filter's. O(n^2) with
   // the invariant error, whose arms turn about another vehicle then; O(n) with the standard one.
@@ -183,8 +184,7 @@ class Ekf {
   Index state(Index slot) const { return lead() + kDim * slot; }
   static Index heading(Index companion) { return kDof + kTurn * companion; }
   void exchange(Index a, Index b);                           // two states
-  void move_states(Index from, Index count, Index by);       // along the diagonal, upwards or downwards
-  void add_arm(Index slot, const typename Rotation::Turn&);  // xi_x += A xi_R
+  void move_states(Index from, Index count, Index by);  // along the diagonal, upwards or downwards
   // block(:, R) += J_point G(x) in invariant coordinates.
   template <class JPoint>
   void add_turn(Index rows, const JPoint& J_point, const Point& x, double* block) const;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "ekf/ekf.hpp"
@@ -35,30 +36,6 @@ void Ekf<Pose>::move_states(Index from, Index count, Index by) {
   for (Index c = 0; c < from + std::min<Index>(by, 0); ++c) move_column(c, c, from);
 }
 
-// P <- T P T^T where T adds A times the rows of the attitude to the rows of a point.
-template <class Pose>
-void Ekf<Pose>::add_arm(Index slot, const typename Rotation::Turn& A) {
-  const Index at = state(slot), n = states();
-  for (Index d = 0; d < kDim; ++d) {  // what it has with the others, then with itself
-    for (Index i = 0; i < n; ++i) {
-      if (i >= at && i < at + kDim) continue;
-      double& value = i < at ? P(at + d, i) : P(i, at + d);
-      for (Index t = 0; t < kTurn; ++t) value += A(d, t) * symmetric(kDim + t, i);
-    }
-  }
-  PointByPose cross;  // of the point as it is now with the attitude
-  for (Index d = 0; d < kDim; ++d)
-    for (Index c = 0; c < kDof; ++c) cross(d, c) = P(at + d, c);
-  // (x + A r)(x + A r)^T = x x^T + y (A r)^T + (A r) y^T - (A r)(A r)^T with y = x + A r
-  typename Rotation::Jacobian turn;
-  for (Index c = 0; c < kTurn; ++c)
-    for (Index r = 0; r < kTurn; ++r) turn(r, c) = symmetric(kDim + r, kDim + c);
-  const PointSquare across = cross.template rightCols<kTurn>() * A.transpose();
-  const PointSquare added = across + across.transpose() - A * turn * A.transpose();
-  for (Index c = 0; c < kDim; ++c)
-    for (Index r = c; r < kDim; ++r) P(at + r, at + c) += added(r, c);
-}
-
 template <class Pose>
 typename Ekf<Pose>::Square Ekf<Pose>::companion_covariance(Index k) const {
   // By the filter's own errors of pose, position of the companion and its attitude; then e_x = xi_x + G(x) xi_R.
@@ -88,35 +65,47 @@ typename Ekf<Pose>::Square Ekf<Pose>::companion_covariance(Index k) const {
 }
 
 template <class Pose>
-void Ekf<Pose>::add_companion(const Pose& pose, const Square& covariance) {
+bool Ekf<Pose>::add_companion(const Pose& pose, const Square& J_pose, const Square& noise) {
+  const Point position = pose.translation() - origin_;
+  // By the filter's own errors: xi_x = e_x - G(x) xi_R, and e_p = xi_p + G(p) xi_R.
+  Square J = J_pose;
+  if (error_ == ErrorKind::invariant) {
+    J.template rightCols<kTurn>() += J_pose.template leftCols<kDim>() * Rotation::turn(pose_.translation());
+    J.template topRightCorner<kDim, kTurn>() -= Rotation::turn(position);
+  }
+  const Square block = J * pose_block() * J.transpose() + noise;
+  if (!position.allFinite() || !J.allFinite() || !block.allFinite()) return false;
   apply_pending();
+
   const Index k = companions_, before = lead(), n = states();
   move_states(before, n - before, kTurn);
   ++companions_;
   ++size_;
   // The first landmark's slot is the companion's now, its values go to the end.
-  const Index last = size_ - 1, from = state(k), to = state(last);
+  const Index last = size_ - 1, at = state(k), end = state(last);
   std::copy_n(landmarks_ + kDim * k, kDim, landmarks_ + kDim * last);
-  for (Index d = 0; d < kDim; ++d) {
-    std::fill_n(P_ + (to + d) * ld_ + to + d, kDim - d, 0.0);
-    for (Index c = 0; c < to + d; ++c) P(to + d, c) = 0.0;
+  for (Index d = 0; d < kDim; ++d)
+    for (Index c = 0; c <= end + d; ++c) P(end + d, c) = 0.0;
+  for (Index d = 0; d < kDim; ++d) exchange(at + d, end + d);
+
+  Index rows[kDof];  // of [position; attitude]
+  for (Index d = 0; d < kDim; ++d) rows[d] = at + d;
+  for (Index t = 0; t < kTurn; ++t) rows[kDim + t] = heading(k) + t;
+  const auto entry = [&](Index a, Index b) -> double& { return a >= b ? P(a, b) : P(b, a); };
+  const auto is_new = [&](Index i) { return (i >= at && i < at + kDim) || (i >= heading(k) && i < heading(k) + kTurn); };
+  for (Index i = 0; i < states(); ++i) {
+    if (is_new(i)) continue;
+    for (Index r = 0; r < kDof; ++r) {
+      double value = 0.0;
+      for (Index c = 0; c < kDof; ++c) value += J(r, c) * symmetric(i, c);
+      entry(rows[r], i) = value;
+    }
   }
-  for (Index t = 0; t < kTurn; ++t) {
-    const Index row = heading(k) + t;
-    for (Index c = 0; c < row; ++c) P(row, c) = 0.0;
-    for (Index r = row; r < states(); ++r) P(r, row) = 0.0;
-  }
-  if (to != from)
-    for (Index d = 0; d < kDim; ++d) exchange(from + d, to + d);
+  for (Index c = 0; c < kDof; ++c)
+    for (Index r = 0; r <= c; ++r) entry(rows[r], rows[c]) = 0.5 * (block(r, c) + block(c, r));
   companion_rotations_[k] = pose.rotation();
-  Eigen::Map<Point>(landmarks_ + kDim * k) = pose.translation() - origin_;
-  for (Index c = 0; c < kDim; ++c)
-    for (Index r = c; r < kDim; ++r) P(from + r, from + c) = covariance(r, c);
-  for (Index t = 0; t < kTurn; ++t) {
-    for (Index d = 0; d < kDim; ++d) P(from + d, heading(k) + t) = covariance(d, kDim + t);
-    for (Index r = t; r < kTurn; ++r) P(heading(k) + r, heading(k) + t) = covariance(kDim + r, kDim + t);
-  }
-  if (error_ == ErrorKind::invariant) add_arm(k, -Rotation::turn(local(k)));  // xi_x = e_x - G(x) xi_R
+  Eigen::Map<Point>(landmarks_ + kDim * k) = position;
+  return true;
 }
 
 template <class Pose>

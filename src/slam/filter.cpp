@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "slam/filter_absolute.hpp"
 #include "slam/filter_association.hpp"
+#include "slam/filter_companions.hpp"
 #include "slam/filter_submaps.hpp"
 #include "slam/filter_update.hpp"
 
@@ -18,11 +19,11 @@ namespace cairn {
 template <class Pose>
 Filter<Pose>::Filter(Arena& arena, const FilterOptions<Pose>& options)
     : options_(options),
-      ekf_(arena, options.error, {options.local_landmarks(), options.max_observations}),
+      ekf_(arena, options.error, {options.slots(), options.max_observations, options.max_companions}),
       slots_(arena, static_cast<std::size_t>(options.local_landmarks())),
       frame_ids_(arena, static_cast<std::size_t>(options.max_observations)),
-      ids_(arena.take<std::uint64_t>(options.local_landmarks())),
-      counts_(arena.take<std::uint64_t>(options.local_landmarks())),
+      ids_(arena.take<std::uint64_t>(options.slots())),
+      counts_(arena.take<std::uint64_t>(options.slots())),
       sensor_storage_(arena.take<unsigned char>(options.max_sensors * sizeof(AnySensorSlot))),
       observations_(arena.take<Observation>(options.max_observations)),
       matches_(arena.take<Match>(options.max_observations)),
@@ -110,10 +111,15 @@ void Filter<Pose>::forget_local(std::int32_t slot) {
   const std::uint64_t id = ids_[slot];
   ekf_.remove(slot);
   slots_.erase(id);
-  if (slot == last) return;
-  ids_[slot] = ids_[last];
-  counts_[slot] = counts_[last];
-  slots_.set(ids_[slot], slot);
+  if (slot != last) move_slot(last, slot);
+}
+
+// Names of a landmark whose values have moved.
+template <class Pose>
+void Filter<Pose>::move_slot(Index from, Index to) {
+  ids_[to] = ids_[from];
+  counts_[to] = counts_[from];
+  slots_.set(ids_[to], static_cast<std::int32_t>(to));
 }
 
 template <class Pose>
@@ -131,13 +137,20 @@ template <class Pose>
 bool Filter<Pose>::find(std::uint64_t id, std::size_t& index) const {
   const std::int32_t slot = slots_.find(id);
   if (slot == IdTable::kAbsent) return false;
-  index = static_cast<std::size_t>(slot);
+  index = static_cast<std::size_t>(slot - ekf_.companions());
   return true;
 }
 
 template <class Pose>
+std::vector<Index> Filter<Pose>::slots_of(const std::size_t* landmarks, std::size_t count) const {
+  std::vector<Index> slots;
+  for (std::size_t i = 0; i < count; ++i) slots.push_back(slot_of(landmarks[i]));
+  return slots;
+}
+
+template <class Pose>
 void Filter<Pose>::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
-  const std::vector<Index> slots(indices, indices + count);
+  const std::vector<Index> slots = slots_of(indices, count);
   const std::size_t n = kDof + kDim * count;
   std::vector<double> joint(n * n);
   ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), joint.data(), static_cast<Index>(n));

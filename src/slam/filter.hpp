@@ -36,6 +36,7 @@ struct FilterOptions {
   Index max_landmarks = 1000;
   Index max_observations = 64;
   Index max_sensors = 8;
+  Index max_companions = 0;  // other vehicles of a single map
   int iterations = 3;
   double iteration_tolerance = 0.1;
   double gate_probability = 0.99;
@@ -57,6 +58,7 @@ struct FilterOptions {
   bool sparse() const;
   // Landmarks of the filter's own covariance: a frame may exceed what closes a submap.
   Index local_landmarks() const { return single_map() ? max_landmarks : submap_landmarks + max_observations; }
+  Index slots() const { return max_companions + local_landmarks(); }
 };
 
 enum class ClosedBy { none, caller, landmarks, distance, extent, sigma, fix };
@@ -154,8 +156,9 @@ class Filter final : public Landmarks {
 
   // --- observations --- each throws with nothing changed; decisions() holds one a observation after it
   Observation* staging() { return observations_; }  // room for max_observations
-  void update(int sensor, Index count) {            // of staging()
-    logged([&] { take_in(sensor, count); });
+  // Of staging(): landmarks, then companions, by their ids, whatever the association.
+  void update(int sensor, Index count, Index companions = 0) {
+    logged([&] { take_in(sensor, count, companions); });
     close_if_full();
   }
   struct Linear {
@@ -188,6 +191,21 @@ class Filter final : public Landmarks {
 
   void remove_landmark(std::uint64_t id);
 
+  // --- companions --- other vehicles, by the caller's names for them; a single map's alone. What is said above of
+  // motion and observations holds for the vehicle from which the filter looks: at first its own, look_from() makes it
+  // another.
+  void name_vehicle(std::uint64_t id) { vehicle_ = id; }  // its own, before there are others
+  void add_vehicle(std::uint64_t id, const Pose& pose, const Square& covariance) {
+    add_vehicle(id, pose, Square::Zero(), covariance);
+  }
+  // With an error of J_pose times that of the vehicle looked from, and noise.
+  void add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise);
+  void remove_vehicle(std::uint64_t id);  // not the one looked from
+  void look_from(std::uint64_t id);
+  bool has_vehicle(std::uint64_t id) const { return id == vehicle_ || companion(id) >= 0; }
+  Pose vehicle_pose(std::uint64_t id) const;
+  Square vehicle_covariance(std::uint64_t id) const;
+
   // --- submaps --- throws with nothing changed
   void close_submap();
   const ClosingReport& closing() const { return closing_; }
@@ -206,14 +224,12 @@ class Filter final : public Landmarks {
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 
   // Landmarks: of the open submap, or of the single map
-  std::size_t size() const override { return static_cast<std::size_t>(ekf_.size()); }
-  std::uint64_t id(std::size_t index) const override { return ids_[index]; }
-  std::uint64_t observations(std::size_t index) const override { return counts_[index]; }
-  Vector3 position(std::size_t index) const override {
-    return Embedding<Pose>::up(ekf_.landmark(static_cast<Index>(index)));
-  }
+  std::size_t size() const override { return static_cast<std::size_t>(landmark_count()); }
+  std::uint64_t id(std::size_t index) const override { return ids_[slot_of(index)]; }
+  std::uint64_t observations(std::size_t index) const override { return counts_[slot_of(index)]; }
+  Vector3 position(std::size_t index) const override { return Embedding<Pose>::up(ekf_.landmark(slot_of(index))); }
   Matrix3 covariance(std::size_t index) const override {
-    return Embedding<Pose>::up(ekf_.landmark_covariance(static_cast<Index>(index)));
+    return Embedding<Pose>::up(ekf_.landmark_covariance(slot_of(index)));
   }
   bool find(std::uint64_t id, std::size_t& index) const override;
   void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override;
@@ -271,13 +287,20 @@ class Filter final : public Landmarks {
       throw;
     }
   }
-  void take_in(int sensor, Index count);
+  Index landmark_count() const { return ekf_.size() - ekf_.companions(); }
+  Index slot_of(std::size_t landmark) const { return ekf_.companions() + static_cast<Index>(landmark); }
+  std::vector<Index> slots_of(const std::size_t* landmarks, std::size_t count) const;
+  Index companion(std::uint64_t id) const;  // number, or -1
+  Index companion_at(std::uint64_t id) const;
+  void move_slot(Index from, Index to);
+  void take_in(int sensor, Index count, Index companions);
   void take_in(const Linear& linear);
   void take_in(const AbsoluteFix<Pose>& fix);
   int add_sensor(const AnySensorSlot& sensor);
   AnySensorSlot& sensor_slot(int sensor);
   const Sensor<Pose>& sensor_at(int sensor);
-  void sort_out(const Sensor<Pose>& sensor, Index count);
+  void sort_out(const Sensor<Pose>& sensor, Index count, Index companions);
+  void sort_companions(const Sensor<Pose>& sensor, Index first, Index count);
   void sort_by_id(const Sensor<Pose>& sensor, Index count);
   void sort_by_association(const Sensor<Pose>& sensor, Index count);
   void predict_all(const Sensor<Pose>& sensor);
@@ -321,8 +344,9 @@ class Filter final : public Landmarks {
   std::size_t frames_to_wait_ = 0, next_wait_ = 1;  // before another attempt to close
   IdTable slots_;
   IdTable frame_ids_;
-  std::uint64_t* ids_;
+  std::uint64_t* ids_;  // by slot: those of companions are of vehicles
   std::uint64_t* counts_;
+  std::uint64_t vehicle_ = 0;  // looked from
 
   unsigned char* sensor_storage_;
   int sensor_count_ = 0;

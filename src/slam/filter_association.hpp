@@ -73,7 +73,7 @@ template <class Pose>
 void Filter<Pose>::predict_all(const Sensor<Pose>& sensor) {
   unknowns_.expected_count = 0;
   const Pose pose = ekf_.pose();
-  for (Index slot = 0; slot < ekf_.size(); ++slot) {
+  for (Index slot = ekf_.companions(); slot < ekf_.size(); ++slot) {
     Expected& next = unknowns_.expected[unknowns_.expected_count];
     if (!sensor.predict(pose, ekf_.landmark(slot), Mount::Zero(), next.prediction)) continue;
     ++unknowns_.expected_count;

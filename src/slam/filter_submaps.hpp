@@ -235,7 +235,7 @@ void Filter<Pose>::pose_joint_covariance(const std::size_t* indices, std::size_t
   const auto n = static_cast<Eigen::Index>(size), landmarks = static_cast<Eigen::Index>(kDim * count);
   Eigen::MatrixXd joint(n, n);
   if (map_ == nullptr) {
-    const std::vector<Index> slots(indices, indices + count);
+    const std::vector<Index> slots = slots_of(indices, count);
     ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), joint.data(), n);
   } else {
     map_->base_joint_covariance(indices, count, joint.data());

@@ -63,21 +63,22 @@ void Filter<Pose>::finish_report(Index count) {
 
 // Candidates for the batch, and observations that could place a landmark; all others get their reason.
 template <class Pose>
-void Filter<Pose>::sort_out(const Sensor<Pose>& sensor, Index count) {
+void Filter<Pose>::sort_out(const Sensor<Pose>& sensor, Index count, Index companions) {
   candidate_count_ = new_count_ = 0;
   if (options_.association == AssociationKind::known)
     sort_by_id(sensor, count);
   else
     sort_by_association(sensor, count);
-  const Index room = options_.local_landmarks();
-  if (ekf_.size() + new_count_ <= room) return;
+  sort_companions(sensor, count, companions);
+  const Index room = options_.local_landmarks(), held = landmark_count();
+  if (held + new_count_ <= room) return;
   if (map_ != nullptr)
     throw Error(ErrorCode::capacity,
                 "observations: %td new landmarks, and the open submap, which could not be closed, "
                 "holds %td of %td",
-                new_count_, ekf_.size(), room);
+                new_count_, held, room);
   throw Error(ErrorCode::capacity, "observations: %td new landmarks, and the map holds %td of max_landmarks = %td",
-              new_count_, ekf_.size(), room);
+              new_count_, held, room);
 }
 
 template <class Pose>
@@ -242,10 +243,11 @@ void Filter<Pose>::place_new(const Sensor<Pose>& sensor) {
 }
 
 template <class Pose>
-void Filter<Pose>::take_in(int sensor_number, Index count) {
+void Filter<Pose>::take_in(int sensor_number, Index landmarks, Index companions) {
   const Sensor<Pose>& sensor = sensor_at(sensor_number);
+  const Index count = landmarks + companions;
   start_report(count);
-  sort_out(sensor, count);
+  sort_out(sensor, landmarks, companions);
   const auto relinearise = [&](double* residual_only) { return linearise(sensor, residual_only); };
 
   open_candidates(sensor);
