@@ -22,6 +22,8 @@ class SO2 {
   SO2() : u_(1, 0) {}
 
   static SO2 from_angle(double angle) { return SO2(Vector2(std::cos(angle), std::sin(angle))); }
+  // Held as it is: of length 1.
+  static SO2 from_unit(const Vector2& u) { return SO2(u); }
   static SO2 from_matrix(const Matrix2& R) { return SO2(R.col(0).normalized()); }
   static SO2 exp(const Vector1& theta) { return from_angle(theta[0]); }
 

@@ -94,6 +94,13 @@ void Filter<Pose>::point_head(int sensor, double pan, double stick) {
 }
 
 template <class Pose>
+void Filter<Pose>::set_sighting(int sensor, const MutualSighting& sighting) {
+  if constexpr (kDim == 2)
+    if (auto* extended = std::get_if<ExtendedObservation>(&sensor_slot(sensor))) return extended->set(sighting);
+  throw Error(ErrorCode::argument, "sensor: number %d gives no extended observations", sensor);
+}
+
+template <class Pose>
 void Filter<Pose>::propagate(const Increment<Pose>& increment) {
   constexpr double kTurnSquared = 39.478417604357432;  // (2 pi)^2
   if (!(increment.covariance.diagonal().template tail<kTurn>().maxCoeff() <= kTurnSquared))

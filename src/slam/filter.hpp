@@ -134,6 +134,8 @@ class Filter final : public Landmarks {
   Filter& operator=(const Filter&) = delete;
   static std::size_t arena_bytes(const FilterOptions<Pose>& options);     // of the arena that the constructor wants
   static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of all that it takes
+  // Instead of a map of its own a vehicle's submaps join this one: for teams. Before the first motion.
+  void use_map(std::unique_ptr<GlobalMap<Pose>> map) { map_ = std::move(map); }
   const FilterOptions<Pose>& options() const { return options_; }
   void set_log(Log log, void* payload) { log_ = log, log_payload_ = payload; }
 
@@ -144,6 +146,7 @@ class Filter final : public Landmarks {
   }
   int sensor_rows(int sensor) { return sensor_at(sensor).rows(); }
   void point_head(int sensor, double pan, double stick);
+  void set_sighting(int sensor, const MutualSighting& sighting);  // of an extended observation
 
   // --- motion --- throws where the result is not finite, with nothing changed
   void set_wheels(const Wheels& wheels) { wheels_ = wheels; }
