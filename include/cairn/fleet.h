@@ -69,11 +69,11 @@ CAIRN_API cairn_status cairn_fleet_options_init(cairn_fleet_options *options, si
  *  a newer header are taken as far as both sides know them. On an error `*fleet` is not written.
  *
  *  Each boat is commanded once round a circle of radius R = course_length / (2 pi), anticlockwise, at the constant
- *  speed course_length / duration and rate 2 pi / duration; it starts at the circle's southernmost place, heading east. The
- *  circles' centres lie `separation` apart: one boat's at the origin, those of two at (-separation / 2, 0) and
- *  (separation / 2, 0), more on a square grid about the origin, as many columns as rows or one more, numbered from west
- *  to east and row by row from the south, a last row that is not full in its middle. A grid wider than half of `area`
- *  is shrunk to that. With CAIRN_FLEET_COAST all circles must end south of the coast line.
+ *  speed course_length / duration and rate 2 pi / duration; it starts at the circle's southernmost place, heading
+ *  east. The circles' centres lie `separation` apart: one boat's at the origin, those of two at (-separation / 2, 0)
+ *  and (separation / 2, 0), more on a square grid about the origin, as many columns as rows or one more, numbered from
+ *  west to east and row by row from the south, a last row that is not full in its middle. A grid wider than half of
+ *  `area` is shrunk to that. With CAIRN_FLEET_COAST all circles must end south of the coast line.
  *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY. Complexity: O(features). \since 0.1.0 */
 CAIRN_API cairn_status cairn_fleet_create(const cairn_fleet_options *options, cairn_fleet **fleet);
 
