@@ -7,11 +7,13 @@
 #include "capi/boundary.hpp"
 #include "motion/motion.hpp"
 #include "sensor/stereo_head.hpp"
+#include "sim/checks.hpp"
 #include "sim/world.hpp"
 #include "sim/world_options.hpp"
 
 using namespace cairn;
 using namespace cairn::capi;
+using cairn::sim::write_struct;
 
 struct cairn_world {
   explicit cairn_world(const cairn_world_options& options) : world(options) {}
@@ -28,16 +30,6 @@ sim::World& read_world(cairn_world* world) {
 const sim::World& read_world(const cairn_world* world) {
   check_pointer(world, "world");
   return world->world;
-}
-
-// As many bytes of it as the caller's struct has.
-template <class Struct>
-void write_struct(Struct value, Struct* out, const char* name) {
-  check_pointer(out, name);
-  const std::uint32_t size = out->struct_size;
-  check_struct_size(size, name);
-  value.struct_size = size;
-  std::memcpy(static_cast<void*>(out), &value, std::min<std::size_t>(size, sizeof value));
 }
 
 void check_time(const sim::World& world, double time) {

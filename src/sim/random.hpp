@@ -9,7 +9,19 @@
 namespace cairn::sim {
 
 // What a draw is for. Each purpose and index has draws of its own.
-enum class Stream : std::uint64_t { terrain = 1, course, landmark, motion, frame, observation };
+enum class Stream : std::uint64_t {
+  terrain = 1,
+  course,
+  landmark,
+  motion,
+  frame,
+  observation,
+  coast,
+  feature,
+  boat_motion,
+  feature_sighting,
+  boat_sighting
+};
 
 class Random {
  public:

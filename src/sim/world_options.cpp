@@ -6,17 +6,13 @@
 
 #include "capi/boundary.hpp"
 #include "geometry/angle.hpp"
+#include "sim/checks.hpp"
 #include "sim/course.hpp"
 
 namespace cairn::sim {
 namespace {
 
 constexpr double kDegree = kPi / 180;
-
-void check_choice(std::int32_t value, std::int32_t last, const char* name, const char* constants) {
-  if (value < 0 || value > last)
-    throw Error(ErrorCode::argument, "options.%s is %d, none of the %s constants", name, value, constants);
-}
 
 // Half-open: 0 is taken with `zero` alone.
 void check_angle(double value, bool zero, double upper, const char* name) {

@@ -78,7 +78,9 @@ class BadTextLogs(ProgramTest):
             self.assert_refused(call("run", path), path + ":")
         self.assert_refused(call("run", self.write("empty", b"")), "empty:1: the file is empty")
         self.assert_refused(call("run", self.path("absent")), "absent: No such file or directory")
-        self.assert_refused(call("run", self.folder), self.folder, "folder")
+        self.assert_refused(call("run", self.folder), self.folder + ": a folder", "no Barcodes.dat")
+        self.write("Barcodes.dat", b"1 5\n")
+        self.assert_refused(call("run", self.folder), self.folder + ": a MRCLAM folder")
 
 
 class BadStarsLogs(ProgramTest):

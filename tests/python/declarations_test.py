@@ -64,7 +64,8 @@ class DeclarationsTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             source, program = os.path.join(folder, "sizes.c"), os.path.join(folder, "sizes")
             with open(source, "w") as file:
-                file.write("#include <stdio.h>\n#include <cairn/cairn.h>\n#include <cairn/sim.h>\nint main(void) {\n")
+                file.write("#include <stdio.h>\n#include <cairn/cairn.h>\n#include <cairn/fleet.h>\n"
+                           "#include <cairn/sim.h>\nint main(void) {\n")
                 for name in structs:
                     file.write(f'  printf("{name} %zu\\n", sizeof({name}));\n')
                 file.write("  return 0;\n}\n")

@@ -52,6 +52,25 @@ cairn_world_step next_step(cairn_world* world) {
   return step;
 }
 
+cairn_fleet_options default_fleet_options(void) {
+  cairn_fleet_options options;
+  assert_ok(cairn_fleet_options_init(&options, sizeof options));
+  return options;
+}
+
+cairn_fleet* open_fleet(const cairn_fleet_options* options) {
+  cairn_fleet* fleet = NULL;
+  assert_ok(cairn_fleet_create(options, &fleet));
+  return fleet;
+}
+
+cairn_fleet_step next_fleet_step(cairn_fleet* fleet) {
+  cairn_fleet_step step;
+  step.struct_size = sizeof step;
+  assert_ok(cairn_fleet_next(fleet, &step));
+  return step;
+}
+
 void to_body(const cairn_pose* T_map_body, const double point[3], double out[3]) {
   cairn_pose inverse;
   assert_int_equal(cairn_pose_inverse(T_map_body, &inverse), CAIRN_OK);

@@ -14,6 +14,7 @@
 /* clang-format on */
 
 #include <cairn/cairn.h>
+#include <cairn/fleet.h>
 #include <cairn/sim.h>
 #include <math.h>
 #include <stdbool.h>
@@ -43,6 +44,10 @@ cairn_world* open_world(const cairn_world_options* options);
 size_t steps_of(const cairn_world* world);
 /* The next step, which has to be there. */
 cairn_world_step next_step(cairn_world* world);
+
+cairn_fleet_options default_fleet_options(void);
+cairn_fleet* open_fleet(const cairn_fleet_options* options);
+cairn_fleet_step next_fleet_step(cairn_fleet* fleet);
 
 /* Point of the map seen from the body, and the body's z axis in the map. */
 void to_body(const cairn_pose* T_map_body, const double point[3], double out[3]);
