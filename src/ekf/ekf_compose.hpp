@@ -51,7 +51,7 @@ void Ekf<Pose>::compose(const Handover& handover) {
     B.block(row, row, kDim, kDim) = R;
     if (!invariant) A.block(row, kDim, kDim, kTurn) += Rotation::turn(arm);
   };
-  const auto J_turn = pose_.rotation().adjoint();
+  const Matrix J_turn = pose_.rotation().adjoint();
   A.middleRows(kDim, kTurn) = J_turn * KY.middleRows(kDim, kTurn);
   const Matrix C = A.middleRows(kDim, kTurn);  // R_S xi_RL but for its own noise
   A.block(kDim, kDim, kTurn, kTurn) += Eigen::Matrix<double, kTurn, kTurn>::Identity();

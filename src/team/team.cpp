@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Members, packets and their order. What is made of them: team_modes.cpp.
+#include "team/team.hpp"
+
+#include <algorithm>
+
+#include "team/box.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kChecksumsKept = 256, kMostResent = 64;
+
+FilterOptions<SE2> filter_options(const TeamOptions& options) {
+  FilterOptions<SE2> filter = options.filter;
+  if (options.mode == TeamMode::joint) filter.max_companions = options.max_vehicles - 1;
+  return filter;
+}
+
+void check_names(const std::vector<Observation>& observations, bool named, const char* what) {
+  std::vector<std::uint64_t> ids;
+  for (const Observation& o : observations)
+    if (named) ids.push_back(o.id);
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end())
+    throw Error(ErrorCode::argument, "%s: number %llu comes twice in one frame", what,
+                static_cast<unsigned long long>(*twice));
+}
+
+}  // namespace
+
+Team::Team(const TeamOptions& options) : options_(options) {
+  const bool submaps = options.mode == TeamMode::submaps;
+  if (submaps == options.filter.single_map())
+    throw Error(ErrorCode::argument, submaps ? "options.submap_landmarks is 0; a team that fuses submaps needs some"
+                                             : "options.submap_landmarks: this team's filter holds a single map");
+  box_ = std::make_unique<Box>(filter_options(options));
+  radar_ = box_->filter.add(RangeBearing(options.radar));
+  box_->filter.name_vehicle(options.vehicle);
+  if (options.mode == TeamMode::eo_diagonal || options.mode == TeamMode::eo_full)
+    extended_ = box_->filter.add(ExtendedObservation(options.radar, {}, options.mode == TeamMode::eo_full));
+  if (options.baseline) {
+    FilterOptions<SE2> alone = options.filter;
+    alone.submap_landmarks = 0;
+    baseline_ = std::make_unique<Box>(alone);
+    baseline_->filter.add(RangeBearing(options.radar));
+  }
+  add_member(options.vehicle).known = true;
+}
+
+Team::~Team() = default;
+
+Filter<SE2>& Team::filter() {
+  return box_->filter;
+}
+const Filter<SE2>& Team::filter() const {
+  return box_->filter;
+}
+
+Team::Member* Team::find(std::uint64_t vehicle) {
+  for (Member& member : members_)
+    if (member.id == vehicle) return &member;
+  return nullptr;
+}
+const Team::Member* Team::find(std::uint64_t vehicle) const {
+  return const_cast<Team*>(this)->find(vehicle);
+}
+
+Team::Member& Team::add_member(std::uint64_t vehicle) {
+  if (vehicle == kNoId) throw Error(ErrorCode::argument, "vehicle: CAIRN_ID_NONE is no vehicle's number");
+  if (find(vehicle) != nullptr)
+    throw Error(ErrorCode::argument, "vehicle: %llu is of the team already", static_cast<unsigned long long>(vehicle));
+  if (static_cast<Index>(members_.size()) == options_.max_vehicles)
+    throw Error(ErrorCode::capacity, "vehicle: the team has max_vehicles = %td already", options_.max_vehicles);
+  members_.emplace_back();
+  members_.back().id = vehicle;
+  return members_.back();
+}
+
+void Team::add(std::uint64_t vehicle) {
+  add_member(vehicle);
+}
+
+void Team::add(std::uint64_t vehicle, const SE2& start, const Matrix3& covariance) {
+  Member& member = add_member(vehicle);
+  try {
+    if (options_.mode == TeamMode::joint) box_->filter.add_vehicle(vehicle, start, covariance);
+    if (options_.mode == TeamMode::submaps) box_->add_teammate(vehicle, start, covariance, options_);
+  } catch (...) {
+    members_.pop_back();
+    throw;
+  }
+  member.known = true;
+}
+
+void Team::remove(std::uint64_t vehicle) {
+  Member* member = find(vehicle);
+  if (member == nullptr)
+    throw Error(ErrorCode::not_found, "vehicle: %llu is not of the team", static_cast<unsigned long long>(vehicle));
+  if (vehicle == options_.vehicle) throw Error(ErrorCode::argument, "vehicle: the own one cannot be removed");
+  lose_sight(*member);
+  members_.erase(std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.id == vehicle; }));
+  settle();  // nobody waits for it any more
+}
+
+std::vector<std::uint64_t> Team::members() const {
+  std::vector<std::uint64_t> ids;
+  for (const Member& member : members_) ids.push_back(member.id);
+  return ids;
+}
+
+std::size_t Team::unsettled() const {
+  return members_.front().waiting.size();
+}
+
+void Team::propagate(const Increment<SE2>& increment) {
+  const SE2& T = increment.T_before_after;
+  if (!T.translation().allFinite() || !increment.covariance.allFinite())
+    throw Error(ErrorCode::numerical, "prediction: the motion is not finite; nothing was changed");
+  if (pending_.size() == kMostOfPacket)
+    throw Error(ErrorCode::capacity, "prediction: %zu motions since the last observation; tell of one in between",
+                pending_.size());
+  pending_.push_back(increment);
+}
+
+void Team::send(const Packet& packet) {
+  std::vector<std::uint8_t> bytes = encode(packet);
+  if (packet.kind != PacketKind::request) {
+    history_[packet.number] = bytes;
+    if (history_.size() > options_.history) history_.erase(history_.begin());
+  }
+  outgoing_.push_back(std::move(bytes));
+}
+
+void Team::observe(double time, std::vector<Observation> landmarks, std::vector<Observation> vehicles) {
+  Member& self = own();
+  const bool first = !self.started && self.waiting.empty();
+  if (!first && !(time > self.heard))
+    throw Error(ErrorCode::argument, "time: %g lies in the past, the last scan was of %g", time, self.heard);
+  const auto most = static_cast<std::size_t>(options_.filter.max_observations);
+  if (landmarks.size() + vehicles.size() > most)
+    throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu",
+                landmarks.size() + vehicles.size(), most);
+  check_names(landmarks, options_.filter.association == AssociationKind::known, "observations");
+  check_names(vehicles, true, "vehicles");
+  for (const Observation& o : vehicles)
+    if (o.id == options_.vehicle) throw Error(ErrorCode::argument, "vehicles: number %llu is the own one",
+                                              static_cast<unsigned long long>(o.id));
+  Packet packet;
+  packet.vehicle = self.id;
+  packet.number = self.next + self.waiting.size();
+  packet.time = time;
+  packet.motions = pending_;
+  packet.landmarks = std::move(landmarks);
+  packet.vehicles = std::move(vehicles);
+  send(packet);
+  ++counts_.sent;
+  pending_.clear();
+  self.heard = time;
+  const std::uint64_t number = packet.number;
+  self.waiting[number] = {std::move(packet), 0};
+  own_error_.reset();
+  settle();
+  for (const Member& member : members_)
+    if (&member != &self && !member.waiting.empty() && member.waiting.begin()->first > member.next) return ask();
+  if (self.waiting.size() > 1) ask();
+  if (own_error_) throw Error(*own_error_);
+}
+
+void Team::leave() {
+  Packet packet;
+  packet.kind = PacketKind::leave;
+  packet.vehicle = own().id;
+  packet.number = own().next + own().waiting.size();
+  packet.time = own().heard;
+  send(packet);
+}
+
+bool Team::take_packet(std::vector<std::uint8_t>& bytes) {
+  if (outgoing_.empty()) return false;
+  bytes = std::move(outgoing_.front());
+  outgoing_.pop_front();
+  return true;
+}
+
+// What is between two packets that are there, and what a silent teammate may have sent since.
+void Team::ask() {
+  if (!uses_teammates()) return;
+  for (const Member& member : members_) {
+    if (member.id == options_.vehicle || member.waiting.count(member.next) != 0) continue;
+    const bool gap = !member.waiting.empty();
+    if (!gap && member.started && !(member.time < own().heard - options_.time_tolerance)) continue;
+    Packet request;
+    request.kind = PacketKind::request;
+    request.vehicle = options_.vehicle;
+    request.subject = member.id;
+    request.first = member.next;
+    request.count = gap ? member.waiting.begin()->first - member.next : 0;
+    send(request);
+    ++counts_.requested;
+  }
+}
+
+void Team::resend(const Packet& request) {
+  std::size_t left = request.count == 0 ? kMostResent : std::min<std::size_t>(request.count, kMostResent);
+  for (auto entry = history_.lower_bound(request.first); entry != history_.end() && left > 0; ++entry, --left) {
+    if (request.count != 0 && entry->first - request.first >= request.count) break;
+    outgoing_.push_back(entry->second);
+    ++counts_.resent;
+  }
+}
+
+Arrival Team::receive(const std::uint8_t* bytes, std::size_t size, PacketFault& fault) {
+  ++counts_.received;
+  Packet packet;
+  fault = decode(bytes, size, packet);
+  if (fault != PacketFault::none) {
+    ++counts_.faulty[static_cast<int>(fault)];
+    return Arrival::refused;
+  }
+  if (packet.kind == PacketKind::request) {
+    if (packet.subject != options_.vehicle || find(packet.vehicle) == nullptr) {
+      ++counts_.ignored;
+      return Arrival::ignored;
+    }
+    resend(packet);
+    return Arrival::request;
+  }
+  const std::uint32_t checksum = crc32(bytes, size);
+  if (packet.vehicle == options_.vehicle) {  // a transport's echo, or another vehicle by the own name
+    const auto sent = history_.find(packet.number);
+    const bool echo = sent != history_.end() && crc32(sent->second.data(), sent->second.size()) == checksum;
+    ++(echo ? counts_.own : counts_.conflict);
+    return echo ? Arrival::own : Arrival::conflict;
+  }
+  if (find(packet.vehicle) == nullptr) {
+    ++counts_.unknown;
+    return Arrival::unknown;
+  }
+  if (!uses_teammates()) {
+    ++counts_.ignored;
+    return Arrival::ignored;
+  }
+  const std::uint64_t vehicle = packet.vehicle, number = packet.number;
+  const bool leaves = packet.kind == PacketKind::leave;
+  const Arrival stored = store(std::move(packet), checksum);
+  if (stored != Arrival::waiting) return stored;
+  settle();
+  const Member* member = find(vehicle);
+  if (member == nullptr) return Arrival::leave;
+  if (member->waiting.count(number) != 0) return Arrival::waiting;
+  return leaves ? Arrival::leave : Arrival::taken;
+}
+
+// Among those that wait for their turn; or what speaks against it.
+Arrival Team::store(Packet&& packet, std::uint32_t checksum) {
+  Member& member = *find(packet.vehicle);
+  const auto known = member.waiting.find(packet.number);
+  if (packet.number < member.next || known != member.waiting.end()) {
+    bool same = true;  // of those long gone nobody can tell
+    if (known != member.waiting.end()) {
+      same = known->second.checksum == checksum;
+    } else if (member.next - packet.number <= member.checksums.size()) {
+      same = member.checksums[member.checksums.size() - (member.next - packet.number)] == checksum;
+    }
+    ++(same ? counts_.repeated : counts_.conflict);
+    return same ? Arrival::repeated : Arrival::conflict;
+  }
+  // Times rise with the numbers; a leave has that of the last step.
+  const auto after = member.waiting.upper_bound(packet.number);
+  const bool data = packet.kind == PacketKind::data;
+  bool ordered = !member.started || (data ? packet.time > member.time : packet.time >= member.time);
+  if (after != member.waiting.begin()) {
+    const double before = std::prev(after)->second.packet.time;
+    ordered = ordered && (data ? packet.time > before : packet.time >= before);
+  }
+  if (after != member.waiting.end()) ordered = ordered && packet.time <= after->second.packet.time;
+  if (!ordered) {
+    ++counts_.past;
+    return Arrival::past;
+  }
+  if (member.waiting.size() >= options_.max_waiting) {
+    ++counts_.full;
+    return Arrival::full;
+  }
+  if (after != member.waiting.end()) ++counts_.reordered;
+  member.heard = std::max(member.heard, packet.time);
+  const std::uint64_t number = packet.number;
+  member.waiting[number] = {std::move(packet), checksum};
+  return Arrival::waiting;
+}
+
+// The packets that lie between are given up.
+void Team::skip_gap(Member& member) {
+  const std::uint64_t first = member.waiting.begin()->first;
+  counts_.lost += first - member.next;
+  member.next = first;
+  member.checksums.clear();
+  lose_sight(member);
+}
+
+// The packets of the earliest time for which all are there. False where somebody is still to be waited for.
+bool Team::next_turns(std::vector<Turn>& turns) {
+  turns.clear();
+  const double newest = own().heard;
+  double earliest = std::numeric_limits<double>::infinity();
+  const auto head = [](Member& m) { return m.waiting.find(m.next); };
+  for (Member& member : members_) {
+    const bool teammate = member.id != options_.vehicle;
+    if (teammate && !uses_teammates()) continue;
+    if (head(member) == member.waiting.end()) {
+      if (!teammate) continue;
+      if (!member.waiting.empty()) {
+        if (!(newest - member.waiting.begin()->second.packet.time > options_.max_lag)) return false;
+        skip_gap(member);
+      } else {
+        // Silent: waited for, but not for ever.
+        const Member& self = own();
+        if (self.waiting.empty()) continue;
+        const double since = member.started ? member.time : self.waiting.begin()->second.packet.time;
+        if (!(newest - since > options_.max_lag)) return false;
+        continue;
+      }
+    }
+    earliest = std::min(earliest, head(member)->second.packet.time);
+  }
+  if (earliest == std::numeric_limits<double>::infinity()) return false;
+  for (Member& member : members_) {
+    const auto packet = head(member);
+    if (packet == member.waiting.end() || packet->second.packet.time > earliest + options_.time_tolerance) continue;
+    turns.push_back({&member, packet->second.packet});
+  }
+  std::sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.member->id < b.member->id; });
+  return true;
+}
+
+void Team::settle() {
+  std::vector<Turn> turns;
+  while (next_turns(turns)) {
+    for (Turn& turn : turns) {  // consumed, whatever becomes of it
+      Member& member = *turn.member;
+      member.checksums.push_back(member.waiting.begin()->second.checksum);
+      if (member.checksums.size() > kChecksumsKept) member.checksums.pop_front();
+      member.waiting.erase(member.next++);
+      member.time = turn.packet.time;
+      member.started = true;
+      if (member.id != options_.vehicle) ++counts_.taken;
+      member.left = turn.packet.kind == PacketKind::leave;
+    }
+    turns.erase(std::remove_if(turns.begin(), turns.end(), [](const Turn& turn) { return turn.member->left; }),
+                turns.end());
+    take_in(turns);
+    for (Member& member : members_)
+      if (member.left) lose_sight(member);
+    members_.erase(std::remove_if(members_.begin(), members_.end(), [](const Member& m) { return m.left; }),
+                   members_.end());
+  }
+}
+
+SE2 Team::pose(std::uint64_t vehicle) const {
+  SE2 T = box_->pose(vehicle);
+  if (vehicle != options_.vehicle) return T;
+  for (const auto& entry : members_.front().waiting)
+    for (const Increment<SE2>& motion : entry.second.packet.motions) T = T * motion.T_before_after;
+  for (const Increment<SE2>& motion : pending_) T = T * motion.T_before_after;
+  return T;
+}
+
+Matrix3 Team::covariance(std::uint64_t vehicle) const {
+  Matrix3 P = box_->covariance(vehicle);
+  if (vehicle != options_.vehicle) return P;
+  SE2 T = box_->pose(vehicle);
+  const auto move = [&](const Increment<SE2>& motion) {
+    // e_p += G(R d) e_R + R dp, e_R += dtheta
+    const Matrix2 R = T.rotation().matrix();
+    Matrix3 J = Matrix3::Identity(), B = Matrix3::Identity();
+    J.topRightCorner<2, 1>() = SO2::turn(R * motion.T_before_after.translation());
+    B.topLeftCorner<2, 2>() = R;
+    const Matrix3 moved = J * P * J.transpose() + B * motion.covariance * B.transpose();
+    P = 0.5 * (moved + moved.transpose());
+    T = T * motion.T_before_after;
+  };
+  for (const auto& entry : members_.front().waiting)
+    for (const Increment<SE2>& motion : entry.second.packet.motions) move(motion);
+  for (const Increment<SE2>& motion : pending_) move(motion);
+  return P;
+}
+
+void Team::score(const SE2& truth) {
+  const SE2 estimate = pose(options_.vehicle);
+  const Matrix3 P = covariance(options_.vehicle);
+  ++score_.steps;
+  score_.claimed += P.topLeftCorner<2, 2>().norm();
+  score_.squared_error += (truth.translation() - estimate.translation()).squaredNorm();
+  const double nees =
+      Ekf<SE2>::nees(options_.filter.error, options_.filter.initial_pose.translation(), truth, estimate, P);
+  if (nees >= 0.0) {
+    ++score_.nees_steps;
+    score_.nees += nees;
+  }
+  if (!baseline_) return;
+  score_.claimed_alone += baseline_->filter.pose_covariance().topLeftCorner<2, 2>().norm();
+  score_.squared_alone += (truth.translation() - baseline_->filter.pose().translation()).squaredNorm();
+}
+
+}  // namespace cairn

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a vehicle makes of the packets of one time, by the team's mode (docs/team.md).
+#include <algorithm>
+#include <unordered_map>
+
+#include "geometry/angle.hpp"
+#include "team/box.hpp"
+#include "team/team.hpp"
+
+namespace cairn {
+namespace {
+
+const Observation* sight_of(const std::vector<Observation>& sights, std::uint64_t vehicle) {
+  for (const Observation& o : sights)
+    if (o.id == vehicle) return &o;
+  return nullptr;
+}
+
+void forget(std::vector<Observation>& sights, std::uint64_t vehicle) {
+  sights.erase(
+      std::remove_if(sights.begin(), sights.end(), [&](const Observation& o) { return o.id == vehicle; }),
+      sights.end());
+}
+
+}  // namespace
+
+// An own failure is the caller's to hear of; a teammate's is counted.
+template <class Function>
+bool Team::attempt(bool own, Function&& function) {
+  try {
+    function();
+    return true;
+  } catch (const Error& error) {
+    ++counts_.failed;
+    if (own) own_error_.emplace(error);
+    return false;
+  }
+}
+
+void Team::move(Filter<SE2>& filter, const Packet& packet) {
+  attempt(packet.vehicle == options_.vehicle, [&] {
+    for (const Increment<SE2>& motion : packet.motions) filter.propagate(motion);
+  });
+}
+
+// Takes a scan in; decisions on an own one are kept.
+bool Team::scan(Filter<SE2>& filter, int sensor, const std::vector<Observation>& landmarks,
+                const std::vector<Observation>& vehicles, bool own) {
+  return attempt(own, [&] {
+    const std::size_t count = landmarks.size() + vehicles.size();
+    if (count > static_cast<std::size_t>(options_.filter.max_observations))
+      throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %td", count,
+                  options_.filter.max_observations);
+    std::copy(landmarks.begin(), landmarks.end(), filter.staging());
+    std::copy(vehicles.begin(), vehicles.end(), filter.staging() + landmarks.size());
+    filter.update(sensor, static_cast<Index>(landmarks.size()), static_cast<Index>(vehicles.size()));
+    counts_.matched += static_cast<std::uint64_t>(filter.report().matched);
+    counts_.placed += static_cast<std::uint64_t>(filter.report().placed);
+    counts_.rejected += static_cast<std::uint64_t>(filter.report().rejected);
+    counts_.sightings_used += vehicles.size();
+    if (own) decisions_.insert(decisions_.end(), filter.decisions(), filter.decisions() + count);
+  });
+}
+
+void Team::take_in(std::vector<Turn>& turns) {
+  const auto self =
+      std::find_if(turns.begin(), turns.end(), [&](const Turn& turn) { return turn.member == &own(); });
+  if (self != turns.end()) {
+    decisions_.clear();
+    if (baseline_) {
+      move(baseline_->filter, self->packet);
+      attempt(false, [&] {
+        std::copy(self->packet.landmarks.begin(), self->packet.landmarks.end(), baseline_->filter.staging());
+        baseline_->filter.update(0, static_cast<Index>(self->packet.landmarks.size()));
+      });
+    }
+  }
+  switch (options_.mode) {
+    case TeamMode::mono:
+      if (self != turns.end()) take_in_own(*self);
+      return;
+    case TeamMode::eo_diagonal:
+    case TeamMode::eo_full:
+      return take_in_extended(turns);
+    case TeamMode::joint:
+      return take_in_joint(turns);
+    case TeamMode::submaps:
+      return take_in_submaps(turns);
+  }
+}
+
+void Team::take_in_own(Turn& turn) {
+  move(box_->filter, turn.packet);
+  scan(box_->filter, radar_, turn.packet.landmarks, {}, true);
+}
+
+// Every vehicle runs the same filter over all poses and landmarks: what two of them saw is in it once.
+void Team::take_in_joint(std::vector<Turn>& turns) {
+  Filter<SE2>& filter = box_->filter;
+  for (const Turn& turn : turns) {
+    if (!turn.member->known) continue;
+    filter.look_from(turn.member->id);
+    move(filter, turn.packet);
+  }
+  find_members(turns);
+  turns.erase(std::remove_if(turns.begin(), turns.end(), [](const Turn& turn) { return !turn.member->known; }),
+              turns.end());
+
+  // A new landmark that several see is placed by the nearest of them: from afar its bearing's arc is the longer, and the
+  // first linearisation the worse.
+  const bool named = options_.filter.association == AssociationKind::known;
+  std::unordered_map<std::uint64_t, std::pair<double, std::uint64_t>> nearest;  // range, vehicle
+  std::size_t unused = 0;
+  for (std::size_t t = 0; named && turns.size() > 1 && t < turns.size(); ++t)
+    for (const Observation& o : turns[t].packet.landmarks)
+      if (!filter.find(o.id, unused)) {
+        const auto entry = nearest.emplace(o.id, std::make_pair(o.z[0], turns[t].member->id)).first;
+        if (o.z[0] < entry->second.first) entry->second = {o.z[0], turns[t].member->id};
+      }
+
+  std::vector<std::vector<Observation>> later(turns.size());
+  for (std::size_t t = turns.size(); t-- > 0;) {  // the last one is looked from already
+    const std::uint64_t vehicle = turns[t].member->id;
+    Packet& packet = turns[t].packet;
+    std::vector<Observation> known;
+    for (const Observation& o : packet.vehicles) {
+      const bool here =
+          std::any_of(turns.begin(), turns.end(), [&](const Turn& turn) { return turn.member->id == o.id; });
+      if (here)
+        known.push_back(o);
+      else
+        ++counts_.sightings_refused;
+    }
+    if (!nearest.empty()) {
+      const auto waits = [&](const Observation& o) {
+        const auto entry = nearest.find(o.id);
+        return entry != nearest.end() && entry->second.second != vehicle && !filter.find(o.id, unused);
+      };
+      std::copy_if(packet.landmarks.begin(), packet.landmarks.end(), std::back_inserter(later[t]), waits);
+      packet.landmarks.erase(std::remove_if(packet.landmarks.begin(), packet.landmarks.end(), waits),
+                             packet.landmarks.end());
+    }
+    if (packet.landmarks.empty() && known.empty()) continue;
+    filter.look_from(vehicle);
+    scan(filter, radar_, packet.landmarks, known, vehicle == options_.vehicle);
+  }
+  for (std::size_t t = 0; t < turns.size(); ++t) {
+    if (later[t].empty()) continue;
+    filter.look_from(turns[t].member->id);
+    scan(filter, radar_, later[t], {}, turns[t].member->id == options_.vehicle);
+  }
+}
+
+// Noise of a sighting: its own, or the radar's.
+Matrix2 Team::noise_of(const Observation& o) const {
+  const Matrix2 given = Eigen::Map<const Matrix2>(o.covariance);
+  if (!given.isZero(0.0)) return given;
+  return Vector2(options_.radar.range_sigma, options_.radar.bearing_sigma).cwiseAbs2().asDiagonal();
+}
+
+// Both saw each other at one time: together the two sightings tell where the other stands and whereto it heads. Of both
+// ranges the mean, weighted by their variances.
+static MutualSighting mutual(const Observation& there, const Matrix2& noise, const Observation& back,
+                             const Matrix2& noise_back, bool both_ranges) {
+  MutualSighting sighting;
+  const double weight = both_ranges ? noise_back(0, 0) / (noise(0, 0) + noise_back(0, 0)) : 1.0;
+  sighting.range = weight * there.z[0] + (1.0 - weight) * back.z[0];
+  sighting.bearing = there.z[1];
+  sighting.back = back.z[1];
+  Eigen::Matrix<double, 3, 4> J = Eigen::Matrix<double, 3, 4>::Zero();  // by (range, bearing) there and back
+  J(0, 0) = weight, J(0, 2) = 1.0 - weight, J(1, 1) = 1.0, J(2, 3) = 1.0;
+  sighting.covariance = J.leftCols<2>() * noise * J.leftCols<2>().transpose() +
+                        J.rightCols<2>() * noise_back * J.rightCols<2>().transpose();
+  return sighting;
+}
+
+// Teammates whose start is not known, from the mutual sightings with those whose is.
+void Team::find_members(const std::vector<Turn>& turns) {
+  Filter<SE2>& filter = box_->filter;
+  const auto find_one = [&] {
+    for (const Turn& lost : turns) {
+      if (lost.member->known) continue;
+      for (const Turn& from : turns) {
+        if (!from.member->known) continue;
+        auto& sights = const_cast<Packet&>(from.packet).vehicles;
+        auto& sights_back = const_cast<Packet&>(lost.packet).vehicles;
+        const Observation* there = sight_of(sights, lost.member->id);
+        const Observation* back = sight_of(sights_back, from.member->id);
+        if (there == nullptr || back == nullptr) continue;
+        const MutualSighting seen = mutual(*there, noise_of(*there), *back, noise_of(*back), true);
+        forget(sights, lost.member->id);  // consumed
+        forget(sights_back, from.member->id);
+        filter.look_from(from.member->id);
+        const SE2 T = filter.pose();
+        const Matrix2 R = T.rotation().matrix();
+        const Vector2 u(std::cos(seen.bearing), std::sin(seen.bearing)), arm = R * (seen.range * u);
+        Matrix3 J_pose = Matrix3::Identity(), J_seen = Matrix3::Zero();
+        J_pose.topRightCorner<2, 1>() = SO2::turn(arm);
+        J_seen.topLeftCorner<2, 1>() = R * u;
+        J_seen.block<2, 1>(0, 1) = SO2::turn(arm);
+        J_seen.row(2) << 0.0, 1.0, -1.0;
+        const SE2 there_pose(T.rotation() * SO2::from_angle(seen.bearing - seen.back + kPi), T.translation() + arm);
+        if (attempt(false, [&] {
+              filter.add_vehicle(lost.member->id, there_pose, J_pose, J_seen * seen.covariance * J_seen.transpose());
+            })) {
+          lost.member->known = true;
+          ++counts_.vehicles_found;
+        }
+        return lost.member->known;
+      }
+    }
+    return false;
+  };
+  while (find_one()) {
+  }
+}
+
+// Where it is is known no more: until it is found again.
+void Team::lose_sight(Member& member) {
+  if (member.known && options_.mode == TeamMode::joint) {
+    box_->filter.look_from(options_.vehicle);
+    box_->filter.remove_vehicle(member.id);
+  }
+  member.known = false;
+}
+
+// The teammate's scan, seen through the mutual sighting, is taken in as the own vehicle's (cooperative paper, section
+// 2.1). The teammate is no state: the sighting and the scan are all that is used of it.
+void Team::take_in_extended(std::vector<Turn>& turns) {
+  const auto self =
+      std::find_if(turns.begin(), turns.end(), [&](const Turn& turn) { return turn.member == &own(); });
+  if (self == turns.end()) return;
+  take_in_own(*self);
+  for (const Turn& turn : turns) {
+    if (turn.member == &own() || turn.packet.landmarks.empty()) continue;
+    const Observation* there = sight_of(self->packet.vehicles, turn.member->id);
+    const Observation* back = sight_of(turn.packet.vehicles, options_.vehicle);
+    if (there == nullptr || back == nullptr) {
+      ++counts_.sightings_refused;
+      continue;
+    }
+    const bool full = options_.mode == TeamMode::eo_full;
+    box_->filter.set_sighting(extended_, mutual(*there, noise_of(*there), *back, noise_of(*back), full));
+    scan(box_->filter, extended_, turn.packet.landmarks, {}, false);
+    counts_.sightings_used += 2;
+  }
+}
+
+void Team::take_in_submaps(std::vector<Turn>&) {}
+
+}  // namespace cairn
