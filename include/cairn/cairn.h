@@ -28,5 +28,6 @@
 #include <cairn/pose.h>
 #include <cairn/sensor.h>
 #include <cairn/status.h>
+#include <cairn/team.h>
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Observations that a filter takes in.
 #include "capi/filter_handle.hpp"
+#include "capi/read_observation.hpp"
 #include "core/chi_square.hpp"
 
 using namespace cairn;
@@ -8,7 +9,6 @@ using namespace cairn::capi;
 
 namespace cairn {
 namespace capi {
-namespace {
 
 void write_match(const Match& match, cairn_match* out) {
   out->landmark = match.landmark;
@@ -39,26 +39,30 @@ void write_match(const Match& match, cairn_match* out) {
   out->threshold = match.threshold;
 }
 
+namespace {
+
 template <class AnyFilter>
 void write_matches(const AnyFilter& filter, std::size_t count, cairn_match* matches) {
   if (matches == nullptr) return;
   for (std::size_t i = 0; i < count; ++i) write_match(filter.decisions()[i], matches + i);
 }
 
-void read_observation(const cairn_observation& from, std::size_t number, std::size_t rows, bool named,
-                      Observation& to) {
+}  // namespace
+
+void read_observation(const cairn_observation& from, const char* array, std::size_t number, std::size_t rows,
+                      bool named, Observation& to) {
   if (named && from.id == CAIRN_ID_NONE)
-    throw Error(ErrorCode::argument, "observations[%zu].id is CAIRN_ID_NONE, which no landmark has", number);
+    throw Error(ErrorCode::argument, "%s[%zu].id is CAIRN_ID_NONE, which none has", array, number);
   // Names are written where they are needed: that takes longer than the checks.
   char name[64];
   if (!all_finite(from.z, rows)) {
-    std::snprintf(name, sizeof name, "observations[%zu].z", number);
+    std::snprintf(name, sizeof name, "%s[%zu].z", array, number);
     check_finite(from.z, rows, name);
   }
   bool given = false;
   for (std::size_t i = 0; i < rows * rows; ++i) given = given || from.covariance[i] != 0.0;
   if (given) {
-    std::snprintf(name, sizeof name, "observations[%zu].covariance", number);
+    std::snprintf(name, sizeof name, "%s[%zu].covariance", array, number);
     check_covariance(from.covariance, rows, false, name);
   }
   to.id = from.id;
@@ -68,7 +72,6 @@ void read_observation(const cairn_observation& from, std::size_t number, std::si
   std::copy_n(from.covariance, rows * rows, to.covariance);
 }
 
-}  // namespace
 }  // namespace capi
 }  // namespace cairn
 
@@ -84,7 +87,8 @@ cairn_status cairn_filter_update(cairn_filter* filter, int32_t sensor, const cai
       if (count > most)
         throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu", count, most);
       const bool named = f.options().association == AssociationKind::known;
-      for (std::size_t i = 0; i < count; ++i) read_observation(observations[i], i, rows, named, f.staging()[i]);
+      for (std::size_t i = 0; i < count; ++i) 
+        read_observation(observations[i], "observations", i, rows, named, f.staging()[i]);
       f.update(sensor, static_cast<Index>(count));
       write_matches(f, count, matches);
     });
