@@ -188,6 +188,8 @@ typedef struct cairn_team_report {
   uint64_t vehicles_found;    /**< starts solved from mutual sightings */
   uint64_t failed;            /**< motions and scans that the filter could not take in */
   uint64_t scored;            /**< calls of \ref cairn_team_score */
+  uint64_t scored_nees;       /**< ... with a covariance that is not singular, as it is at a known start: the steps of
+                                   `anees_per_dof` */
   double position_rmse;       /**< of the own vehicle, m */
   double anees_per_dof;       /**< of its pose: 1 for an honest covariance */
   double claimed_improvement; /**< (||C_mono|| - ||C||) / ||C_mono|| of the position's covariance, Frobenius, over the sums

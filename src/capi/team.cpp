@@ -315,6 +315,7 @@ cairn_status cairn_team_last_report(const cairn_team* team, cairn_team_report* r
     out.vehicles_found = c.vehicles_found;
     out.failed = c.failed;
     out.scored = t.scores().steps;
+    out.scored_nees = t.scores().nees_steps;
     out.position_rmse = t.scores().position_rmse();
     out.anees_per_dof = t.scores().anees_per_dof();
     out.claimed_improvement = t.scores().claimed_improvement();

@@ -14,5 +14,7 @@ void write_stdout(const std::string& text);  // throws UsageError
 // Throw UsageError, io::LogError, LibraryError.
 void run_command(const std::vector<std::string>& arguments);
 void simulate_command(const std::vector<std::string>& arguments);
+void run_team_command(const std::vector<std::string>& arguments);       // of a MRCLAM folder
+void simulate_team_command(const std::vector<std::string>& arguments);  // of boats
 
 }  // namespace cairn::cli

@@ -8,11 +8,13 @@ namespace cairn::cli {
 
 const char* const kHelp =
     "usage: cairn run LOG [options]\n"
-    "       cairn simulate mars [options]\n"
+    "       cairn simulate mars|usv [options]\n"
     "       cairn --help | --version\n"
     "\n"
-    "run drives the filter through a recorded log: a neutral text log or a STARS MATLAB v5 file.\n"
-    "simulate drives it through a world: a rover on rolling ground, with a stereo head.\n"
+    "run drives the filter through a recorded log: a neutral text log or a STARS MATLAB v5 file; or a team of robots\n"
+    "through a MRCLAM folder.\n"
+    "simulate drives it through a world: mars, a rover on rolling ground with a stereo head; or usv, boats with radar\n"
+    "that cooperate.\n"
     "\n"
     "  --summary json          print the figures as one JSON object\n"
     "  --output DIR            write trajectory, landmarks, submaps, innovations and timing as CSV files\n"
@@ -60,6 +62,16 @@ const char* const kHelp =
     "  --near-range M, --far-range M, --half-azimuth RAD, --pan-scan RAD, --stick-scan RAD\n"
     "                          field of view, and how far the head scans to both sides\n"
     "  --imu-period S, --motion-period S, --frame-period S\n"
+    "\n"
+    "Teams (usv, and a MRCLAM folder):\n"
+    "  --mode MODE             mono, eo_diagonal, eo_full, joint (default) or submaps\n"
+    "  --velocity-noise, --rate-noise, --range-noise, --bearing-noise\n"
+    "                          usv: standard deviations, m/s, rad/s, m, rad; MRCLAM: of the odometry a square root of\n"
+    "                          Hz, of the range in proportion to it, of the bearing rad\n"
+    "usv alone:\n"
+    "  --compare               all modes for 6, 10 and 40 features beside the cooperative paper's figures\n"
+    "  --vehicles N, --features N, --layout uniform|coast, --separation M, --duration S, --period S, --far-range M,\n"
+    "  --runs N\n"
     "\n"
     "Exit status: 0 success, 1 the library refused a step, 2 bad usage or a bad file.\n";
 

@@ -104,12 +104,12 @@ SimulateOptions parse_simulate_options(const std::vector<std::string>& arguments
       arguments, table, "simulate",
       [&](const std::string& word) {
         if (!scenario.empty()) throw UsageError("one scenario at a time: '" + word + "' is a second one");
-        if (word != "mars") throw UsageError("unknown scenario '" + word + "': this version knows mars");
+        if (word != "mars") throw UsageError("unknown scenario '" + word + "': this version knows mars and usv");
         scenario = word;
       },
       "--preset");
   if (options.common.help) return options;
-  if (scenario.empty()) throw UsageError("no scenario given (usage: cairn simulate mars [options])");
+  if (scenario.empty()) throw UsageError("no scenario given (usage: cairn simulate mars|usv [options])");
   if (options.compare && options.filter.submap_landmarks == 0u)
     throw UsageError("option --compare runs a single map and submaps: it can't be had with --single-map");
   return options;

@@ -8,10 +8,12 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/session.hpp"
+#include "cli/team_options.hpp"
 
 namespace cairn::cli {
 
 void run_command(const std::vector<std::string>& arguments) {
+  if (!mrclam_folder(arguments).empty()) return run_team_command(arguments);
   const RunOptions options = parse_run_options(arguments);
   if (options.common.help) return write_stdout(kHelp);
   const auto begin = std::chrono::steady_clock::now();

@@ -9,6 +9,7 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/session.hpp"
+#include "cli/team_options.hpp"
 #include "cli/world_drive.hpp"
 
 namespace cairn::cli {
@@ -63,6 +64,7 @@ std::string compared_json(const std::vector<Way>& ways) {
 }  // namespace
 
 void simulate_command(const std::vector<std::string>& arguments) {
+  if (asks_for_usv(arguments)) return simulate_team_command(arguments);
   const SimulateOptions options = parse_simulate_options(arguments);
   if (options.common.help) return write_stdout(kHelp);
   std::vector<Way> ways = ways_of(options);
