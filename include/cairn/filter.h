@@ -46,6 +46,13 @@ enum {
                                       ids as for CAIRN_ASSOCIATION_NEAREST */
 };
 
+/** By what CAIRN_ASSOCIATION_NEAREST tells near from far. */
+enum {
+  CAIRN_DISTANCE_MAHALANOBIS = 0, /**< the squared Mahalanobis distance d^2; the default */
+  CAIRN_DISTANCE_LIKELIHOOD = 1   /**< d^2 + log det S, -2 log of the likelihood: of two landmarks that fit as well, the
+                                       one that is known better. Gates go by d^2 all the same */
+};
+
 /** Options of \ref cairn_filter_create. Set them by \ref cairn_filter_options_init first. */
 typedef struct cairn_filter_options {
   uint32_t struct_size;          /**< sizeof(cairn_filter_options) of the caller */
@@ -77,6 +84,14 @@ typedef struct cairn_filter_options {
                                       each that exists exceeds the chi-square bound of this probability, in (0, 1); and
                                       none beyond it is paired, where gate_probability would allow that; default 0.9999 */
   int32_t vehicle;               /**< CAIRN_VEHICLE_SPATIAL or CAIRN_VEHICLE_PLANAR; default CAIRN_VEHICLE_SPATIAL */
+  int32_t association_distance;  /**< CAIRN_DISTANCE_MAHALANOBIS or CAIRN_DISTANCE_LIKELIHOOD; default
+                                      CAIRN_DISTANCE_MAHALANOBIS */
+  uint32_t deferred_sightings;   /**< a new landmark counts once it was observed so often, 1 to 1000: before, it is part of
+                                      the estimate, and of no map; default 1 */
+  uint32_t deferred_frames;      /**< ... and is dropped if it does not come to that within so many frames, 1 to 1000000;
+                                      default 20 */
+  uint32_t missed_frames;        /**< a landmark that lay in a sensor's view (\ref cairn_filter_set_view) and was not seen in
+                                      so many of that sensor's frames in a row is dropped; 0, the default: never */
   uint32_t reserved;             /**< 0 */
 } cairn_filter_options;
 
@@ -130,6 +145,14 @@ CAIRN_API cairn_status cairn_filter_add_custom(cairn_filter *filter, const cairn
  *  frame that was seen with other angles. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (not finite, or no stereo
  *  head), CAIRN_ERROR_NOT_FOUND. \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_point_head(cairn_filter *filter, int32_t sensor, double pan, double stick);
+
+/** Tells what a sensor sees for sure: whatever it would give an observation of between `lower` and `upper`, value by value
+ *  in the sensor's units (of 3 values, a planar sensor's or a custom one's of fewer rows the first; infinite ones are no
+ *  bound). A landmark whose image lies inside by three standard deviations, and that no observation of a frame was compared
+ *  with, was missed (`missed_frames`). Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND.
+ *  \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_set_view(cairn_filter *filter, int32_t sensor, const double lower[3],
+                                             const double upper[3]);
 
 /* Motion. Every prediction costs O(1), whatever the size of the map, and allocates nothing. */
 
@@ -205,6 +228,21 @@ CAIRN_API cairn_status cairn_filter_update_heading(cairn_filter *filter, double 
 /** Forgets a landmark, in the map and in the open submap; what it taught about the others stays.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND. Complexity: O(n). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_remove_landmark(cairn_filter *filter, uint64_t id);
+
+/** Tells the filter that two landmarks of the open submap, or of the single map, are one: their difference is observed to
+ *  be zero, gated as an observation is (gate_probability). Where it passes, `other` is gone and `id` stays, with the
+ *  observations of both. `match` (or NULL) gets the decision.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_CAPACITY (max_observations is
+ *  1), CAIRN_ERROR_NUMERICAL. Complexity: O(n^2). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_merge_landmarks(cairn_filter *filter, uint64_t id, uint64_t other,
+                                                    cairn_match *match);
+
+/** Splits a landmark that turned out to be two: `fresh` stands where `id` does, but for an error of its own with this
+ *  3x3 covariance (positive definite: how far apart the two may be), and observations tell them apart from then on.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also where `fresh` exists), CAIRN_ERROR_NOT_FOUND,
+ *  CAIRN_ERROR_CAPACITY. Complexity: O(n). \since 0.1.0 */
+CAIRN_API cairn_status cairn_filter_split_landmark(cairn_filter *filter, uint64_t id, uint64_t fresh,
+                                                   const double covariance[9]);
 
 /* Submaps (docs/submaps.md). With submap_landmarks > 0 the filter works in a submap that starts where the vehicle stood,
  * with zero covariance, so that a step's cost does not know how large the map is. A submap that is full is closed: its
@@ -293,6 +331,8 @@ typedef struct cairn_update_report {
   uint32_t association_nodes;     /**< joint tests that association took */
   uint32_t association_exhausted; /**< 1: it stopped at the bound of the options; there may be a better set of pairs */
   double association_seconds;     /**< what association took */
+  uint32_t deferred;              /**< landmarks that do not count yet, after it */
+  uint32_t removed;               /**< landmarks dropped after it: missed too often, or not seen again in time */
 } cairn_update_report;
 
 /** Reports on the last successful update of any kind; zeros before the first. Set `report->struct_size` first.

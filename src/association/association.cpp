@@ -31,7 +31,7 @@ Association::Association(Arena& arena, const Capacity& capacity)
 
 void Association::begin(const PairCandidate* candidates, Index count, Index observations) {
   candidates_ = candidates;
-  observations_ = observations;
+  observations_ = all_observations_ = observations;
   Index at = 0;
   for (Index o = 0; o < observations; ++o) {
     first_[o] = at;

@@ -54,6 +54,24 @@ class Association {
   void joint_compatibility(const PairCandidate* candidates, Index count, Index observations,
                            const Innovations& innovations, Index nodes);
 
+  // Pairs that could be chance, by doubtful(observation, candidate), are taken together or not at all: at the first sight
+  // of a known place one of them fits easily, and would bend the map; several fit by chance together hardly ever. Those
+  // of the last call are given up where they are fewer than `support`.
+  template <class Doubtful>
+  void demand_support(Index support, Doubtful&& doubtful) {
+    Index count = 0;
+    for (Index o = 0; o < all_observations_; ++o) {
+      now_[o] = best_[o] != kUnpaired && doubtful(o, best_[o]) ? 1 : 0;
+      count += now_[o];
+    }
+    if (count >= support) return;
+    for (Index o = 0; o < all_observations_; ++o)
+      if (now_[o] != 0) {
+        best_[o] = kUnpaired;
+        --best_pairs_;
+      }
+  }
+
   // --- of the last call ---
   Index chosen(Index observation) const { return best_[observation]; }  // number of a candidate, or kUnpaired
   Index pairs() const { return best_pairs_; }
@@ -71,7 +89,7 @@ class Association {
 
   const PairCandidate* candidates_ = nullptr;
   const Innovations* innovations_ = nullptr;
-  Index observations_ = 0, rows_ = 0, budget_ = 0;
+  Index observations_ = 0, all_observations_ = 0, rows_ = 0, budget_ = 0;
 
   Index* first_;      // by observation: its first candidate; one more at the end
   Index* order_;      // by depth of the search: observation

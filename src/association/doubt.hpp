@@ -2,17 +2,23 @@
 // Whether a pair that fits may still be chance (docs/association.md, "Doubt").
 #pragma once
 
+#include <limits>
+
 #include "ekf/iterate.hpp"
 #include "geometry/types.hpp"
 
 namespace cairn {
 
-// Whether nu^T S^-1 nu <= bound. nu_r^2 / S_rr never exceeds that, and most pairs are far apart.
-inline bool within_bound(const Vector3& nu, const Matrix3& S, Index rows, double bound) {
+// nu^T S^-1 nu, or infinity where it exceeds the bound. nu_r^2 / S_rr never exceeds it, and most pairs are far apart.
+inline double distance_within(const Vector3& nu, const Matrix3& S, Index rows, double bound) {
+  constexpr double kBeyond = std::numeric_limits<double>::infinity();
   for (Index r = 0; r < rows; ++r)
-    if (!(nu(r) * nu(r) <= bound * S(r, r))) return false;
+    if (!(nu(r) * nu(r) <= bound * S(r, r))) return kBeyond;
   const double distance = squared_distance(nu.data(), S.data(), 3, rows);
-  return distance >= 0.0 && distance <= bound;
+  return distance >= 0.0 && distance <= bound ? distance : kBeyond;
+}
+inline bool within_bound(const Vector3& nu, const Matrix3& S, Index rows, double bound) {
+  return distance_within(nu, S, rows, bound) <= bound;
 }
 
 // Of a pair with innovation covariance S, `noise` included.

@@ -27,6 +27,10 @@ cairn_filter_options default_options() {
   options.join = CAIRN_JOIN_AUTO;
   options.association = CAIRN_ASSOCIATION_KNOWN;
   options.vehicle = CAIRN_VEHICLE_SPATIAL;
+  options.association_distance = CAIRN_DISTANCE_MAHALANOBIS;
+  options.deferred_sightings = static_cast<std::uint32_t>(d.deferred_sightings);
+  options.deferred_frames = static_cast<std::uint32_t>(d.deferred_frames);
+  options.missed_frames = static_cast<std::uint32_t>(d.missed_frames);
   options.association_nodes = static_cast<std::uint32_t>(d.association_nodes);
   options.new_probability = d.new_probability;
   return options;
@@ -61,6 +65,13 @@ void check_filter_options(const cairn_filter_options& o) {
                 "CAIRN_ASSOCIATION_JOINT",
                 o.association);
   check_range(o.association_nodes, 1, 1000000, "options.association_nodes");
+  if (o.association_distance != CAIRN_DISTANCE_MAHALANOBIS && o.association_distance != CAIRN_DISTANCE_LIKELIHOOD)
+    throw Error(ErrorCode::argument,
+                "options.association_distance is %d, neither CAIRN_DISTANCE_MAHALANOBIS nor CAIRN_DISTANCE_LIKELIHOOD",
+                o.association_distance);
+  check_range(o.deferred_sightings, 1, 1000, "options.deferred_sightings");
+  check_range(o.deferred_frames, 1, 1000000, "options.deferred_frames");
+  check_range(o.missed_frames, 0, 1000000, "options.missed_frames");
   check_probability(o.new_probability, "options.new_probability");
   if (o.new_probability == 1.0)
     throw Error(ErrorCode::argument, "options.new_probability is 1: no observation would ever place a landmark");
@@ -91,6 +102,11 @@ FilterOptions<Pose> options_of(const cairn_filter_options& o) {
                                                                    : AssociationKind::known;
   options.association_nodes = o.association_nodes;
   options.new_probability = o.new_probability;
+  options.by_likelihood =
+      options.association == AssociationKind::nearest && o.association_distance == CAIRN_DISTANCE_LIKELIHOOD;
+  options.deferred_sightings = o.deferred_sightings;
+  options.deferred_frames = o.deferred_frames;
+  options.missed_frames = o.missed_frames;
   return options;
 }
 
@@ -210,6 +226,20 @@ cairn_status cairn_filter_point_head(cairn_filter* filter, int32_t sensor, doubl
   });
 }
 
+cairn_status cairn_filter_set_view(cairn_filter* filter, int32_t sensor, const double lower[3], const double upper[3]) {
+  return guard([&] {
+    with_filter(filter, [&](auto& f) {
+      const int rows = f.sensor_rows(sensor);
+      check_pointer(lower, "lower");
+      check_pointer(upper, "upper");
+      for (int i = 0; i < rows; ++i)
+        if (!(lower[i] < upper[i]))
+          throw Error(ErrorCode::argument, "lower[%d] is %g, and must be below upper[%d], %g", i, lower[i], i, upper[i]);
+      f.set_view(sensor, Vector3(lower), Vector3(upper));
+    });
+  });
+}
+
 cairn_status cairn_filter_set_wheels(cairn_filter* filter, const cairn_wheels* wheels) {
   return guard([&] { with_filter(filter, [&](auto& f) { f.set_wheels(read_wheels(wheels)); }); });
 }
@@ -259,6 +289,16 @@ cairn_status cairn_filter_predict_increment(cairn_filter* filter, const cairn_po
 
 cairn_status cairn_filter_remove_landmark(cairn_filter* filter, uint64_t id) {
   return guard([&] { with_filter(filter, [&](auto& f) { f.remove_landmark(id); }); });
+}
+
+cairn_status cairn_filter_split_landmark(cairn_filter* filter, uint64_t id, uint64_t fresh,
+                                         const double covariance[9]) {
+  return guard([&] {
+    with_filter(filter, [&](auto& f) {
+      if (fresh == CAIRN_ID_NONE) throw Error(ErrorCode::argument, "fresh is CAIRN_ID_NONE, which no landmark has");
+      f.split_landmark(id, fresh, read_point_covariance<PoseOf<decltype(f)>>(covariance, "covariance"));
+    });
+  });
 }
 
 cairn_status cairn_filter_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]) {

@@ -173,6 +173,15 @@ cairn_status cairn_filter_update_heading(cairn_filter* filter, double heading, d
   });
 }
 
+cairn_status cairn_filter_merge_landmarks(cairn_filter* filter, uint64_t id, uint64_t other, cairn_match* match) {
+  return guard([&] {
+    with_filter(filter, [&](auto& f) {
+      f.merge_landmarks(id, other);
+      write_matches(f, 1, match);
+    });
+  });
+}
+
 cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_report* report) {
   return guard([&] {
     with_filter(filter, [&](const auto& f) {
@@ -191,6 +200,8 @@ cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_r
       out.association_nodes = static_cast<std::uint32_t>(r.association_nodes);
       out.association_exhausted = r.association_exhausted ? 1 : 0;
       out.association_seconds = r.association_seconds;
+    out.deferred = static_cast<std::uint32_t>(r.deferred);
+    out.removed = static_cast<std::uint32_t>(r.removed);
       write_report(out, report);
     });
   });

@@ -135,6 +135,10 @@ class Ekf {
                bool relative);
   // Takes a landmark out; the last one moves into its slot.
   void remove(Index slot);
+  // Two landmarks change slots.
+  void exchange_landmarks(Index a, Index b);
+  // Appends one that stands where a landmark does, but for an error of its own. The caller minds the capacity.
+  void duplicate(Index slot, const PointSquare& noise);
 
   // --- companions --- numbered from 0, by the slots of their positions
   Index companions() const { return companions_; }

@@ -302,6 +302,25 @@ bool Ekf<Pose>::augment(const Point& position, const PointByPose& J_pose, const 
   return true;
 }
 
+// The invariant error xi_l = e_l - G(l) xi_R is that of the landmark, plus the noise: both stand at one place.
+template <class Pose>
+void Ekf<Pose>::duplicate(Index slot, const PointSquare& noise) {
+  const Index n = states(), from = state(slot);
+  for (Index c = 0; c < n; ++c)
+    for (Index d = 0; d < kDim; ++d) P(n + d, c) = symmetric(from + d, c);
+  for (Index c = 0; c < kDim; ++c)
+    for (Index r = c; r < kDim; ++r) P(n + r, n + c) = P(from + r, from + c) + noise(r, c);
+  std::memcpy(landmarks_ + kDim * size_, landmarks_ + kDim * slot, kDim * sizeof(double));
+  ++size_;
+}
+
+template <class Pose>
+void Ekf<Pose>::exchange_landmarks(Index a, Index b) {
+  if (a == b) return;
+  for (Index d = 0; d < kDim; ++d) exchange(state(a) + d, state(b) + d);
+  std::swap_ranges(landmarks_ + kDim * a, landmarks_ + kDim * (a + 1), landmarks_ + kDim * b);
+}
+
 template <class Pose>
 void Ekf<Pose>::remove(Index slot) {
   // Motion held back needs no part in it: it reaches each landmark by its position alone.

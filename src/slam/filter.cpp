@@ -11,6 +11,7 @@
 #include "slam/filter_absolute.hpp"
 #include "slam/filter_association.hpp"
 #include "slam/filter_companions.hpp"
+#include "slam/filter_landmarks.hpp"
 #include "slam/filter_submaps.hpp"
 #include "slam/filter_update.hpp"
 
@@ -24,7 +25,9 @@ Filter<Pose>::Filter(Arena& arena, const FilterOptions<Pose>& options)
       frame_ids_(arena, static_cast<std::size_t>(options.max_observations)),
       ids_(arena.take<std::uint64_t>(options.slots())),
       counts_(arena.take<std::uint64_t>(options.slots())),
+      sightings_(arena.take<Sightings>(options.slots())),
       sensor_storage_(arena.take<unsigned char>(options.max_sensors * sizeof(AnySensorSlot))),
+      views_(arena.take<View>(options.max_sensors)),
       observations_(arena.take<Observation>(options.max_observations)),
       matches_(arena.take<Match>(options.max_observations)),
       next_matches_(arena.take<Match>(options.max_observations)),
@@ -113,37 +116,9 @@ void Filter<Pose>::propagate(const Increment<Pose>& increment) {
 }
 
 template <class Pose>
-void Filter<Pose>::forget_local(std::int32_t slot) {
-  const Index last = ekf_.size() - 1;
-  const std::uint64_t id = ids_[slot];
-  ekf_.remove(slot);
-  slots_.erase(id);
-  if (slot != last) move_slot(last, slot);
-}
-
-// Names of a landmark whose values have moved.
-template <class Pose>
-void Filter<Pose>::move_slot(Index from, Index to) {
-  ids_[to] = ids_[from];
-  counts_[to] = counts_[from];
-  slots_.set(ids_[to], static_cast<std::int32_t>(to));
-}
-
-template <class Pose>
-void Filter<Pose>::remove_landmark(std::uint64_t id) {
-  const std::int32_t slot = slots_.find(id);
-  std::size_t index = 0;
-  const bool mapped = map_ != nullptr && map_->find(id, index);
-  if (slot == IdTable::kAbsent && !mapped)
-    throw Error(ErrorCode::not_found, "id: the map has no landmark %llu", static_cast<unsigned long long>(id));
-  if (mapped) map_->remove(id);
-  if (slot != IdTable::kAbsent) forget_local(slot);
-}
-
-template <class Pose>
 bool Filter<Pose>::find(std::uint64_t id, std::size_t& index) const {
   const std::int32_t slot = slots_.find(id);
-  if (slot == IdTable::kAbsent) return false;
+  if (slot == IdTable::kAbsent || slot >= first_deferred()) return false;
   index = static_cast<std::size_t>(slot - ekf_.companions());
   return true;
 }

@@ -51,6 +51,11 @@ struct FilterOptions {
   Index association_nodes = 2000;
   Index association_support = 3;    // pairs of a frame that could be chance are taken where there are so many
   double new_probability = 0.9999;  // what is nearer than that to a landmark places none
+  bool by_likelihood = false;       // nearest neighbour: least d^2 + log det S, instead of least d^2
+
+  Index deferred_sightings = 1;  // a landmark counts once it was observed so often
+  Index deferred_frames = 20;    // and goes if it does not within so many frames
+  Index missed_frames = 0;       // one that was in view and not seen so many times in a row goes; 0: never
 
   double step_tolerance = 1e-2;  // of the sparse joining, see MapOptions
 
@@ -101,6 +106,8 @@ struct UpdateReport {
   Index association_nodes = 0;
   bool association_exhausted = false;
   double association_seconds = 0.0;
+  Index deferred = 0;  // landmarks that do not count yet, after it
+  Index removed = 0;   // that were missed, or never came to count
 };
 
 // Sensors that a filter can hold.
@@ -146,6 +153,8 @@ class Filter final : public Landmarks {
   }
   int sensor_rows(int sensor) { return sensor_at(sensor).rows(); }
   void point_head(int sensor, double pan, double stick);
+  // What the sensor sees for sure: predicted observations within these bounds.
+  void set_view(int sensor, const Vector3& lower, const Vector3& upper);
   void set_sighting(int sensor, const MutualSighting& sighting);  // of an extended observation
 
   // --- motion --- throws where the result is not finite, with nothing changed
@@ -193,6 +202,12 @@ class Filter final : public Landmarks {
   const UpdateReport& report() const { return report_; }
 
   void remove_landmark(std::uint64_t id);
+  // Landmarks of the open submap or the single map. Merging tells the filter that two are one, gated as an observation:
+  // where it passes, `other` is gone. Splitting undoes a mistake: `fresh` stands where `id` does, but for an error.
+  void merge_landmarks(std::uint64_t id, std::uint64_t other) {
+    logged([&] { take_in_merge(id, other); });
+  }
+  void split_landmark(std::uint64_t id, std::uint64_t fresh, const PointSquare& covariance);
 
   // --- companions --- other vehicles, by the caller's names for them; a single map's alone. What is said above of
   // motion and observations holds for the vehicle from which the filter looks: at first its own, look_from() makes it
@@ -227,7 +242,7 @@ class Filter final : public Landmarks {
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 
   // Landmarks: of the open submap, or of the single map
-  std::size_t size() const override { return static_cast<std::size_t>(landmark_count()); }
+  std::size_t size() const override { return static_cast<std::size_t>(counting()); }
   std::uint64_t id(std::size_t index) const override { return ids_[slot_of(index)]; }
   std::uint64_t observations(std::size_t index) const override { return counts_[slot_of(index)]; }
   Vector3 position(std::size_t index) const override { return Embedding<Pose>::up(ekf_.landmark(slot_of(index))); }
@@ -265,17 +280,14 @@ class Filter final : public Landmarks {
   struct Unknowns {
     Unknowns(Arena& arena, const FilterOptions<Pose>& options);
     static constexpr Index kPairs = 8;  // of one observation, the nearest
-    Index most_landmarks, most_pairs, most_window;
+    Index most_landmarks, most_observations, most_pairs, most_window;
     Association association;
     Expected* expected;
     PairCandidate* pairs;
     Pair* details;
     Index* window;       // slots
     double* covariance;  // of pose and window
-    // By observation:
-    Match* nearest;
-    Index* chosen;  // pair, or kUnpaired
-    char* doubtful;
+    Match* nearest;      // by observation
     Index expected_count = 0, pair_count = 0, window_count = 0;
     std::uint64_t next_id = 0;
   };
@@ -290,12 +302,29 @@ class Filter final : public Landmarks {
       throw;
     }
   }
+  // Slots: companions, landmarks that count, landmarks that do not yet.
   Index landmark_count() const { return ekf_.size() - ekf_.companions(); }
+  Index counting() const { return landmark_count() - deferred_; }
+  Index first_deferred() const { return ekf_.size() - deferred_; }
   Index slot_of(std::size_t landmark) const { return ekf_.companions() + static_cast<Index>(landmark); }
   std::vector<Index> slots_of(const std::size_t* landmarks, std::size_t count) const;
   Index companion(std::uint64_t id) const;  // number, or -1
   Index companion_at(std::uint64_t id) const;
+  struct Sightings {  // of a landmark, by frames
+    std::uint64_t placed, seen;
+    Index missed;  // in a row
+  };
+  struct View {
+    bool set;
+    Vector3 lower, upper;
+  };
   void move_slot(Index from, Index to);
+  void exchange_slots(Index a, Index b);
+  void append_landmark(std::uint64_t id);
+  Index slot_at(std::uint64_t id) const;
+  void take_in_merge(std::uint64_t id, std::uint64_t other);
+  void review_landmarks(int sensor, Index count);
+  bool in_view(const Sensor<Pose>& sensor, const View& view, Index slot) const;
   void take_in(int sensor, Index count, Index companions);
   void take_in(const Linear& linear);
   void take_in(const AbsoluteFix<Pose>& fix);
@@ -309,7 +338,6 @@ class Filter final : public Landmarks {
   void predict_all(const Sensor<Pose>& sensor);
   void find_pairs(const Sensor<Pose>& sensor, Index count);
   bool confusable(const Sensor<Pose>& sensor, Index count, Index observation, const Pair& pair) const;
-  void demand_support(const Sensor<Pose>& sensor, Index count);
   void settle_pairs(const Sensor<Pose>& sensor, Index count);
   void add_candidate(const Sensor<Pose>& sensor, Index observation, Index slot, const Prediction<Pose>& prediction);
   void add_new_one(const Sensor<Pose>& sensor, Index observation);
@@ -349,9 +377,13 @@ class Filter final : public Landmarks {
   IdTable frame_ids_;
   std::uint64_t* ids_;  // by slot: those of companions are of vehicles
   std::uint64_t* counts_;
+  Sightings* sightings_;
+  Index deferred_ = 0;
+  std::uint64_t frames_ = 0;
   std::uint64_t vehicle_ = 0;  // looked from
 
   unsigned char* sensor_storage_;
+  View* views_;  // by sensor
   int sensor_count_ = 0;
   Wheels wheels_;
   TwistNoise twist_noise_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "association/doubt.hpp"
@@ -14,18 +15,17 @@ namespace cairn {
 template <class Pose>
 Filter<Pose>::Unknowns::Unknowns(Arena& arena, const FilterOptions<Pose>& options)
     : most_landmarks(options.association == AssociationKind::known ? 0 : options.local_landmarks()),
-      most_pairs(most_landmarks == 0 ? 0 : kPairs * options.max_observations),
-      most_window(std::min(most_landmarks, 2 * options.max_observations)),
-      association(arena, {most_landmarks == 0 ? 0 : options.max_observations, most_pairs, most_window}),
+      most_observations(most_landmarks == 0 ? 0 : options.max_observations),
+      most_pairs(kPairs * most_observations),
+      most_window(std::min(most_landmarks, 2 * most_observations)),
+      association(arena, {most_observations, most_pairs, most_window}),
       expected(arena.take<Expected>(static_cast<std::size_t>(most_landmarks))),
       pairs(arena.take<PairCandidate>(static_cast<std::size_t>(most_pairs))),
       details(arena.take<Pair>(static_cast<std::size_t>(most_pairs))),
       window(arena.take<Index>(static_cast<std::size_t>(most_window))),
       covariance(arena.take<double>(
           most_landmarks == 0 ? 0 : static_cast<std::size_t>((kDof + kDim * most_window) * (kDof + kDim * most_window)))),
-      nearest(arena.take<Match>(most_landmarks == 0 ? 0 : static_cast<std::size_t>(options.max_observations))),
-      chosen(arena.take<Index>(most_landmarks == 0 ? 0 : static_cast<std::size_t>(options.max_observations))),
-      doubtful(arena.take<char>(most_landmarks == 0 ? 0 : static_cast<std::size_t>(options.max_observations))) {}
+      nearest(arena.take<Match>(static_cast<std::size_t>(most_observations))) {}
 
 // Of the pairs that were found.
 template <class Pose>
@@ -40,8 +40,7 @@ class Filter<Pose>::PairInnovations final : public Innovations {
 
   Index rows() const override { return rows_; }
   double threshold(Index rows) const override {
-    return filter_.options_.batch_gate_probability >= 1.0 ? std::numeric_limits<double>::infinity()
-                                                          : filter_.batch_threshold(rows);
+    return filter_.batch_threshold(rows);
   }
   void innovation(Index a, double* nu) const override { std::copy_n(unknowns_.details[a].residual.data(), rows_, nu); }
   // J_a P J_b^T, and the noise of the mount's angles where all of a frame have it in common.
@@ -107,20 +106,23 @@ void Filter<Pose>::find_pairs(const Sensor<Pose>& sensor, Index count) {
     for (Index e = 0; e < u.expected_count; ++e) {
       const Vector3 residual = sensor.residual(z, u.expected[e].prediction.z);
       const Matrix3 S = u.expected[e].innovation + noise;
-      if (!within_bound(residual, S, rows, bound)) continue;
-      const double distance = squared_distance(residual.data(), S.data(), 3, rows);
+      const double distance = distance_within(residual, S, rows, bound);
+      if (distance > bound) continue;
       if (distance < nearest.distance) {
         nearest.distance = distance;
         nearest.landmark = ids_[u.expected[e].slot];
       }
       if (!(distance <= gate)) continue;
-      Index at = u.pair_count;  // sorted by distance; the farthest goes where there is no room
-      if (at - begin == Unknowns::kPairs && distance >= u.pairs[--at].distance) continue;
-      for (; at > begin && distance < u.pairs[at - 1].distance; --at) {
+      // The likelihood of a pair also asks how wide its gate is: -2 log p = d^2 + log det S but for a constant.
+      const double cost =
+          options_.by_likelihood ? distance + std::log(S.topLeftCorner(rows, rows).determinant()) : distance;
+      Index at = u.pair_count;  // sorted by cost; the worst goes where there is no room
+      if (at - begin == Unknowns::kPairs && cost >= u.pairs[--at].distance) continue;
+      for (; at > begin && cost < u.pairs[at - 1].distance; --at) {
         u.pairs[at] = u.pairs[at - 1];
         u.details[at] = u.details[at - 1];
       }
-      u.pairs[at] = {i, e, distance};
+      u.pairs[at] = {i, e, cost};
       u.details[at] = {e, residual, S};
       u.pair_count = std::min(u.pair_count + 1, begin + Unknowns::kPairs);
     }
@@ -156,22 +158,6 @@ bool Filter<Pose>::confusable(const Sensor<Pose>& sensor, Index count, Index obs
   return false;
 }
 
-// Pairs that could be chance are taken together or not at all: at the first sight of a known place one of them fits
-// easily, and would bend the map; several fit by chance together hardly ever.
-template <class Pose>
-void Filter<Pose>::demand_support(const Sensor<Pose>& sensor, Index count) {
-  Index doubtful = 0;
-  for (Index i = 0; i < count; ++i) {
-    const Index chosen = unknowns_.association.chosen(i);
-    unknowns_.chosen[i] = chosen;
-    unknowns_.doubtful[i] = chosen != kUnpaired && confusable(sensor, count, i, unknowns_.details[chosen]) ? 1 : 0;
-    doubtful += unknowns_.doubtful[i];
-  }
-  if (doubtful >= options_.association_support) return;
-  for (Index i = 0; i < count; ++i)
-    if (unknowns_.doubtful[i] != 0) unknowns_.chosen[i] = kUnpaired;
-}
-
 // What was paired goes to the batch; of the rest, what is far from every landmark is new.
 template <class Pose>
 void Filter<Pose>::settle_pairs(const Sensor<Pose>& sensor, Index count) {
@@ -179,7 +165,7 @@ void Filter<Pose>::settle_pairs(const Sensor<Pose>& sensor, Index count) {
   for (Index i = 0; i < count; ++i) {
     Match& match = next_matches_[i];
     const Match& nearest = unknowns_.nearest[i];
-    const Index chosen = unknowns_.chosen[i];
+    const Index chosen = unknowns_.association.chosen(i);
     if (chosen != kUnpaired) {
       const Expected& expected = unknowns_.expected[unknowns_.details[chosen].expected];
       match.landmark = ids_[expected.slot];
@@ -212,7 +198,9 @@ void Filter<Pose>::sort_by_association(const Sensor<Pose>& sensor, Index count) 
       say("update: association stopped at %td joint tests, with %td of %td observations paired", u.association.nodes(),
           u.association.pairs(), count);
   }
-  demand_support(sensor, count);
+  u.association.demand_support(options_.association_support, [&](Index observation, Index pair) {
+    return confusable(sensor, count, observation, u.details[pair]);
+  });
   settle_pairs(sensor, count);
   next_report_.association_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -34,7 +34,11 @@ void Filter<Pose>::add_vehicle(std::uint64_t id, const Pose& pose, const Square&
   const Index last = ekf_.size();
   if (!ekf_.add_companion(pose, J_pose, noise))
     throw Error(ErrorCode::numerical, "vehicle: its pose or covariance would not be finite; nothing was changed");
-  if (last > k) move_slot(k, last);
+  if (last > k) {
+    move_slot(k, last);
+    // Among those that count, if it does.
+    if (deferred_ > 0 && counting() > 0) exchange_slots(last, first_deferred() - 1);
+  }
   ids_[k] = id;
   counts_[k] = 0;
 }
@@ -45,7 +49,10 @@ void Filter<Pose>::remove_vehicle(std::uint64_t id) {
   ekf_.remove_companion(k);
   ids_[k] = ids_[last];
   counts_[k] = counts_[last];
-  if (end > last) move_slot(end, last);
+  if (end > last) {
+    move_slot(end, last);
+    if (deferred_ > 0) exchange_slots(last, first_deferred());
+  }
 }
 
 template <class Pose>

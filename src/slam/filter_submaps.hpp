@@ -77,8 +77,8 @@ std::size_t Filter<Pose>::required_bytes(const FilterOptions<Pose>& options) {
 // Which limit the open submap has reached.
 template <class Pose>
 ClosedBy Filter<Pose>::full() const {
-  if (ekf_.size() >= options_.submap_landmarks) return ClosedBy::landmarks;
-  if (ekf_.size() == 0) return ClosedBy::none;
+  if (counting() >= options_.submap_landmarks) return ClosedBy::landmarks;
+  if (counting() == 0) return ClosedBy::none;
   if (options_.submap_distance > 0.0 && driven_ >= options_.submap_distance) return ClosedBy::distance;
   if (options_.submap_extent > 0.0)
     for (Index slot = 0; slot < ekf_.size(); ++slot)
@@ -95,18 +95,18 @@ ClosedBy Filter<Pose>::full() const {
 template <class Pose>
 Submap<Pose> Filter<Pose>::take_submap() const {
   Submap<Pose> submap;
-  const Index n = ekf_.states();
+  const Index count = counting(), n = kDof + kDim * count;
   submap.error = options_.error;
   submap.T_base_end = ekf_.pose();
-  submap.ids.assign(ids_, ids_ + ekf_.size());
-  submap.counts.assign(counts_, counts_ + ekf_.size());
-  std::vector<Index> slots(static_cast<std::size_t>(ekf_.size()));
-  for (Index slot = 0; slot < ekf_.size(); ++slot) {
+  submap.ids.assign(ids_, ids_ + count);
+  submap.counts.assign(counts_, counts_ + count);
+  std::vector<Index> slots(static_cast<std::size_t>(count));
+  for (Index slot = 0; slot < count; ++slot) {
     slots[slot] = slot;
     submap.landmarks.push_back(ekf_.landmark(slot));
   }
   submap.covariance.resize(n, n);
-  ekf_.gather(slots.data(), ekf_.size(), submap.covariance.data(), n);
+  ekf_.gather(slots.data(), count, submap.covariance.data(), n);
   return submap;
 }
 
@@ -116,7 +116,7 @@ void Filter<Pose>::join_submap(ClosedBy reason, FixRequest<Pose>* fix) {
   ClosingReport next;
   const auto begin = std::chrono::steady_clock::now();
   next.reason = reason;
-  next.landmarks = ekf_.size();
+  next.landmarks = counting();
   Submap<Pose> submap = take_submap();
   if (options_.association != AssociationKind::known) {
     if constexpr (kDim == 3)  // TEMPORARY
@@ -128,6 +128,7 @@ void Filter<Pose>::join_submap(ClosedBy reason, FixRequest<Pose>* fix) {
   next.join = map_->join_and_fix(submap, fix);
   ekf_.start(Pose(), Square::Zero());
   slots_.clear();
+  deferred_ = 0;  // those that do not count yet have to be found again
   driven_ = 0.0;
   frames_to_wait_ = 0;
   next_wait_ = 1;
@@ -143,7 +144,7 @@ template <class Pose>
 void Filter<Pose>::close_submap() {
   if (map_ == nullptr)
     throw Error(ErrorCode::state, "filter: it keeps a single map; create it with submap_landmarks to have submaps");
-  if (ekf_.size() == 0) throw Error(ErrorCode::state, "filter: the open submap holds no landmark; nothing to close");
+  if (counting() == 0) throw Error(ErrorCode::state, "filter: the open submap holds no landmark; nothing to close");
   join_submap(ClosedBy::caller);
 }
 
@@ -162,7 +163,7 @@ void Filter<Pose>::close_if_full() {
   failed.failed = true;
   failed.submaps = map_->submap_count();
   failed.reason = reason;
-  failed.landmarks = ekf_.size();
+  failed.landmarks = counting();
   try {
     return join_submap(reason);
   } catch (const Error& error) {

@@ -193,9 +193,7 @@ void Filter<Pose>::keep(Index count, Index rows) {
 template <class Pose>
 void Filter<Pose>::gate_batch(const Sensor<Pose>& sensor) {
   if (ekf_.batch().rows() == 0) return;
-  const auto bound = [&](Index rows) {
-    return options_.batch_gate_probability >= 1.0 ? std::numeric_limits<double>::infinity() : batch_threshold(rows);
-  };
+  const auto bound = [&](Index rows) { return batch_threshold(rows); };
   const Index left = gate_jointly(
       ekf_, candidate_count_, sensor.rows(), residual_, bound, [&](Index a) { return candidates_[a].slot < 0; },
       [&](Index a, double distance, double threshold) {
@@ -230,14 +228,11 @@ void Filter<Pose>::place_new(const Sensor<Pose>& sensor) {
         J_z.lazyProduct(noise_of(sensor, observation).topLeftCorner(rows, rows).eval().lazyProduct(J_z.transpose()));
     if (mode == MountNoise::per_observation)
       noise += placement.J_landmark_mount * sensor.mount_noise() * placement.J_landmark_mount.transpose();
-    const Index slot = ekf_.size();
     if (!ekf_.augment(placement.landmark, placement.J_landmark_pose,
                       mode == MountNoise::per_frame ? &placement.J_landmark_mount : nullptr, noise, sensor.relative()))
       continue;
     const std::uint64_t id = options_.association == AssociationKind::known ? observation.id : unknowns_.next_id++;
-    ids_[slot] = id;
-    counts_[slot] = 1;
-    slots_.set(id, static_cast<std::int32_t>(slot));
+    append_landmark(id);
     match = {id, Decision::placed, Reason::none, 0.0, 0.0};
   }
 }
@@ -261,6 +256,7 @@ void Filter<Pose>::take_in(int sensor_number, Index landmarks, Index companions)
   }
   place_new(sensor);
   finish_report(count);
+  review_landmarks(sensor_number, landmarks);
 }
 
 }  // namespace cairn
