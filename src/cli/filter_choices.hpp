@@ -20,12 +20,20 @@ struct FilterChoices {
   double submap_sigma = 0;                        // m; 0: no matter
   std::int32_t join = CAIRN_JOIN_AUTO;
   std::int32_t association = CAIRN_ASSOCIATION_KNOWN;
+  std::int32_t association_distance = CAIRN_DISTANCE_MAHALANOBIS;
+  std::optional<std::uint32_t> deferred_sightings, deferred_frames;
   std::uint64_t forget_after = 0;  // frames; 0: never
   std::optional<double> gate;
   std::optional<double> batch_gate;
   std::optional<std::uint32_t> iterations;
   std::optional<std::uint32_t> max_landmarks;
 
+  void apply_association(cairn_filter_options& options) const {
+    options.association = association;
+    options.association_distance = association_distance;
+    options.deferred_sightings = deferred_sightings.value_or(options.deferred_sightings);
+    options.deferred_frames = deferred_frames.value_or(options.deferred_frames);
+  }
   bool names_known() const { return association == CAIRN_ASSOCIATION_KNOWN; }
 };
 

@@ -105,6 +105,10 @@ void add_filter_options(OptionTable& table, FilterChoices& o) {
   table.push_back(number("--submap-sigma", Range::kNotNegative, o.submap_sigma));
   table.push_back(choice("--join", {"auto", "dense", "sparse"}, o.join));
   table.push_back(choice("--association", {"known", "nearest", "joint"}, o.association));
+  static_assert(CAIRN_DISTANCE_MAHALANOBIS == 0 && CAIRN_DISTANCE_LIKELIHOOD == 1);
+  table.push_back(choice("--association-distance", {"mahalanobis", "likelihood"}, o.association_distance));
+  table.push_back(whole("--deferred-sightings", 1, 1000, o.deferred_sightings));
+  table.push_back(whole("--deferred-frames", 1, 1000000, o.deferred_frames));
   table.push_back({"--forget-after", true, [&o](const std::string& v) {
                      o.forget_after = parse_whole("--forget-after", v, 0, std::numeric_limits<std::uint64_t>::max());
                    }});

@@ -36,7 +36,7 @@ void Runner::create() {
   options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
   // A submap that one frame fills is not worth its closing.
   constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
-  options.association = choices_.association;
+  choices_.apply_association(options);
   options.submap_landmarks = choices_.submap_landmarks.value_or(
       std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations)));
   has_submaps_ = options.submap_landmarks > 0;

@@ -62,7 +62,7 @@ TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
   const std::uint32_t room = drive_.landmarks() * (choices.names_known() ? 1 : 4);
   filter.max_landmarks = choices.max_landmarks.value_or(std::max<std::uint32_t>(1, room));
   filter.max_observations = std::max<std::uint32_t>(1, drive_.largest_frame());
-  filter.association = choices.association;
+  choices.apply_association(filter);
   filter.iterations = choices.iterations.value_or(filter.iterations);
   filter.gate_probability = choices.gate.value_or(filter.gate_probability);
   filter.batch_gate_probability = choices.batch_gate.value_or(filter.batch_gate_probability);

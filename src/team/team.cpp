@@ -175,6 +175,8 @@ void Team::leave() {
   packet.number = own().next + own().waiting.size();
   packet.time = own().heard;
   send(packet);
+  left_ = true;
+  settle();  // no own step is waited for any more
 }
 
 bool Team::take_packet(std::vector<std::uint8_t>& bytes) {
@@ -326,6 +328,10 @@ bool Team::next_turns(std::vector<Turn>& turns) {
     earliest = std::min(earliest, head(member)->second.packet.time);
   }
   if (earliest == std::numeric_limits<double>::infinity()) return false;
+  // A teammate that is ahead waits for the own step, as that one's waits for it at every other vehicle: without, each
+  // would take things in in an order of its own.
+  const Member& self = own();
+  if (self.waiting.empty() && !left_ && !(self.started && earliest <= self.heard)) return false;
   for (Member& member : members_) {
     const auto packet = head(member);
     if (packet == member.waiting.end() || packet->second.packet.time > earliest + options_.time_tolerance) continue;

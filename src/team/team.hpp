@@ -142,6 +142,7 @@ class Team {
   std::optional<Error> own_error_;
   TeamCounts counts_;
   Score score_;
+  bool left_ = false;  // the own vehicle bade farewell
 };
 
 }  // namespace cairn

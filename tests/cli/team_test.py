@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Teams in the program: cairn simulate usv in its modes and compared, and cairn run of a MRCLAM folder."""
+import json
+import math
+import os
+import unittest
+
+from support import ProgramTest, call
+
+DATA = os.environ.get("CAIRN_DATA_DIR", "")
+MODES = ("mono", "eo_diagonal", "eo_full", "joint", "submaps")
+
+
+def means(figures, key):
+    return [value for name, value in figures.items() if name.startswith("vehicle_") and name.endswith(key)]
+
+
+class Usv(ProgramTest):
+    def usv(self, *options):
+        return self.figures("simulate", "usv", *options)
+
+    def untimed(self, figures):
+        return {key: value for key, value in figures.items() if "_ms" not in key}
+
+    def test_modes(self):
+        alone = self.usv("--mode", "mono")
+        self.assertEqual((alone["vehicles"], alone["steps"], alone["rejected"]), (2, 301, 0))
+        self.assertEqual((alone["claimed_improvement"], alone["true_improvement"]), (0, 0))
+        claimed = {}
+        for mode in MODES[1:]:
+            s = self.usv("--mode", mode, "--runs", "5")
+            claimed[mode] = s["claimed_improvement"]
+            self.assertTrue(0.3 < s["pose_anees_per_dof"] < 4, (mode, s))
+        # Information: alone <= extended observations <= joint; the diagonal one claims what it does not have.
+        self.assertGreater(claimed["joint"], claimed["eo_full"] + 0.1)
+        self.assertGreater(claimed["eo_diagonal"], claimed["eo_full"])
+        self.assertGreater(claimed["eo_full"], 0)
+
+    def test_same_seed_same_figures(self):
+        one, again, other = (self.untimed(self.usv("--seed", seed)) for seed in ("7", "7", "8"))
+        self.assertEqual(one, again)
+        self.assertNotEqual(one["pose_rmse_m"], other["pose_rmse_m"])
+
+    def test_every_option_matters(self):
+        plain = self.usv()["vehicle_1_pose_rmse_m"]
+        for options in (["--features=20"], ["--vehicles", "3"], ["--layout", "coast"], ["--separation=800"],
+                        ["--duration=800"], ["--period=10"], ["--far-range=3000"], ["--range-noise=10"],
+                        ["--bearing-noise=0.01"], ["--velocity-noise=0.1"], ["--rate-noise=0.003"], ["--mode=mono"],
+                        ["--error=standard"], ["--iterations=1"], ["--gate=0.9"]):
+            self.assertNotEqual(self.usv(*options)["vehicle_1_pose_rmse_m"], plain, options)
+
+    def test_every_vehicle_ends_with_the_same_map(self):
+        s = self.usv("--vehicles", "3", "--output", self.path("out"))
+        maps = {}
+        for row in self.read_csv(self.path("out"), "team_landmarks.csv"):
+            maps.setdefault(row["vehicle"], {})[row["id"]] = (float(row["x"]), float(row["y"]))
+        self.assertEqual(set(maps), {"1", "2", "3"})
+        for other in ("2", "3"):
+            self.assertEqual(set(maps[other]), set(maps["1"]))
+            for name, (x, y) in maps["1"].items():
+                self.assertLess(math.hypot(maps[other][name][0] - x, maps[other][name][1] - y), 1e-6)
+        rows = self.read_csv(self.path("out"), "team_trajectories.csv")
+        self.assertEqual(len(rows), 3 * s["steps"])
+        late = [row for row in rows if row["vehicle"] == "2" and float(row["step"]) >= 0.1 * s["steps"]]
+        square = [(float(r["x"]) - float(r["true_x"])) ** 2 + (float(r["y"]) - float(r["true_y"])) ** 2 for r in late]
+        self.assertAlmostEqual(math.sqrt(sum(square) / len(square)), s["vehicle_2_pose_rmse_m"], places=5)
+        with open(os.path.join(self.path("out"), "summary.json")) as file:
+            self.assertEqual(self.untimed(json.load(file)), self.untimed(s))
+
+    def test_withheld_ids(self):
+        s = self.usv("--features", "6", "--association", "joint", "--range-noise", "3", "--bearing-noise", "0.001")
+        self.assertGreater(s["paired"], 1000)
+        self.assertLess(s["wrong_pairings"], 0.01 * s["paired"])
+
+    def test_compare(self):
+        done = call("simulate", "usv", "--compare", "--runs", "2", "--quiet", "--output", self.path("out"))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        lines = done.stdout.splitlines()
+        self.assertEqual(len(lines), 1 + 3 * len(MODES))
+        for features, paper in (("6", "50 %"), ("10", "40 %"), ("40", "30 %")):
+            of_these = [line for line in lines if line.split()[0] == features]
+            self.assertEqual(sorted(line.split()[1] for line in of_these), sorted(MODES))
+            self.assertEqual(sum(paper in line[-8:] for line in of_these), 1)
+        rows = self.read_csv(self.path("out"), "team_compare.csv")
+        self.assertEqual(len(rows), 3 * len(MODES))
+        with open(os.path.join(self.path("out"), "summary.json")) as file:
+            summary = json.load(file)
+        for row in rows:
+            own = summary[f"{row['mode']}_{row['features']}"]
+            self.assertAlmostEqual(100 * own["claimed_improvement"], float(row["claimed"]), places=3)
+
+    def test_bad_usage(self):
+        for arguments, word in ((["--mode", "friends"], "eo_full"), (["--vehicles", "0"], "1 to 64"),
+                                (["--course", "laps"], "--course"), (["mars"], "second"),
+                                (["--features", "0"], "1 to 1000")):
+            self.assert_refused(call("simulate", "usv", *arguments), word)
+        self.assert_refused(call("simulate", "usv", "--separation", "9000"), "separation", status=1)
+
+
+def mrclam_folder(folder, robots=2, spoil=None):
+    """Robots that drive circles and see four posts and each other, every second, without noise."""
+    os.makedirs(folder)
+    posts = {6: (3.0, 0.0), 7: (0.0, 3.0), 8: (-3.0, 1.0), 9: (1.0, -3.0)}
+    files = {"Barcodes.dat": "# subject barcode\n" + "".join(f"{s} {10 + s}\n" for s in [*range(1, robots + 1), *posts]),
+             "Landmark_Groundtruth.dat": "".join(f"{s} {x} {y} 0 0\n" for s, (x, y) in posts.items())}
+
+    def pose(robot, t):
+        heading = 0.2 * t
+        return (robot - 1.5 + 0.5 * math.sin(heading), -0.5 * math.cos(heading), heading)
+    for robot in range(1, robots + 1):
+        odometry = "".join(f"{0.1 * k:.1f} 0.1 0.2\n" for k in range(600))
+        truth, seen = "", ""
+        for k in range(600):
+            x, y, heading = pose(robot, 0.1 * k)
+            truth += f"{0.1 * k:.1f} {x:.9f} {y:.9f} {heading:.9f}\n"
+            if k % 10 != 5:
+                continue
+            targets = dict(posts)
+            for other in range(1, robots + 1):
+                if other != robot:
+                    targets[other] = pose(other, 0.1 * k)[:2]
+            for subject, (px, py) in targets.items():
+                bearing = math.remainder(math.atan2(py - y, px - x) - heading, 2 * math.pi)
+                seen += f"{0.1 * k:.1f} {10 + subject} {math.hypot(px - x, py - y):.9f} {bearing:.9f}\n"
+        files[f"Robot{robot}_Odometry.dat"] = odometry
+        files[f"Robot{robot}_Groundtruth.dat"] = truth
+        files[f"Robot{robot}_Measurement.dat"] = seen
+    if spoil:
+        spoil(files)
+    for name, content in files.items():
+        with open(os.path.join(folder, name), "w") as file:
+            file.write(content)
+    return folder
+
+
+class Mrclam(ProgramTest):
+    def test_every_mode_follows_exact_measurements(self):
+        folder = mrclam_folder(self.path("robots"))
+        for mode in MODES:
+            s = self.summary(folder, "--mode", mode)
+            self.assertEqual((s["vehicles"], s["steps"], s["landmarks"]), (2, 60, 4))
+            self.assertLess(s["pose_rmse_m"], 0.02, mode)
+            self.assertLess(s["landmark_rmse_m"], 0.02, mode)
+
+    def test_ids_withheld(self):
+        folder = mrclam_folder(self.path("robots"))
+        s = self.summary(folder, "--association", "joint")
+        self.assertEqual((s["landmarks"], s["wrong_pairings"]), (4, 0))
+
+    def test_bad_folders(self):
+        self.assert_refused(call("run", mrclam_folder(self.path("a"), spoil=lambda f: f.pop("Robot2_Odometry.dat"))),
+                            "Robot2_Odometry.dat")
+        self.assert_refused(call("run", mrclam_folder(self.path("b"), spoil=lambda f: f.update(
+            {"Robot1_Odometry.dat": "0 0.1\n"}))), "Robot1_Odometry.dat:1")
+        folder = mrclam_folder(self.path("c"))
+        self.assert_refused(call("run", folder, "--mode", "all"), "--mode")
+        self.assert_refused(call("run", folder, folder), "second")
+
+    @unittest.skipUnless(DATA, "CAIRN_DATA_DIR is not set")
+    def test_five_real_robots(self):
+        folder = os.path.join(DATA, "mrclam7")
+        s = self.summary(folder)
+        self.assertEqual((s["vehicles"], s["landmarks"]), (5, 15))
+        self.assertLessEqual(s["pose_rmse_m"], 0.20)
+        self.assertLessEqual(s["landmark_rmse_m"], 0.12)
+        self.assertLessEqual(s["pose_anees_per_dof"], 3)
+        alone = self.summary(folder, "--mode", "mono")
+        self.assertGreater(alone["pose_rmse_m"], 2 * s["pose_rmse_m"])
+
+
+if __name__ == "__main__":
+    unittest.main()
