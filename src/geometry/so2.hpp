@@ -43,6 +43,8 @@ class SO2 {
     return Vector2(u_.x() * x.x() - u_.y() * x.y(), u_.y() * x.x() + u_.x() * x.y());
   }
   Vector1 adjoint() const { return Vector1(1.0); }
+  Vector1 adjoint(const Vector1& theta) const { return theta; }    // adjoint() theta
+  double chord() const { return (u_ - Vector2::UnitX()).norm(); }  // 2 sin(angle / 2)
 
   // Turns about one axis commute.
   static Vector1 left_jacobian(const Vector1&) { return Vector1(1.0); }
@@ -50,6 +52,10 @@ class SO2 {
 
   // d(Exp(theta) x) / dtheta at theta = 0.
   static Turn turn(const Vector2& x) { return Turn(-x.y(), x.x()); }
+  // With T = turn(x): T theta, T^T f and T^T T.
+  static Vector2 swing(const Vector1& theta, const Vector2& x) { return theta[0] * turn(x); }
+  static Vector1 moment(const Vector2& x, const Vector2& f) { return Vector1(x.x() * f.y() - x.y() * f.x()); }
+  static Vector1 inertia(const Vector2& x) { return Vector1(x.squaredNorm()); }
 
   // Translation of Exp([rho; theta]) is translation_jacobian(theta) rho.
   static Matrix2 translation_jacobian(const Vector1& theta) {

@@ -62,6 +62,8 @@ class SO3 {
   SO3 operator*(const SO3& other) const { return SO3((q_ * other.q_).normalized()); }
   Vector3 operator*(const Vector3& x) const { return q_ * x; }
   Matrix3 adjoint() const { return matrix(); }
+  Vector3 adjoint(const Vector3& theta) const { return q_ * theta; }  // adjoint() theta
+  double chord() const { return 2.0 * q_.vec().norm(); }              // 2 sin(angle / 2)
 
   // Exp(theta + d) = Exp(left_jacobian(theta) d) Exp(theta) to first order in d.
   static Matrix3 left_jacobian(const Vector3& theta) {
@@ -80,6 +82,10 @@ class SO3 {
 
   // d(Exp(theta) x) / dtheta at theta = 0.
   static Turn turn(const Vector3& x) { return -hat(x); }
+  // With T = turn(x): T theta, T^T f and T^T T.
+  static Vector3 swing(const Vector3& theta, const Vector3& x) { return theta.cross(x); }
+  static Vector3 moment(const Vector3& x, const Vector3& f) { return x.cross(f); }
+  static Matrix3 inertia(const Vector3& x) { return x.squaredNorm() * Matrix3::Identity() - x * x.transpose(); }
 
   // Translation of Exp([rho; theta]) is translation_jacobian(theta) rho.
   static Matrix3 translation_jacobian(const Vector3& theta) { return left_jacobian(theta); }

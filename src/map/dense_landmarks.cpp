@@ -30,7 +30,7 @@ Matrix blocks(const Matrix& from, const std::vector<std::size_t>& rows, const st
 
 }  // namespace
 
-DenseLandmarks::DenseLandmarks(const Landmarks& source) {
+DenseLandmarks::DenseLandmarks(const Landmarks& source) : planar_(source.planar()) {
   const std::size_t n = source.size();
   std::vector<std::size_t> all(n);
   std::iota(all.begin(), all.end(), std::size_t{0});

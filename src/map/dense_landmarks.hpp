@@ -14,7 +14,7 @@ namespace cairn {
 class DenseLandmarks final : public Landmarks {
  public:
   explicit DenseLandmarks(const Landmarks& source);
-  // `map` and `other` as one, in the frame of `map`: the estimate and its covariance given both.
+  // `map` and `other`, both of space, as one, in the frame of `map`: the estimate and its covariance given both.
   DenseLandmarks(const DenseLandmarks& map, const DenseLandmarks& other, const MergePlan& plan);
 
   std::size_t size() const override { return ids_.size(); }
@@ -24,8 +24,10 @@ class DenseLandmarks final : public Landmarks {
   Matrix3 covariance(std::size_t index) const override;
   bool find(std::uint64_t id, std::size_t& index) const override;
   void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override;
+  bool planar() const override { return planar_; }
 
  private:
+  bool planar_ = false;
   std::vector<std::uint64_t> ids_, counts_;
   std::vector<Vector3> positions_;
   Eigen::MatrixXd covariance_;  // both triangles

@@ -12,21 +12,24 @@
 namespace cairn {
 namespace {
 
-Ekf<SE3>::Capacity capacity_of(const MapOptions<SE3>& options) {
+template <class Pose>
+typename Ekf<Pose>::Capacity capacity_of(const MapOptions<Pose>& options) {
   return {static_cast<Index>(options.max_landmarks),
           static_cast<Index>(std::min(options.submap_capacity, options.max_landmarks))};
 }
 
-// Rows and columns of a symmetric matrix of 3 x 3 blocks behind 6 states of the pose.
+// Rows and columns of a symmetric matrix of the landmarks' blocks behind the states of the pose.
+template <class Pose>
 std::vector<Eigen::Index> states_of(const std::vector<Eigen::Index>& landmarks) {
   std::vector<Eigen::Index> states;
   for (const Eigen::Index i : landmarks)
-    for (Eigen::Index d = 0; d < 3; ++d) states.push_back(6 + 3 * i + d);
+    for (Eigen::Index d = 0; d < Pose::kDim; ++d) states.push_back(Pose::kDof + Pose::kDim * i + d);
   return states;
 }
 
 // How far landmarks moved between two states of the map.
-void measure_movement(const std::vector<Vector3>& before, const Ekf<SE3>& ekf, JoinReport& report) {
+template <class Pose>
+void measure_movement(const std::vector<typename Pose::Point>& before, const Ekf<Pose>& ekf, JoinReport& report) {
   double sum = 0.0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const double way = (ekf.landmark(static_cast<Index>(i)) - before[i]).squaredNorm();
@@ -38,9 +41,11 @@ void measure_movement(const std::vector<Vector3>& before, const Ekf<SE3>& ekf, J
 
 }  // namespace
 
-DenseMap::DenseMap(const MapOptions<SE3>& options) : DenseMap(options, required_bytes(options)) {}
+template <class Pose>
+DenseMap<Pose>::DenseMap(const MapOptions<Pose>& options) : DenseMap(options, required_bytes(options)) {}
 
-DenseMap::DenseMap(const MapOptions<SE3>& options, std::size_t bytes)
+template <class Pose>
+DenseMap<Pose>::DenseMap(const MapOptions<Pose>& options, std::size_t bytes)
     : options_(options),
       arena_(bytes),
       ekf_(arena_, options.error, capacity_of(options)),
@@ -50,16 +55,18 @@ DenseMap::DenseMap(const MapOptions<SE3>& options, std::size_t bytes)
   ekf_.start(options.initial_pose, options.initial_covariance);
 }
 
-std::size_t DenseMap::required_bytes(const MapOptions<SE3>& options) {
+template <class Pose>
+std::size_t DenseMap<Pose>::required_bytes(const MapOptions<Pose>& options) {
   Arena measure;
-  const Ekf<SE3> ekf(measure, options.error, capacity_of(options));
+  const Ekf<Pose> ekf(measure, options.error, capacity_of(options));
   const IdTable slots(measure, options.max_landmarks);
   measure.take<std::uint64_t>(options.max_landmarks);
   measure.take<std::uint64_t>(options.max_landmarks);
   return measure.used();
 }
 
-void DenseMap::open(const std::vector<Pair>& pairs) {
+template <class Pose>
+void DenseMap<Pose>::open(const std::vector<Pair>& pairs) {
   std::vector<Index> slots;
   for (const Pair& pair : pairs) slots.push_back(pair.slot);
   ekf_.open(slots.data(), static_cast<Index>(slots.size()), nullptr);
@@ -68,45 +75,48 @@ void DenseMap::open(const std::vector<Pair>& pairs) {
 // The submap's estimates of the known landmarks are observations from its base: y = R_S^T (l - p_S), with one full
 // noise block, their covariance in the submap. This is eq. 30 of the Mars paper with the rotation that its constant
 // Jacobian leaves out.
-bool DenseMap::linearise(const Submap<SE3>& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& noise,
-                         double* residual_only) {
-  const SE3 T = ekf_.iterate_pose();
+template <class Pose>
+bool DenseMap<Pose>::linearise(const Submap<Pose>& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& noise,
+                               double* residual_only) {
+  const Pose T = ekf_.iterate_pose();
   if (residual_only == nullptr) ekf_.batch().clear();
   for (std::size_t a = 0; a < pairs.size(); ++a) {
-    const Vector3 l = ekf_.iterate_landmark(static_cast<Index>(a));
-    const Vector3 residual = submap.landmarks[pairs[a].local] - T.inverse() * l;
+    const Point l = ekf_.iterate_landmark(static_cast<Index>(a));
+    const Point residual = submap.landmarks[pairs[a].local] - T.inverse() * l;
     double* target = residual_only != nullptr ? residual_only : ekf_.batch().residual();
-    std::copy_n(residual.data(), 3, target + 3 * a);
+    std::copy_n(residual.data(), kDim, target + kDim * a);
     if (residual_only != nullptr) continue;
-    Prediction<SE3> prediction;
-    map_jacobians(T, l, Matrix3::Identity(), prediction);
-    const Index row = ekf_.batch().add_rows(3);
-    const auto pose = ekf_.add_pose_block(row, 3, prediction.J_z_pose, true);
-    ekf_.add_landmark_block(row, 3, prediction.J_z_landmark, static_cast<Index>(a), pose);
+    Prediction<Pose> prediction;
+    map_jacobians(T, l, Prediction<Pose>::ByLandmark::Identity(), prediction);
+    const Index row = ekf_.batch().add_rows(kDim);
+    const auto pose = ekf_.add_pose_block(row, kDim, prediction.J_z_pose, true);
+    ekf_.add_landmark_block(row, kDim, prediction.J_z_landmark, static_cast<Index>(a), pose);
   }
   if (residual_only != nullptr) return true;
-  const std::size_t rows = 3 * pairs.size();
+  const std::size_t rows = kDim * pairs.size();
   double* block = ekf_.batch().add_noise(0, static_cast<Index>(rows));
   for (std::size_t c = 0; c < rows; ++c)
     for (std::size_t r = 0; r < rows; ++r)
-      block[c * rows + r] = noise(6 + 3 * pairs[r / 3].local + static_cast<Eigen::Index>(r % 3),
-                                  6 + 3 * pairs[c / 3].local + static_cast<Eigen::Index>(c % 3));
+      block[c * rows + r] = noise(kDof + kDim * pairs[r / kDim].local + static_cast<Eigen::Index>(r % kDim),
+                                  kDof + kDim * pairs[c / kDim].local + static_cast<Eigen::Index>(c % kDim));
   return true;
 }
 
 // Each pair by itself, then all jointly; what is refused leaves `pairs`. The batch stands factored at the end.
-void DenseMap::gate(const Submap<SE3>& submap, std::vector<Pair>& pairs, const Eigen::MatrixXd& noise, JoinReport& report) {
+template <class Pose>
+void DenseMap<Pose>::gate(const Submap<Pose>& submap, std::vector<Pair>& pairs, const Eigen::MatrixXd& noise,
+                          JoinReport& report) {
   const auto refill = [&] {
     open(pairs);
     fill_batch(ekf_, [&](double* residual_only) { return linearise(submap, pairs, noise, residual_only); });
   };
   refill();
-  const double single = chi_square_quantile(3, options_.gate_probability);
+  const double single = chi_square_quantile(kDim, options_.gate_probability);
   const Index m = ekf_.batch().rows();
   std::vector<Pair> passed;
   for (std::size_t a = 0; a < pairs.size(); ++a) {
     const double distance =
-        squared_distance(ekf_.batch().residual() + 3 * a, ekf_.innovation() + 3 * a * (m + 1), m, 3);
+        squared_distance(ekf_.batch().residual() + kDim * a, ekf_.innovation() + kDim * a * (m + 1), m, kDim);
     if (distance < 0.0) throw_not_definite();
     if (distance <= single) passed.push_back(pairs[a]);
   }
@@ -115,12 +125,12 @@ void DenseMap::gate(const Submap<SE3>& submap, std::vector<Pair>& pairs, const E
     refill();
   }
   std::vector<char> refused(pairs.size(), 0);
-  std::vector<double> u(3 * pairs.size());
+  std::vector<double> u(kDim * pairs.size());
   const auto bound = [&](Index rows) {
     return chi_square_quantile(static_cast<double>(rows), options_.joint_gate_probability);
   };
   const Index left = gate_jointly(
-      ekf_, static_cast<Index>(pairs.size()), 3, u.data(), bound, [&](Index a) { return refused[a] != 0; },
+      ekf_, static_cast<Index>(pairs.size()), kDim, u.data(), bound, [&](Index a) { return refused[a] != 0; },
       [&](Index a, double, double) { refused[a] = 1; });
   if (left < static_cast<Index>(pairs.size())) {
     passed.clear();
@@ -130,38 +140,41 @@ void DenseMap::gate(const Submap<SE3>& submap, std::vector<Pair>& pairs, const E
     refill();
     if (!ekf_.factor()) throw_not_definite();
   }
-  report.rows = 3 * pairs.size();
+  report.rows = kDim * pairs.size();
   report.distance = ekf_.nis();
   report.threshold = report.rows > 0 ? bound(static_cast<Index>(report.rows)) : 0.0;
 }
 
 // Fuses the known landmarks, by which the submap's rest moves, and hands that over.
-void DenseMap::fuse_and_compose(const Submap<SE3>& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& joint,
-                                const std::vector<Index>& slots, std::vector<Vector3>& landmarks,
-                                Ekf<SE3>::Handover& handover, JoinReport& report) {
-  Eigen::VectorXd shift = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * pairs.size()));
+template <class Pose>
+void DenseMap<Pose>::fuse_and_compose(const Submap<Pose>& submap, const std::vector<Pair>& pairs,
+                                      const Eigen::MatrixXd& joint, const std::vector<Index>& slots,
+                                      std::vector<Point>& landmarks, typename Ekf<Pose>::Handover& handover,
+                                      JoinReport& report) {
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDim * pairs.size()));
   if (!pairs.empty()) {
-    std::vector<double> residual(3 * pairs.size());
+    std::vector<double> residual(kDim * pairs.size());
     report.iterations =
         iterate_and_commit(ekf_, {options_.iterations, options_.iteration_tolerance, true}, residual.data(),
                            [&](double* residual_only) { return linearise(submap, pairs, joint, residual_only); });
-    const SE3 T_base_map = ekf_.pose().inverse();
+    const Pose T_base_map = ekf_.pose().inverse();
     for (std::size_t a = 0; a < pairs.size(); ++a)
-      shift.segment<3>(3 * static_cast<Eigen::Index>(a)) =
+      shift.segment<kDim>(kDim * static_cast<Eigen::Index>(a)) =
           T_base_map * ekf_.landmark(pairs[a].slot) - submap.landmarks[pairs[a].local];
   }
   const Eigen::VectorXd error = handover.K * shift;
-  const Vector3 turn = error.segment<3>(3);
+  const typename Rotation::Tangent turn = error.segment<kTurn>(kDim);
   const bool invariant = submap.error == ErrorKind::invariant;
-  const SO3 R = SO3::exp(turn);
-  const Matrix3 V = SO3::left_jacobian(turn);
-  const auto moved = [&](const Vector3& x, const Vector3& e) -> Vector3 {
+  const Rotation R = Rotation::exp(turn);
+  const typename Rotation::Matrix V = Rotation::translation_jacobian(turn);
+  const auto moved = [&](const Point& x, const Point& e) -> Point {
     if (!invariant) return x + e;
     return R * x + V * e;
   };
-  handover.T_base_end = SE3(R * submap.T_base_end.rotation(), moved(submap.T_base_end.translation(), error.head<3>()));
+  handover.T_base_end =
+      Pose(R * submap.T_base_end.rotation(), moved(submap.T_base_end.translation(), error.head<kDim>()));
   for (std::size_t a = 0; a < landmarks.size(); ++a)
-    landmarks[a] = moved(landmarks[a], error.segment<3>(6 + 3 * static_cast<Eigen::Index>(a)));
+    landmarks[a] = moved(landmarks[a], error.segment<kDim>(kDof + kDim * static_cast<Eigen::Index>(a)));
   handover.fused = slots.data();
   handover.fused_count = static_cast<Index>(slots.size());
   handover.fresh = landmarks.data();
@@ -169,7 +182,8 @@ void DenseMap::fuse_and_compose(const Submap<SE3>& submap, const std::vector<Pai
   ekf_.compose(handover);
 }
 
-JoinReport DenseMap::join_and_fix(const Submap<SE3>& submap, FixRequest<SE3>* fix) {
+template <class Pose>
+JoinReport DenseMap<Pose>::join_and_fix(const Submap<Pose>& submap, FixRequest<Pose>* fix) {
   JoinReport report;
   std::vector<Pair> pairs;
   std::vector<Eigen::Index> fresh;
@@ -194,11 +208,12 @@ JoinReport DenseMap::join_and_fix(const Submap<SE3>& submap, FixRequest<SE3>* fi
   report.refused = known - pairs.size();
 
   // The rest of the submap's error is K y + w by the fused landmarks' y.
-  std::vector<Eigen::Index> fused, rest{0, 1, 2, 3, 4, 5};
+  std::vector<Eigen::Index> fused, rest;
+  for (Eigen::Index d = 0; d < kDof; ++d) rest.push_back(d);
   for (const Pair& pair : pairs) fused.push_back(pair.local);
-  const std::vector<Eigen::Index> of_fused = states_of(fused), of_fresh = states_of(fresh);
+  const std::vector<Eigen::Index> of_fused = states_of<Pose>(fused), of_fresh = states_of<Pose>(fresh);
   rest.insert(rest.end(), of_fresh.begin(), of_fresh.end());
-  Ekf<SE3>::Handover handover;
+  typename Ekf<Pose>::Handover handover;
   const Eigen::MatrixXd cross = joint(of_fused, rest);
   handover.K = pairs.empty() ? Eigen::MatrixXd(rest.size(), 0)
                              : Eigen::MatrixXd(joint(of_fused, of_fused).ldlt().solve(cross).transpose());
@@ -207,14 +222,14 @@ JoinReport DenseMap::join_and_fix(const Submap<SE3>& submap, FixRequest<SE3>* fi
   if (!handover.K.allFinite() || !handover.W.allFinite()) throw_not_definite();
   std::vector<Index> slots;
   for (const Pair& pair : pairs) slots.push_back(pair.slot);
-  std::vector<Vector3> before, landmarks;
-  for (std::size_t i = 0; i < size(); ++i) before.push_back(position(i));
+  std::vector<Point> before, landmarks;
+  for (std::size_t i = 0; i < size(); ++i) before.push_back(ekf_.landmark(static_cast<Index>(i)));
   for (const Eigen::Index i : fresh) landmarks.push_back(submap.landmarks[i]);
   Closed closed{base(), submap.ids};
   if (closed_.size() == closed_.capacity()) closed_.reserve(2 * closed_.size() + 8);
 
   // Nothing was changed so far. The composition takes memory once more: if there is none, the update is taken back.
-  const Ekf<SE3>::Backup backup = ekf_.backup();
+  const typename Ekf<Pose>::Backup backup = ekf_.backup();
   try {
     fuse_and_compose(submap, pairs, joint, slots, landmarks, handover, report);
     if (fix != nullptr) fix->report = this->fix(fix->fix, fix->threshold);
@@ -229,12 +244,13 @@ JoinReport DenseMap::join_and_fix(const Submap<SE3>& submap, FixRequest<SE3>* fi
     slots_.set(ids_[slot], static_cast<std::int32_t>(slot));
   }
   for (const Pair& pair : pairs) counts_[pair.slot] += submap.counts[pair.local];
-  measure_movement(before, ekf_, report);
+  measure_movement<Pose>(before, ekf_, report);
   closed_.push_back(std::move(closed));
   return report;
 }
 
-FixReport DenseMap::fix(const AbsoluteFix<SE3>& fix, double threshold) {
+template <class Pose>
+FixReport DenseMap<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold) {
   FixReport report;
   const auto linearise = [&](double* residual_only) { return linearise_fix(ekf_, fix, residual_only); };
   ekf_.open(nullptr, 0, nullptr);
@@ -249,7 +265,8 @@ FixReport DenseMap::fix(const AbsoluteFix<SE3>& fix, double threshold) {
   return report;
 }
 
-void DenseMap::remove(std::uint64_t id) {
+template <class Pose>
+void DenseMap<Pose>::remove(std::uint64_t id) {
   const std::int32_t slot = slots_.find(id);
   if (slot == IdTable::kAbsent) return;
   const Index last = ekf_.size() - 1;
@@ -261,22 +278,29 @@ void DenseMap::remove(std::uint64_t id) {
   slots_.set(ids_[slot], slot);
 }
 
-bool DenseMap::find(std::uint64_t id, std::size_t& index) const {
+template <class Pose>
+bool DenseMap<Pose>::find(std::uint64_t id, std::size_t& index) const {
   const std::int32_t slot = slots_.find(id);
   if (slot == IdTable::kAbsent) return false;
   index = static_cast<std::size_t>(slot);
   return true;
 }
 
-void DenseMap::base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+template <class Pose>
+void DenseMap<Pose>::base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
   const std::vector<Index> slots(indices, indices + count);
-  ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), matrix, static_cast<Index>(6 + 3 * count));
+  ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), matrix, static_cast<Index>(kDof + kDim * count));
 }
 
-void DenseMap::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
-  std::vector<double> joint((6 + 3 * count) * (6 + 3 * count));
+template <class Pose>
+void DenseMap<Pose>::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  const std::size_t size = kDof + kDim * count;
+  std::vector<double> joint(size * size);
   base_joint_covariance(indices, count, joint.data());
-  without_pose<SE3>(joint.data(), count, matrix);
+  without_pose<Pose>(joint.data(), count, matrix);
 }
+
+template class DenseMap<SE2>;
+template class DenseMap<SE3>;
 
 }  // namespace cairn

@@ -8,13 +8,14 @@
 
 #include "ekf/triangle.hpp"
 #include "map/elimination_front.hpp"
+#include "map/elimination_solve.hpp"
 
 namespace cairn {
 namespace {
 
 constexpr int kCells = 21;  // bits of a coordinate
 constexpr std::int16_t kNever = std::numeric_limits<std::int16_t>::max();
-constexpr int kCrown = EliminationTree::kCrown;
+constexpr int kCrown = TreeFront::kCrown;
 
 // Every third bit from bit 0 on.
 std::uint64_t spread(std::uint64_t x) {
@@ -49,31 +50,6 @@ int TreeKey::split(const TreeKey& other) const {
   return 32 + leading_zeros(leaf ^ other.leaf);  // 96 where both are equal
 }
 
-std::vector<Index> state_map(const std::vector<Variable>& part, const EliminationTree::Front& front) {
-  std::vector<Index> map;
-  map.reserve(part.size() * 3);
-  const auto add = [&](Variable v, Index at) {
-    for (Index d = 0; d < dimension(v); ++d) map.push_back(at + d);
-  };
-  const std::vector<Variable>&first = front.eliminated, &second = front.boundary;
-  if (front.bit == EliminationTree::kCrown) {
-    for (const Variable v : part) {
-      Index at = 0;
-      for (std::size_t i = 0; first[i] != v; ++i) at += dimension(first[i]);
-      add(v, at);
-    }
-    return map;
-  }
-  std::size_t i = 0, j = 0;  // all three lists are ascending
-  Index at_i = 0, at_j = front.e;
-  for (const Variable v : part) {
-    while (i < first.size() && first[i] < v) at_i += dimension(first[i++]);
-    while (j < second.size() && second[j] < v) at_j += dimension(second[j++]);
-    add(v, i < first.size() && first[i] == v ? at_i : at_j);
-  }
-  return map;
-}
-
 namespace {
 
 struct Item {
@@ -84,12 +60,13 @@ struct Item {
 using Items = std::vector<Item>;
 using ItemIterator = Items::const_iterator;
 
+using Front = TreeFront;
+using FrontPointer = std::shared_ptr<const Front>;
+
 // Makes the fronts of one update.
+template <class Pose>
 class Builder {
  public:
-  using Front = EliminationTree::Front;
-  using FrontPointer = EliminationTree::FrontPointer;
-
   Builder(const LeafSource& source, const std::vector<std::int32_t>& degree, std::vector<std::int16_t>& eliminated_at,
           std::vector<std::uint32_t>& assembled)
       : source_(source), degree_(degree), eliminated_at_(eliminated_at), assembled_(assembled) {}
@@ -136,14 +113,14 @@ class Builder {
     front->key = key;
     front->boundary = source_.variables(key.leaf);
     front->held.assign(front->boundary.size(), 1);
-    front->b = dimension(front->boundary);
+    front->b = dimension<Pose>(front->boundary);
     front->absolute = source_.absolute(key.leaf);
     return front;
   }
 
   // Adds a child's complement to the front's matrix.
   void assemble(const Front& child, const Front& front, Index n) {
-    const std::vector<Index> map = state_map(child.boundary, front);
+    const std::vector<Index> map = state_map<Pose>(child.boundary, front);
     const double* from = child.complement.data();
     Index ld_from = 0;  // 0: packed
     if (child.leaf()) {
@@ -173,7 +150,8 @@ class Builder {
       front->absolute = front->absolute || child[i]->absolute;
     }
     sort_variables(*front, children);
-    const Index e = front->e = dimension(front->eliminated), b = front->b = dimension(front->boundary), n = e + b;
+    const Index e = front->e = dimension<Pose>(front->eliminated), b = front->b = dimension<Pose>(front->boundary),
+                n = e + b;
     matrix_.assign(static_cast<std::size_t>(n * n), 0.0);
     for (int i = 0; i < children; ++i) assemble(*child[i], *front, n);
     const std::size_t workspace =
@@ -239,7 +217,7 @@ class Builder {
   std::size_t made_ = 0;
 };
 
-std::size_t bytes_below(const EliminationTree::Front& front) {
+std::size_t bytes_below(const Front& front) {
   std::size_t bytes = sizeof front + sizeof(double) * (front.factor.capacity() + front.complement.capacity()) +
                       4 * (front.eliminated.capacity() + front.boundary.capacity() + front.held.capacity());
   for (const auto& child : front.child)
@@ -249,7 +227,8 @@ std::size_t bytes_below(const EliminationTree::Front& front) {
 
 }  // namespace
 
-void EliminationTree::set_degree(Variable v, std::int32_t degree) {
+template <class Pose>
+void EliminationTree<Pose>::set_degree(Variable v, std::int32_t degree) {
   if (static_cast<std::size_t>(v) >= degree_.size()) {
     degree_.resize(static_cast<std::size_t>(v) + 1, 0);
     eliminated_at_.resize(static_cast<std::size_t>(v) + 1, kNever);
@@ -257,8 +236,9 @@ void EliminationTree::set_degree(Variable v, std::int32_t degree) {
   degree_[v] = degree;
 }
 
-bool EliminationTree::update(const LeafSource& source, const Changes& changes, std::size_t& refactored,
-                             std::vector<std::uint32_t>& assembled) {
+template <class Pose>
+bool EliminationTree<Pose>::update(const LeafSource& source, const Changes& changes, std::size_t& refactored,
+                                   std::vector<std::uint32_t>& assembled) {
   Items items;
   for (const TreeKey& key : changes.leaves) items.push_back({key, TreeKey::kBits});
   for (const auto& [v, key] : changes.variables)
@@ -267,7 +247,7 @@ bool EliminationTree::update(const LeafSource& source, const Changes& changes, s
   std::stable_sort(items.begin(), items.end());
   std::vector<std::int16_t> eliminated_at = eliminated_at_;
   assembled.clear();
-  Builder builder(source, degree_, eliminated_at, assembled);
+  Builder<Pose> builder(source, degree_, eliminated_at, assembled);
   const FrontPointer top = builder.build(crown_ != nullptr ? crown_->child[0] : nullptr, items.begin(), items.end());
   const FrontPointer crown = top != nullptr ? builder.crown(top) : nullptr;
   if (crown == nullptr) return false;
@@ -277,16 +257,21 @@ bool EliminationTree::update(const LeafSource& source, const Changes& changes, s
   return true;
 }
 
-Eigen::MatrixXd EliminationTree::last_covariance() const {
+template <class Pose>
+Eigen::MatrixXd EliminationTree<Pose>::last_covariance() const {
   const Front& front = *crown_;
-  const Index d = dimension(front.eliminated.back()), n = front.e;
+  const Index d = dimension<Pose>(front.eliminated.back()), n = front.e;
   Eigen::MatrixXd inverse(d, d);
   inverse_from_cholesky(front.factor.data() + (n - d) * (n + 1), n, d, inverse.data(), d);
   return inverse;
 }
 
-std::size_t EliminationTree::memory_bytes() const {
+template <class Pose>
+std::size_t EliminationTree<Pose>::memory_bytes() const {
   return crown_ != nullptr ? bytes_below(*crown_) : 0;
 }
+
+template class EliminationTree<SE2>;
+template class EliminationTree<SE3>;
 
 }  // namespace cairn

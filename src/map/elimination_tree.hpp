@@ -19,7 +19,8 @@
 #include <vector>
 
 #include "ekf/small_algebra.hpp"
-#include "geometry/types.hpp"
+#include "geometry/se2.hpp"
+#include "geometry/se3.hpp"
 
 namespace cairn {
 
@@ -34,12 +35,14 @@ inline Variable landmark_variable(std::size_t landmark) {
 inline bool is_landmark(Variable v) {
   return (v & 1) != 0;
 }
-inline Index dimension(Variable v) {
-  return is_landmark(v) ? 3 : 6;
+template <class Pose>
+Index dimension(Variable v) {
+  return is_landmark(v) ? Pose::kDim : Pose::kDof;
 }
-inline Index dimension(const std::vector<Variable>& variables) {
+template <class Pose>
+Index dimension(const std::vector<Variable>& variables) {
   Index sum = 0;
-  for (const Variable v : variables) sum += dimension(v);
+  for (const Variable v : variables) sum += dimension<Pose>(v);
   return sum;
 }
 
@@ -69,21 +72,32 @@ class LeafSource {
   virtual bool absolute(std::uint32_t leaf) const = 0;
 };
 
+struct TreeFront;  // elimination_front.hpp
+
+struct TreeChanges {
+  std::vector<TreeKey> leaves;  // new, or with other variables or information
+  // Variables that were eliminated before and are now held by more leaves, each with a leaf that held it.
+  std::vector<std::pair<Variable, TreeKey>> variables;
+};
+
+// Down to which front on the path to a leaf.
+struct TreeTouch {
+  TreeKey key;
+  int bit;
+};
+
+// Over the poses of one kind of map.
+template <class Pose>
 class EliminationTree {
  public:
-  static constexpr int kCrown = -1;  // as a front's bit
-
-  struct Front;
+  using Front = TreeFront;
   using FrontPointer = std::shared_ptr<const Front>;
+  using Changes = TreeChanges;
+  using Touch = TreeTouch;
 
   // How many leaves hold a variable; one that has more than those in the tree is eliminated last of all.
   void set_degree(Variable v, std::int32_t degree);
 
-  struct Changes {
-    std::vector<TreeKey> leaves;  // new, or with other variables or information
-    // Variables that were eliminated before and are now held by more leaves, each with a leaf that held it.
-    std::vector<std::pair<Variable, TreeKey>> variables;
-  };
   // False, with nothing changed, where a pivot is not positive. `refactored` and `assembled` get the fronts and the
   // leaves whose information was asked for.
   bool update(const LeafSource& source, const Changes& changes, std::size_t& refactored,
@@ -91,16 +105,12 @@ class EliminationTree {
 
   // Solves H x = b, several columns at a time. `touch` says where b may be not zero (and where x is wanted whatever
   // happens): leaves, or eliminated variables.
-  struct Touch {
-    TreeKey key;
-    int bit;
-  };
   Touch touch(const TreeKey& leaf) const { return {leaf, TreeKey::kBits}; }
   Touch touch(Variable v, const TreeKey& leaf_that_holds_it) const { return {leaf_that_holds_it, eliminated_at(v)}; }
   class System {
    public:
     virtual ~System() = default;
-    // Adds to the right-hand side of a variable, dimension(v) x columns.
+    // Adds to the right-hand side of a variable, dimension<Pose>(v) x columns.
     virtual void right_hand_side(Variable v, double* b, Index ld) const = 0;
     // Takes the solution of a variable. False: whoever hangs on this variable alone needs no visit.
     virtual bool solution(Variable v, const double* x, Index ld) = 0;
@@ -116,7 +126,8 @@ class EliminationTree {
   // motion rests: no force among leaves that are carried changes, so that none of them is visited either.
   // To be touched: every leaf that was evaluated since the last step, and every one that a change named since.
   struct RigidMotion {  // a point p goes by move + turn x (p - centre), to first order
-    Vector3 centre, move, turn;
+    typename Pose::Point centre, move;
+    typename Pose::Rotation::Tangent turn;
   };
   class Relaxation : public System {
    public:
@@ -169,5 +180,8 @@ class EliminationTree {
   std::vector<std::int32_t> degree_;
   std::vector<std::int16_t> eliminated_at_;  // bit of the front that eliminates a variable; kNever
 };
+
+extern template class EliminationTree<SE2>;
+extern template class EliminationTree<SE3>;
 
 }  // namespace cairn

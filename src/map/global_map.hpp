@@ -56,6 +56,8 @@ struct MapOptions {
 template <class Pose>
 class GlobalMap : public Landmarks {
  public:
+  bool planar() const final { return Pose::kDim == 2; }
+
   // Takes in a submap that began at base(); its end is the new base, which then gets the fix, if one comes along: both
   // or neither.
   virtual JoinReport join_and_fix(const Submap<Pose>& submap, FixRequest<Pose>* fix) = 0;

@@ -29,10 +29,12 @@ class Landmarks {
   virtual void prepare_covariances(const std::vector<std::size_t>&) const {}
   // Where the landmarks are, by index; null: small enough to look at all.
   virtual const SpatialIndex* spatial_index() const { return nullptr; }
+  // All of them stand at z = 0 and know nothing else.
+  virtual bool planar() const { return false; }
 };
 
-// Of a joint covariance with a pose before `count` landmarks, kDof + kDim count on a side: the same in space, 6 + 3 count
-// on a side; and the landmarks' part of that.
+// Of a joint covariance with a pose before `count` landmarks, kDof + kDim count on a side: the same in space, 6 + 3
+// count on a side; and the landmarks' part of that.
 template <class Pose>
 void with_pose(const double* joint, std::size_t count, double* matrix);
 template <class Pose>

@@ -8,6 +8,7 @@
 #include "association/association.hpp"
 #include "association/doubt.hpp"
 #include "core/chi_square.hpp"
+#include "geometry/embedding.hpp"
 #include "sensor/sensor.hpp"
 
 namespace cairn {
@@ -15,14 +16,15 @@ namespace {
 
 constexpr std::size_t kNearest = 12;  // of the map's landmarks that one of the submap is compared with
 
+template <class Pose>
 class Naming final : public Innovations {
  public:
-  Naming(const GlobalMap<SE3>& map, const NamingOptions& options, const Submap<SE3>& submap)
+  Naming(const GlobalMap<Pose>& map, const NamingOptions& options, const Submap<Pose>& submap)
       : map_(map),
         options_(options),
         submap_(submap),
-        gate_(chi_square_quantile(3, std::min(options.gate_probability, options.new_probability))),
-        new_(chi_square_quantile(3, options.new_probability)),
+        gate_(chi_square_quantile(kDim, std::min(options.gate_probability, options.new_probability))),
+        new_(chi_square_quantile(kDim, options.new_probability)),
         noise_(submap.covariance) {
     std::vector<Index> all;
     for (Index i = 0; i < submap.size(); ++i) all.push_back(i);
@@ -63,30 +65,39 @@ class Naming final : public Innovations {
   // Whether a landmark without a pair is far enough from all that the map knows.
   bool fresh(std::size_t i) const { return nearest_[i] > new_; }
 
-  Index rows() const override { return 3; }
+  Index rows() const override { return kDim; }
   double threshold(Index rows) const override {
     return chi_square_quantile(static_cast<double>(rows), options_.joint_gate_probability);
   }
   void innovation(Index a, double* nu) const override {
-    Eigen::Map<Vector3> out(nu);
-    out = residual(candidates_[a]);
+    Eigen::Map<Point> out(nu);
+    out = residual(candidates_[a]).template head<kDim>();
   }
   void covariance(Index a, Index b, double* block) const override {
     const PairCandidate &p = candidates_[a], &q = candidates_[b];
-    Eigen::Map<Matrix3> out(block);
-    out = across(p.landmark, q.landmark) + noise(p.observation, q.observation);
+    Eigen::Map<PointSquare> out(block);
+    out = (across(p.landmark, q.landmark) + noise(p.observation, q.observation)).template topLeftCorner<kDim, kDim>();
   }
 
  private:
+  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  using Point = typename Pose::Point;
+  using PointSquare = typename Pose::Rotation::Matrix;
+  using Space = Embedding<Pose>;
+
   struct Known {
     std::size_t index;
-    Prediction<SE3> prediction;  // as a point seen from the base
+    Prediction<Pose> prediction;  // as a point seen from the base
   };
 
+  // Of up to three values, as doubts want them: in the plane the last one is nothing.
+  Vector3 seen(std::size_t i) const { return Space::up(submap_.landmarks[i]); }
   Vector3 residual(const PairCandidate& pair) const {
-    return submap_.landmarks[pair.observation] - known_[pair.landmark].prediction.z;
+    return seen(static_cast<std::size_t>(pair.observation)) - known_[pair.landmark].prediction.z;
   }
-  Matrix3 noise(Index i, Index j) const { return noise_.block<3, 3>(6 + 3 * i, 6 + 3 * j); }
+  Matrix3 noise(Index i, Index j) const {
+    return Space::up(PointSquare(noise_.block<kDim, kDim>(kDof + kDim * i, kDof + kDim * j)));
+  }
   // J_k P J_l^T of two known landmarks.
   Matrix3 across(Index k, Index l) const {
     return image_covariance(P_, known_[k].prediction, k, known_[l].prediction, l);
@@ -95,32 +106,34 @@ class Naming final : public Innovations {
   // Landmarks of the map that those of the submap may be, and their joint covariance with the base. What the map knew
   // before the base is known no worse than the base as a rule: the base's uncertainty counts for both.
   void find_known() {
-    const SE3 T = map_.base();
-    const Matrix6 P = map_.base_covariance();
+    const Pose T = map_.base();
+    const typename Pose::Square P = map_.base_covariance();
     std::unordered_map<std::size_t, Index> numbers;
     near_.resize(submap_.landmarks.size());
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < submap_.landmarks.size(); ++i) {
-      const Vector3 arm = T.rotation() * submap_.landmarks[i];
-      Eigen::Matrix<double, 3, 6> J;
-      J << Matrix3::Identity(), SO3::turn(arm);
+      const Point arm = T.rotation() * submap_.landmarks[i];
+      Eigen::Matrix<double, kDim, kDof> J;
+      J << PointSquare::Identity(), Pose::Rotation::turn(arm);
       const double base = std::sqrt((J * P * J.transpose()).trace());
       const double own = std::sqrt(noise(static_cast<Index>(i), static_cast<Index>(i)).trace());
-      std::vector<std::size_t> found = within(map_, T.translation() + arm, std::sqrt(new_) * (2.0 * base + own));
+      std::vector<std::size_t> found =
+          within(map_, Space::up(Point(T.translation() + arm)), std::sqrt(new_) * (2.0 * base + own));
       if (found.size() > kNearest) found.resize(kNearest);
       for (const std::size_t index : found) {
         const auto [entry, is_new] = numbers.emplace(index, static_cast<Index>(known_.size()));
         if (is_new) {
           Known known{index, {}};
-          map_jacobians(T, map_.position(index), Matrix3::Identity(), known.prediction);
-          known.prediction.z = T.inverse() * map_.position(index);
+          const Point l = Space::down(map_.position(index));
+          map_jacobians(T, l, Prediction<Pose>::ByLandmark::Identity(), known.prediction);
+          known.prediction.z = Space::up(Point(T.inverse() * l));
           known_.push_back(known);
           indices.push_back(index);
         }
         near_[i].push_back(entry->second);
       }
     }
-    const auto n = static_cast<Index>(6 + 3 * indices.size());
+    const auto n = static_cast<Index>(kDof + kDim * indices.size());
     P_.resize(n, n);
     map_.base_joint_covariance(indices.data(), indices.size(), P_.data());
   }
@@ -134,8 +147,8 @@ class Naming final : public Innovations {
         PairCandidate pair{static_cast<Index>(i), k, 0.0};
         const Matrix3 S = predicted[k] + noise(pair.observation, pair.observation);
         const Vector3 nu = residual(pair);
-        if (!within_bound(nu, S, 3, new_)) continue;
-        pair.distance = squared_distance(nu.data(), S.data(), 3, 3);
+        if (!within_bound(nu, S, kDim, new_)) continue;
+        pair.distance = squared_distance(nu.data(), S.data(), 3, kDim);
         nearest_[i] = std::min(nearest_[i], pair.distance);
         if (pair.distance <= gate_) candidates_.push_back(pair);
       }
@@ -143,19 +156,19 @@ class Naming final : public Innovations {
 
   bool confusable(const PairCandidate& pair) const {
     const Matrix3 own = noise(pair.observation, pair.observation), S = across(pair.landmark, pair.landmark) + own;
-    const Doubt doubt(S, own, 3, new_);
+    const Doubt doubt(S, own, kDim, new_);
     if (!doubt.stale()) return false;
     const Vector3& predicted = known_[pair.landmark].prediction.z;
     for (std::size_t k = 0; k < known_.size(); ++k)
       if (static_cast<Index>(k) != pair.landmark && doubt.confuses(known_[k].prediction.z - predicted)) return true;
     for (std::size_t i = 0; i < submap_.landmarks.size(); ++i)
-      if (static_cast<Index>(i) != pair.observation && doubt.confuses(submap_.landmarks[i] - predicted)) return true;
+      if (static_cast<Index>(i) != pair.observation && doubt.confuses(seen(i) - predicted)) return true;
     return false;
   }
 
-  const GlobalMap<SE3>& map_;
+  const GlobalMap<Pose>& map_;
   const NamingOptions& options_;
-  const Submap<SE3>& submap_;
+  const Submap<Pose>& submap_;
   double gate_, new_;
   Eigen::MatrixXd noise_, P_;
   std::vector<Known> known_;
@@ -166,11 +179,14 @@ class Naming final : public Innovations {
 
 }  // namespace
 
-NamingReport name_landmarks(const GlobalMap<SE3>& map, const NamingOptions& options, Submap<SE3>& submap) {
+template <class Pose>
+NamingReport name_landmarks(const GlobalMap<Pose>& map, const NamingOptions& options, Submap<Pose>& submap) {
   NamingReport report;
-  Naming naming(map, options, submap);
+  Naming<Pose> naming(map, options, submap);
   const std::vector<Index> chosen = naming.choose(report);
-  std::vector<Index> states{0, 1, 2, 3, 4, 5};
+  constexpr Index kDim = Pose::kDim, kDof = Pose::kDof;
+  std::vector<Index> states;
+  for (Index d = 0; d < kDof; ++d) states.push_back(d);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (chosen[i] == kUnpaired && !naming.fresh(i)) {
@@ -185,7 +201,7 @@ NamingReport name_landmarks(const GlobalMap<SE3>& map, const NamingOptions& opti
     submap.counts[kept] = submap.counts[i];
     submap.landmarks[kept] = submap.landmarks[i];
     ++kept;
-    for (Index d = 0; d < 3; ++d) states.push_back(6 + 3 * static_cast<Index>(i) + d);
+    for (Index d = 0; d < kDim; ++d) states.push_back(kDof + kDim * static_cast<Index>(i) + d);
   }
   if (report.ambiguous == 0) return report;
   submap.ids.resize(kept);
@@ -194,5 +210,8 @@ NamingReport name_landmarks(const GlobalMap<SE3>& map, const NamingOptions& opti
   submap.covariance = submap.covariance(states, states).eval();
   return report;
 }
+
+template NamingReport name_landmarks(const GlobalMap<SE2>&, const NamingOptions&, Submap<SE2>&);
+template NamingReport name_landmarks(const GlobalMap<SE3>&, const NamingOptions&, Submap<SE3>&);
 
 }  // namespace cairn

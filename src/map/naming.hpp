@@ -22,6 +22,10 @@ struct NamingReport {
 // Landmarks of the submap that the map knows get its ids for them; those that are near one of the map's and found no
 // pair are taken out of the submap; all others keep theirs, which the map may not have. The submap began at the map's
 // base.
-NamingReport name_landmarks(const GlobalMap<SE3>& map, const NamingOptions& options, Submap<SE3>& submap);
+template <class Pose>
+NamingReport name_landmarks(const GlobalMap<Pose>& map, const NamingOptions& options, Submap<Pose>& submap);
+
+extern template NamingReport name_landmarks(const GlobalMap<SE2>&, const NamingOptions&, Submap<SE2>&);
+extern template NamingReport name_landmarks(const GlobalMap<SE3>&, const NamingOptions&, Submap<SE3>&);
 
 }  // namespace cairn

@@ -15,19 +15,21 @@ namespace {
 // Common landmarks whose joint covariance a sparse map is asked for: it does not hold it, and the test takes k^3.
 constexpr std::size_t kSparseJointAtMost = 300;
 
-const SparseMap* as_sparse(const Landmarks& map) {
-  return dynamic_cast<const SparseMap*>(&map);
+template <class Pose>
+const SparseMap<Pose>* as_sparse(const Landmarks& map) {
+  return dynamic_cast<const SparseMap<Pose>*>(&map);
 }
 
 std::unique_ptr<const Landmarks> copy_of(const Landmarks& map) {
-  if (const SparseMap* sparse = as_sparse(map)) return std::make_unique<SparseMap>(*sparse);
+  if (const SparseMap<SE3>* sparse = as_sparse<SE3>(map)) return std::make_unique<SparseMap<SE3>>(*sparse);
+  if (const SparseMap<SE2>* sparse = as_sparse<SE2>(map)) return std::make_unique<SparseMap<SE2>>(*sparse);
   return std::make_unique<DenseLandmarks>(map);
 }
 
 }  // namespace
 
 bool is_sparse(const Landmarks& map) {
-  return as_sparse(map) != nullptr;
+  return as_sparse<SE3>(map) != nullptr || as_sparse<SE2>(map) != nullptr;
 }
 
 OwnedMap::OwnedMap(const Landmarks& source, std::vector<std::uint64_t> origins_of_source)
@@ -36,6 +38,9 @@ OwnedMap::OwnedMap(const Landmarks& source, std::vector<std::uint64_t> origins_o
 OwnedMap::OwnedMap(const OwnedMap& map, const Landmarks& other, const std::vector<std::uint64_t>& origins_of_other,
                    const MergeOptions& options, MergeReport& report) {
   const Landmarks& own = *map.landmarks;
+  if (own.planar() || other.planar())
+    throw Error(ErrorCode::state, "%s: it is of the plane, and maps of the plane can't be merged",
+                own.planar() ? "map" : "other");
   if (is_sparse(own) != is_sparse(other))
     throw Error(ErrorCode::state, "other: it is %s and the map is %s; maps of one kind merge",
                 is_sparse(other) ? "sparse" : "dense", is_sparse(own) ? "sparse" : "dense");
@@ -49,8 +54,8 @@ OwnedMap::OwnedMap(const OwnedMap& map, const Landmarks& other, const std::vecto
       plan_merge(own, other, options, sparse ? kSparseJointAtMost : std::numeric_limits<std::size_t>::max(), report);
   merged = merged_ids(other, plan);
   if (sparse) {
-    auto both = std::make_unique<SparseMap>(*as_sparse(own));
-    both->append(*as_sparse(other), plan, options, report);
+    auto both = std::make_unique<SparseMap<SE3>>(*as_sparse<SE3>(own));
+    both->append(*as_sparse<SE3>(other), plan, options, report);
     landmarks = std::move(both);
     return;
   }

@@ -12,7 +12,8 @@ namespace cairn {
 struct OwnedMap {
   // A copy of whatever holds the landmarks; `origins` are the filters that made them.
   OwnedMap(const Landmarks& source, std::vector<std::uint64_t> origins_of_source);
-  // Both as one, in the frame of `map`. Throws where they do not merge; `report` then tells how far it got.
+  // Both as one, in the frame of `map`. Throws where they do not merge, as maps of the plane never do; `report` then
+  // tells how far it got.
   OwnedMap(const OwnedMap& map, const Landmarks& other, const std::vector<std::uint64_t>& origins_of_other,
            const MergeOptions& options, MergeReport& report);
 

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sparse joining: leaves, transactions, closings. The solution: sparse_solve.cpp; queries: sparse_queries.cpp.
+// The sparse joining: leaves, transactions, closings. The solution: sparse_solve.hpp; queries: sparse_queries.hpp.
 #include "map/sparse_map.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
 #include "ekf/iterate.hpp"
+#include "map/sparse_queries.hpp"
+#include "map/sparse_solve.hpp"
 #include "map/sparse_undo.hpp"
 #include "sensor/sensor.hpp"
 
 namespace cairn {
-SparseMap::SparseMap(const MapOptions<SE3>& options)
+
+template <class Pose>
+SparseMap<Pose>::SparseMap(const MapOptions<Pose>& options)
     : options_(options),
       prior_(options.initial_pose),
       prior_covariance_(options.initial_covariance),
@@ -21,7 +26,8 @@ SparseMap::SparseMap(const MapOptions<SE3>& options)
       base_covariance_(options.initial_covariance),
       index_([this](std::size_t i) { return position(i); }) {}
 
-SparseMap::SparseMap(const SparseMap& other)
+template <class Pose>
+SparseMap<Pose>::SparseMap(const SparseMap& other)
     : options_(other.options_),
       prior_(other.prior_),
       prior_covariance_(other.prior_covariance_),
@@ -46,27 +52,36 @@ SparseMap::SparseMap(const SparseMap& other)
 
 // --- leaves ---
 
-FactorValues SparseMap::values(const Leaf& leaf) const {
+template <class Pose>
+FactorValues<Pose> SparseMap<Pose>::values(const Leaf& leaf) const {
   const auto number = static_cast<std::size_t>(&leaf - leaves_.data());
-  FactorValues values{bases_[number], bases_[number + 1], {}};
+  Values values{bases_[number], bases_[number + 1], {}};
   values.shared.reserve(static_cast<std::size_t>(leaf.factor->shared_count()));
   for (const Index i : leaf.factor->shared()) values.shared.push_back(landmarks_[leaf.landmarks[i]].position);
   return values;
 }
 
+// Where the tree stands the leaf that begins at the base of this number.
+template <class Pose>
+TreeKey SparseMap<Pose>::key_of(Number number) const {
+  const Point offset = bases_[number].translation() - options_.initial_pose.translation();
+  return TreeKey(Embedding<Pose>::up(offset), number);
+}
+
 // The leaf's factor and variables, by which of its landmarks are shared now.
-void SparseMap::shape(Leaf& leaf, Number number) const {
+template <class Pose>
+void SparseMap<Pose>::shape(Leaf& leaf, Number number) const {
   std::vector<Index> shared_ones;
   for (std::size_t i = 0; i < leaf.landmarks.size(); ++i)
     if (leaf.landmarks[i] != kNone && shared(leaf.landmarks[i])) shared_ones.push_back(static_cast<Index>(i));
-  leaf.factor = std::make_shared<const SubmapFactor>(leaf.data, std::move(shared_ones));
+  leaf.factor = std::make_shared<const Factor>(leaf.data, std::move(shared_ones));
   struct Column {
     Variable variable;
     Index state;  // of the factor
   };
-  std::vector<Column> columns{{base_variable(number), 0}, {base_variable(number + 1), 6}};
+  std::vector<Column> columns{{base_variable(number), 0}, {base_variable(number + 1), kDof}};
   for (Index i = 0; i < leaf.factor->shared_count(); ++i)
-    columns.push_back({landmark_variable(leaf.landmarks[leaf.factor->shared()[i]]), 12 + 3 * i});
+    columns.push_back({landmark_variable(leaf.landmarks[leaf.factor->shared()[i]]), Factor::column(i)});
   std::sort(columns.begin(), columns.end(), [](const Column& a, const Column& b) { return a.variable < b.variable; });
   leaf.variables.clear();
   leaf.states.clear();
@@ -79,37 +94,44 @@ void SparseMap::shape(Leaf& leaf, Number number) const {
   }
 }
 
-Matrix6 SparseMap::prior_information() const {
+template <class Pose>
+typename SparseMap<Pose>::Square SparseMap<Pose>::prior_information() const {
   // What is known exactly counts as known to a micrometre and to a tenth of a microradian.
-  Matrix6 covariance = prior_covariance_;
-  for (int i = 0; i < 6; ++i) covariance(i, i) += i < 3 ? 1e-12 : 1e-14;
-  const Vector6 scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  const Matrix6 scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
-  return scale.asDiagonal() * scaled.ldlt().solve(Matrix6::Identity()) * scale.asDiagonal();
+  Square covariance = prior_covariance_;
+  for (int i = 0; i < kDof; ++i) covariance(i, i) += i < kDim ? 1e-12 : 1e-14;
+  const typename Pose::Tangent scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const Square scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
+  return scale.asDiagonal() * scaled.ldlt().solve(Square::Identity()) * scale.asDiagonal();
 }
 
 // The tree knows errors in axes that turn with the map: a base's in its own, a landmark's in those of the base that saw
 // it first. What a submap tells then depends on how things stand to each other alone, so that its linearisation stays
 // good when the map around it turns as a whole.
-const SO3& SparseMap::axes(Variable v) const {
+template <class Pose>
+const typename SparseMap<Pose>::Rotation& SparseMap<Pose>::axes(Variable v) const {
   const auto number = static_cast<Number>(v >> 1);
   return bases_[is_landmark(v) ? landmarks_[number].submaps[0] : number].rotation();
 }
 
-void SparseMap::to_map_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& covariance) const {
+template <class Pose>
+void SparseMap<Pose>::to_map_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& covariance) const {
   Index state = 0;
+  const auto turn = [&](const auto& R) {
+    constexpr int n = std::decay_t<decltype(R)>::RowsAtCompileTime;
+    covariance.middleRows<n>(state) = (R * covariance.middleRows<n>(state)).eval();
+    covariance.middleCols<n>(state) = (covariance.middleCols<n>(state) * R.transpose()).eval();
+    state += n;
+  };
   for (const Variable v : variables) {
-    const Matrix3 R = axes(v).matrix();
-    for (Index d = 0; d < dimension(v); d += 3, state += 3) {
-      covariance.middleRows<3>(state) = (R * covariance.middleRows<3>(state)).eval();
-      covariance.middleCols<3>(state) = (covariance.middleCols<3>(state) * R.transpose()).eval();
-    }
+    turn(axes(v).matrix());
+    if (!is_landmark(v)) turn(axes(v).adjoint());
   }
 }
 
-void SparseMap::note_linearisation(Number number) {
+template <class Pose>
+void SparseMap<Pose>::note_linearisation(Number number) {
   Leaf& leaf = leaves_[number];
-  const SE3 T_base_map = bases_[number].inverse();
+  const Pose T_base_map = bases_[number].inverse();
   leaf.end_then = T_base_map * bases_[number + 1];
   leaf.landmarks_then.clear();
   for (const Index i : leaf.factor->shared())
@@ -119,107 +141,126 @@ void SparseMap::note_linearisation(Number number) {
 }
 
 // How far the leaf's landmarks and axes have moved against its base since it was linearised, in the map's scales.
-double SparseMap::strain(Number number) const {
+template <class Pose>
+double SparseMap<Pose>::strain(Number number) const {
   const Leaf& leaf = leaves_[number];
   if (leaf.axes_then.size() != leaf.variables.size()) return std::numeric_limits<double>::infinity();
-  const auto angle = [](const SO3& a, const SO3& b) { return 2.0 * (a * b.inverse()).quaternion().vec().norm(); };
-  const SE3 T_base_map = bases_[number].inverse();
+  const Pose T_base_map = bases_[number].inverse();
   double way = (T_base_map * bases_[number + 1].translation() - leaf.end_then.translation()).norm(), turn = 0.0;
   for (std::size_t i = 0; i < leaf.landmarks_then.size(); ++i) {
-    const Vector3& l = landmarks_[leaf.landmarks[leaf.factor->shared()[i]]].position;
+    const Point& l = landmarks_[leaf.landmarks[leaf.factor->shared()[i]]].position;
     way = std::max(way, (T_base_map * l - leaf.landmarks_then[i]).norm());
   }
   for (std::size_t i = 0; i < leaf.variables.size(); ++i)
-    turn = std::max(turn, angle(T_base_map.rotation() * axes(leaf.variables[i]), leaf.axes_then[i]));
+    turn = std::max(turn, (T_base_map.rotation() * axes(leaf.variables[i]) * leaf.axes_then[i].inverse()).chord());
   return std::max(way / length_scale_, turn / turn_scale_);
 }
 
-void SparseMap::information(std::uint32_t number, double* H, Index ld) const {
+template <class Pose>
+void SparseMap<Pose>::information(std::uint32_t number, double* H, Index ld) const {
   const Leaf& leaf = leaves_[number];
-  std::vector<Matrix3> R{axes(base_variable(number)).matrix(), axes(base_variable(number + 1)).matrix()};
-  for (const Index i : leaf.factor->shared()) R.push_back(axes(landmark_variable(leaf.landmarks[i])).matrix());
+  std::vector<Rotation> R{axes(base_variable(number)), axes(base_variable(number + 1))};
+  for (const Index i : leaf.factor->shared()) R.push_back(axes(landmark_variable(leaf.landmarks[i])));
   Eigen::MatrixXd own = leaf.factor->hessian(values(leaf), R);
   // What tells of a base alone goes with the submap that ends there; of the first, with the one that begins there.
   const auto add = [&](Index base, Eigen::MatrixXd J, const Eigen::MatrixXd& information) {
-    for (Index d = 0; d < 6; d += 3) J.middleCols<3>(d) = (J.middleCols<3>(d) * R[base]).eval();
-    own.block<6, 6>(6 * base, 6 * base) += J.transpose() * information * J;
+    J.middleCols<kDim>(0) = (J.middleCols<kDim>(0) * R[base].matrix()).eval();
+    J.middleCols<kTurn>(kDim) = (J.middleCols<kTurn>(kDim) * R[base].adjoint()).eval();
+    own.block<kDof, kDof>(kDof * base, kDof * base) += J.transpose() * information * J;
   };
   if (number == 0) add(0, prior_jacobian(), prior_information());
   const auto fixes = fixes_.find(number + 1);
   if (fixes != fixes_.end())
-    for (const AbsoluteFix<SE3>& fix : fixes->second) {
+    for (const AbsoluteFix<Pose>& fix : fixes->second) {
       const Eigen::MatrixXd noise = fix.covariance().topLeftCorner(fix.rows(), fix.rows());
       add(1, fix.jacobian(bases_[number + 1]).topRows(fix.rows()),
           noise.ldlt().solve(Eigen::MatrixXd::Identity(fix.rows(), fix.rows())));
     }
-  for (Index j = 0; j < own.cols(); j += 3)
-    for (Index i = j; i < own.rows(); i += 3) {
-      const Index row = leaf.order[i], column = leaf.order[j];
-      if (row >= column)
-        Eigen::Map<Matrix3, 0, Eigen::OuterStride<>>(H + column * ld + row, Eigen::OuterStride<>(ld)) =
-            own.block<3, 3>(i, j);
-      else
-        Eigen::Map<Matrix3, 0, Eigen::OuterStride<>>(H + row * ld + column, Eigen::OuterStride<>(ld)) =
-            own.block<3, 3>(i, j).transpose();
-    }
+  // To the tree's order, by blocks of poses and of landmarks.
+  const auto put = [&](Index i, Index j, auto rows, auto columns) {
+    using Block = Eigen::Matrix<double, decltype(rows)::value, decltype(columns)::value>;
+    using Transposed = Eigen::Matrix<double, decltype(columns)::value, decltype(rows)::value>;
+    const Index row = leaf.order[i], column = leaf.order[j];
+    const auto block = own.block<Block::RowsAtCompileTime, Block::ColsAtCompileTime>(i, j);
+    if (row >= column)
+      Eigen::Map<Block, 0, Eigen::OuterStride<>>(H + column * ld + row, Eigen::OuterStride<>(ld)) = block;
+    else
+      Eigen::Map<Transposed, 0, Eigen::OuterStride<>>(H + row * ld + column, Eigen::OuterStride<>(ld)) =
+          block.transpose();
+  };
+  const std::integral_constant<int, kDof> pose;
+  const std::integral_constant<int, kDim> point;
+  for (const Index j : {Index{0}, Index{kDof}}) {
+    for (Index i = j; i < 2 * kDof; i += kDof) put(i, j, pose, pose);
+    for (Index i = Factor::column(0); i < own.rows(); i += kDim) put(i, j, point, pose);
+  }
+  for (Index j = Factor::column(0); j < own.cols(); j += kDim)
+    for (Index i = j; i < own.rows(); i += kDim) put(i, j, point, point);
 }
 
-void SparseMap::evaluate(Number number) {
+template <class Pose>
+void SparseMap<Pose>::evaluate(Number number) {
   Leaf& leaf = leaves_[number];
-  const SubmapFactor::Evaluation own = leaf.factor->evaluate(values(leaf));
+  const typename Factor::Evaluation own = leaf.factor->evaluate(values(leaf));
   leaf.cost = own.cost;
   Eigen::VectorXd gradient(own.gradient.size());  // apart: a resize that fails would leave the old one torn
   for (Index i = 0; i < own.gradient.size(); ++i) gradient(leaf.order[i]) = own.gradient(i);
   leaf.gradient.swap(gradient);
   if (number == 0) {
-    const Vector6 e = pose_error(bases_[0], prior_);
-    const Vector6 weighted = prior_information() * e;
+    const typename Pose::Tangent e = pose_error(bases_[0], prior_);
+    const typename Pose::Tangent weighted = prior_information() * e;
     leaf.cost += 0.5 * e.dot(weighted);
-    leaf.gradient.segment<6>(leaf.order[0]) += prior_jacobian().transpose() * weighted;
+    leaf.gradient.template segment<kDof>(leaf.order[0]) += prior_jacobian().transpose() * weighted;
   }
   const auto fixes = fixes_.find(number + 1);
   if (fixes != fixes_.end()) add_fixes(leaf, fixes->second);
-  leaf.turned = SO3();
+  leaf.turned = Rotation();
 }
 
 // Of the leaf's end, to the gradient in map axes.
-void SparseMap::add_fixes(Leaf& leaf, const std::vector<AbsoluteFix<SE3>>& fixes) const {
-  const SE3& T = bases_[static_cast<std::size_t>(&leaf - leaves_.data()) + 1];
-  for (const AbsoluteFix<SE3>& fix : fixes) {
+template <class Pose>
+void SparseMap<Pose>::add_fixes(Leaf& leaf, const std::vector<AbsoluteFix<Pose>>& fixes) const {
+  const Pose& T = bases_[static_cast<std::size_t>(&leaf - leaves_.data()) + 1];
+  for (const AbsoluteFix<Pose>& fix : fixes) {
     const int rows = fix.rows();
     const Eigen::VectorXd r = fix.residual(T).head(rows);
     const Eigen::VectorXd weighted = fix.covariance().topLeftCorner(rows, rows).ldlt().solve(r);
     leaf.cost += 0.5 * r.dot(weighted);
-    leaf.gradient.segment<6>(leaf.order[6]) -= fix.jacobian(T).topRows(rows).transpose() * weighted;
+    leaf.gradient.template segment<kDof>(leaf.order[kDof]) -= fix.jacobian(T).topRows(rows).transpose() * weighted;
   }
 }
 
 // d pose_error(base, prior) by the base's own ordinary error.
-Matrix6 SparseMap::prior_jacobian() const {
-  Matrix6 J = Matrix6::Identity();
-  J.bottomRightCorner<3, 3>() = SO3::left_jacobian_inverse((bases_[0].rotation() * prior_.rotation().inverse()).log());
+template <class Pose>
+typename SparseMap<Pose>::Square SparseMap<Pose>::prior_jacobian() const {
+  Square J = Square::Identity();
+  J.template bottomRightCorner<kTurn, kTurn>() =
+      Rotation::left_jacobian_inverse((bases_[0].rotation() * prior_.rotation().inverse()).log());
   return J;
 }
 
-void SparseMap::place_private(Number number) {
+template <class Pose>
+void SparseMap<Pose>::place_private(Number number) {
   const Leaf& leaf = leaves_[number];
-  const FactorValues at = values(leaf);
+  const Values at = values(leaf);
   const Eigen::VectorXd residual = leaf.factor->residual(at);
   const Eigen::VectorXd weighted = leaf.factor->weighted(residual);
-  const Eigen::Matrix3Xd placed = leaf.factor->place_private(at, residual, weighted);
+  const typename Factor::Points placed = leaf.factor->place_private(at, residual, weighted);
   for (std::size_t i = 0; i < leaf.landmarks.size(); ++i) {
     const Number landmark = leaf.landmarks[i];
     if (landmark != kNone && !shared(landmark)) landmarks_[landmark].position = placed.col(static_cast<Index>(i));
   }
 }
 
-double SparseMap::cost() const {
+template <class Pose>
+double SparseMap<Pose>::cost() const {
   double sum = 0.0;
   for (const Leaf& leaf : leaves_) sum += leaf.cost;
   return sum;
 }
 
-std::size_t SparseMap::memory_bytes() const {
+template <class Pose>
+std::size_t SparseMap<Pose>::memory_bytes() const {
   std::size_t bytes = tree_.memory_bytes();
   for (const Leaf& leaf : leaves_) bytes += leaf.factor->memory_bytes();
   return bytes;
@@ -227,20 +268,23 @@ std::size_t SparseMap::memory_bytes() const {
 
 // --- transactions ---
 
-void SparseMap::save_landmark(Undo& undo, Number landmark) {
+template <class Pose>
+void SparseMap<Pose>::save_landmark(Undo& undo, Number landmark) {
   if (landmarks_[landmark].saved == undo.change) return;
   undo.positions.emplace_back(landmark, landmarks_[landmark].position);
   landmarks_[landmark].saved = undo.change;
 }
 
-void SparseMap::save_base(Undo& undo, Number base) {
+template <class Pose>
+void SparseMap<Pose>::save_base(Undo& undo, Number base) {
   if (base_saved_[base] == undo.change) return;
   undo.bases.emplace_back(base, bases_[base]);
   base_saved_[base] = undo.change;
 }
 
 // And where its private landmarks stand.
-void SparseMap::save_leaf(Undo& undo, Number leaf) {
+template <class Pose>
+void SparseMap<Pose>::save_leaf(Undo& undo, Number leaf) {
   if (leaves_[leaf].saved == undo.change) return;
   undo.leaves.emplace_back(leaf, leaves_[leaf]);
   for (const Number landmark : leaves_[leaf].landmarks)
@@ -248,7 +292,8 @@ void SparseMap::save_leaf(Undo& undo, Number leaf) {
   leaves_[leaf].saved = undo.change;
 }
 
-void SparseMap::roll_back(Undo& undo) noexcept {
+template <class Pose>
+void SparseMap<Pose>::roll_back(Undo& undo) noexcept {
   for (std::size_t i = 0; i < undo.extended.size(); ++i) {
     landmarks_[undo.extended[i]].submaps.pop_back();
     landmarks_[undo.extended[i]].count -= undo.counts[i];
@@ -277,7 +322,8 @@ void SparseMap::roll_back(Undo& undo) noexcept {
   turn_scale_ = undo.turn_scale;
 }
 
-SparseMap::Undo::Undo(const SparseMap& map, Number number)
+template <class Pose>
+SparseMap<Pose>::Undo::Undo(const SparseMap& map, Number number)
     : change(number),
       landmarks(static_cast<Number>(map.landmarks_.size())),
       leaf_count(map.leaves_.size()),
@@ -292,7 +338,8 @@ SparseMap::Undo::Undo(const SparseMap& map, Number number)
       length_scale(map.length_scale_),
       turn_scale(map.turn_scale_) {}
 
-double SparseMap::cost_since(const Undo& undo) const {
+template <class Pose>
+double SparseMap<Pose>::cost_since(const Undo& undo) const {
   double change = 0.0;
   for (std::size_t i = undo.leaf_count; i < leaves_.size(); ++i) change += leaves_[i].cost;
   for (const auto& [number, leaf] : undo.leaves) change += leaves_[number].cost - leaf.cost;
@@ -301,7 +348,8 @@ double SparseMap::cost_since(const Undo& undo) const {
 
 // --- joining ---
 
-JoinReport SparseMap::join_and_fix(const Submap<SE3>& submap, FixRequest<SE3>* fix) {
+template <class Pose>
+JoinReport SparseMap<Pose>::join_and_fix(const Submap<Pose>& submap, FixRequest<Pose>* fix) {
   std::vector<char> left_out(submap.ids.size(), 0);
   JoinReport report;
   if (try_join(submap, left_out, false, fix, report)) return report;
@@ -313,13 +361,14 @@ JoinReport SparseMap::join_and_fix(const Submap<SE3>& submap, FixRequest<SE3>* f
 }
 
 // False, with nothing changed, where a landmark may contradict the map; the last try takes what it gets.
-bool SparseMap::try_join(const Submap<SE3>& submap, const std::vector<char>& left_out, bool last, FixRequest<SE3>* fix,
-                         JoinReport& report) {
+template <class Pose>
+bool SparseMap<Pose>::try_join(const Submap<Pose>& submap, const std::vector<char>& left_out, bool last,
+                               FixRequest<Pose>* fix, JoinReport& report) {
   Undo undo(*this, ++change_);
   try {
     const Number leaf = take_in(submap, left_out, undo, report);
     optimise(undo, report);
-    report.rows = 3 * report.fused;
+    report.rows = kDim * report.fused;
     if (report.rows > 0) {
       // To first order the cost grows by half of what the fused landmarks' two estimates have against each other.
       report.threshold = chi_square_quantile(static_cast<double>(report.rows), options_.joint_gate_probability);
@@ -346,17 +395,18 @@ bool SparseMap::try_join(const Submap<SE3>& submap, const std::vector<char>& lef
 }
 
 // Appends the submap, its end and its new landmarks, and makes the factor anew where that reaches.
-SparseMap::Number SparseMap::take_in(const Submap<SE3>& submap, const std::vector<char>& left_out, Undo& undo,
-                                     JoinReport& report) {
+template <class Pose>
+typename SparseMap<Pose>::Number SparseMap<Pose>::take_in(const Submap<Pose>& submap, const std::vector<char>& left_out,
+                                                          Undo& undo, JoinReport& report) {
   const auto number = static_cast<Number>(leaves_.size());
-  const SE3 base = bases_.back();
+  const Pose base = bases_.back();
   bases_.push_back(base * submap.T_base_end);
   base_saved_.push_back(undo.change);
   Leaf leaf;
-  leaf.data = std::make_shared<const SubmapData>(submap);
-  leaf.key = TreeKey(base.translation() - options_.initial_pose.translation(), number);
+  leaf.data = std::make_shared<const Data>(submap);
+  leaf.key = key_of(number);
   leaf.saved = undo.change;
-  EliminationTree::Changes changes;
+  TreeChanges changes;
   std::vector<Number> reshaped;
   for (std::size_t i = 0; i < submap.ids.size(); ++i) {
     const auto known = ids_.find(submap.ids[i]);
@@ -424,15 +474,16 @@ SparseMap::Number SparseMap::take_in(const Submap<SE3>& submap, const std::vecto
   return number;
 }
 
-void SparseMap::set_scales(const Submap<SE3>& submap) {
+template <class Pose>
+void SparseMap<Pose>::set_scales(const Submap<Pose>& submap) {
   std::vector<double> sigmas;
   double extent = 1.0;
   for (Index i = 0; i < submap.size(); ++i) {
-    const Matrix3 P = submap.covariance.block<3, 3>(6 + 3 * i, 6 + 3 * i);
+    const PointSquare P = submap.covariance.template block<kDim, kDim>(kDof + kDim * i, kDof + kDim * i);
     sigmas.push_back(std::sqrt(P.trace()));
     extent = std::max(extent, submap.landmarks[i].norm());
   }
-  if (sigmas.empty()) sigmas.push_back(std::sqrt(submap.covariance.topLeftCorner<3, 3>().trace()));
+  if (sigmas.empty()) sigmas.push_back(std::sqrt(submap.covariance.template topLeftCorner<kDim, kDim>().trace()));
   const auto median = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
   std::nth_element(sigmas.begin(), median, sigmas.end());
   if (!(*median > 0.0)) return;
@@ -441,22 +492,24 @@ void SparseMap::set_scales(const Submap<SE3>& submap) {
 }
 
 // What the leaf's factor exerts on its i-th shared landmark, in map axes.
-Vector3 SparseMap::force_on(const Leaf& leaf, Index i) const {
-  return leaf.turned * Vector3(leaf.gradient.segment<3>(leaf.order[12 + 3 * i]));
+template <class Pose>
+typename SparseMap<Pose>::Point SparseMap<Pose>::force_on(const Leaf& leaf, Index i) const {
+  return leaf.turned * Point(leaf.gradient.template segment<kDim>(leaf.order[Factor::column(i)]));
 }
 
 // Whether the fused landmarks' estimates contradict each other, jointly or one by one; the latter judged from below: a
 // landmark's share of S^-1 nu is the force that the new submap exerts on it, and the covariance of its nu, given all
 // other states, is the sum of the inverses of what the new submap and the old ones know of it.
-bool SparseMap::suspicious(Number number, const JoinReport& report) const {
+template <class Pose>
+bool SparseMap<Pose>::suspicious(Number number, const JoinReport& report) const {
   if (report.distance > report.threshold) return true;
   const Leaf& leaf = leaves_[number];
   // Of many that are as they should be, one is beyond the single gate as likely as not.
   const double count = std::max(1.0, static_cast<double>(report.fused));
-  const double bound = chi_square_quantile(3, std::pow(options_.gate_probability, 1.0 / count));
+  const double bound = chi_square_quantile(kDim, std::pow(options_.gate_probability, 1.0 / count));
   for (Index i = 0; i < leaf.factor->shared_count(); ++i) {
     const Number landmark = leaf.landmarks[leaf.factor->shared()[i]];
-    Matrix3 old = Matrix3::Zero();
+    PointSquare old = PointSquare::Zero();
     for (const Number other : landmarks_[landmark].submaps) {
       if (other == number) continue;
       const std::vector<Index>& shared_there = leaves_[other].factor->shared();
@@ -464,8 +517,8 @@ bool SparseMap::suspicious(Number number, const JoinReport& report) const {
         if (leaves_[other].landmarks[shared_there[j]] == landmark)
           old += leaves_[other].factor->landmark_information(static_cast<Index>(j), bases_[other].rotation());
     }
-    const Matrix3 fresh = leaf.factor->landmark_information(i, bases_[number].rotation());
-    const Vector3 force = force_on(leaf, i);
+    const PointSquare fresh = leaf.factor->landmark_information(i, bases_[number].rotation());
+    const Point force = force_on(leaf, i);
     if (force.dot((fresh.inverse() + old.inverse()) * force) > bound) return true;
   }
   return false;
@@ -473,7 +526,8 @@ bool SparseMap::suspicious(Number number, const JoinReport& report) const {
 
 // Gates the known landmarks against the map as it is: nu = y_submap - R^T (l - p), S = H P H^T + Sigma_DD; each by
 // itself, then jointly. What does not pass is left out.
-void SparseMap::gate(const Submap<SE3>& submap, std::vector<char>& left_out) const {
+template <class Pose>
+void SparseMap<Pose>::gate(const Submap<Pose>& submap, std::vector<char>& left_out) const {
   std::vector<Index> known;
   std::vector<std::size_t> indices;
   for (Index i = 0; i < submap.size(); ++i) {
@@ -484,29 +538,30 @@ void SparseMap::gate(const Submap<SE3>& submap, std::vector<char>& left_out) con
   }
   Eigen::MatrixXd joint = submap.covariance;
   to_ordinary(submap, known, joint);
-  const double single = chi_square_quantile(3, options_.gate_probability);
+  const double single = chi_square_quantile(kDim, options_.gate_probability);
   for (bool first = true;; first = false) {
-    const auto count = static_cast<Index>(known.size()), m = 3 * count;
+    const auto count = static_cast<Index>(known.size()), m = kDim * count;
     if (count == 0) return;
-    Eigen::MatrixXd P(6 + m, 6 + m), H = Eigen::MatrixXd::Zero(m, 6 + m), S(m, m);
+    Eigen::MatrixXd P(kDof + m, kDof + m), H = Eigen::MatrixXd::Zero(m, kDof + m), S(m, m);
     base_joint_covariance(indices.data(), indices.size(), P.data());
     Eigen::VectorXd residual(m);
     for (Index a = 0; a < count; ++a) {
-      const Vector3 l = position(indices[a]);
-      Prediction<SE3> prediction;
-      map_jacobians(base(), l, Matrix3::Identity(), prediction);
-      H.block<3, 6>(3 * a, 0) = prediction.J_z_pose;
-      H.block<3, 3>(3 * a, 6 + 3 * a) = prediction.J_z_landmark;
-      residual.segment<3>(3 * a) = submap.landmarks[known[a]] - base().inverse() * l;
+      const Point l = point(indices[a]);
+      Prediction<Pose> prediction;
+      map_jacobians(base(), l, Prediction<Pose>::ByLandmark::Identity(), prediction);
+      H.block<kDim, kDof>(kDim * a, 0) = prediction.J_z_pose.template topRows<kDim>();
+      H.block<kDim, kDim>(kDim * a, kDof + kDim * a) = prediction.J_z_landmark.template topRows<kDim>();
+      residual.segment<kDim>(kDim * a) = submap.landmarks[known[a]] - base().inverse() * l;
       for (Index b = 0; b < count; ++b)
-        S.block<3, 3>(3 * a, 3 * b) = joint.block<3, 3>(6 + 3 * known[a], 6 + 3 * known[b]);
+        S.block<kDim, kDim>(kDim * a, kDim * b) =
+            joint.block<kDim, kDim>(kDof + kDim * known[a], kDof + kDim * known[b]);
     }
     S += H * P * H.transpose();
     if (first) {
       std::vector<Index> passed;
       std::vector<std::size_t> passed_indices;
       for (Index a = 0; a < count; ++a) {
-        const double distance = squared_distance(residual.data() + 3 * a, S.data() + 3 * a * (m + 1), m, 3);
+        const double distance = squared_distance(residual.data() + kDim * a, S.data() + kDim * a * (m + 1), m, kDim);
         if (distance >= 0.0 && distance <= single) {
           passed.push_back(known[a]);
           passed_indices.push_back(indices[a]);
@@ -521,22 +576,24 @@ void SparseMap::gate(const Submap<SE3>& submap, std::vector<char>& left_out) con
     }
     Eigen::MatrixXd inverse = S.selfadjointView<Eigen::Lower>().ldlt().solve(Eigen::MatrixXd::Identity(m, m));
     Eigen::VectorXd u = inverse * residual;
-    std::vector<double> workspace(static_cast<std::size_t>(3 * (3 + m)));
+    std::vector<double> workspace(static_cast<std::size_t>(kDim * (kDim + m)));
     gate_by_inverse(
-        inverse.data(), count, 3, u.data(), residual.dot(u), workspace.data(),
+        inverse.data(), count, kDim, u.data(), residual.dot(u), workspace.data(),
         [&](Index rows) { return chi_square_quantile(static_cast<double>(rows), options_.joint_gate_probability); },
         [&](Index a) { return left_out[known[a]] != 0; }, [&](Index a, double, double) { left_out[known[a]] = 1; });
     return;
   }
 }
 
-void SparseMap::refresh_base_covariance() {
+template <class Pose>
+void SparseMap<Pose>::refresh_base_covariance() {
   Eigen::MatrixXd newest = tree_.last_covariance();
   to_map_axes({base_variable(bases_.size() - 1)}, newest);
   base_covariance_ = newest;
 }
 
-void SparseMap::finish(Undo& undo, JoinReport& report) {
+template <class Pose>
+void SparseMap<Pose>::finish(Undo& undo, JoinReport& report) {
   for (const auto& [number, leaf] : undo.leaves) place_private(number);
   for (std::size_t i = undo.leaf_count; i < leaves_.size(); ++i) place_private(static_cast<Number>(i));
   refresh_base_covariance();
@@ -551,7 +608,8 @@ void SparseMap::finish(Undo& undo, JoinReport& report) {
 }
 
 // To the spatial index, which may want memory for single moves, but none to hear that all have moved.
-void SparseMap::note_moves(const Undo& undo) noexcept {
+template <class Pose>
+void SparseMap<Pose>::note_moves(const Undo& undo) noexcept {
   try {
     for (const auto& [landmark, before] : undo.positions)
       if (landmarks_[landmark].slot != kNone) index_.moved(landmarks_[landmark].slot);
@@ -560,7 +618,8 @@ void SparseMap::note_moves(const Undo& undo) noexcept {
   }
 }
 
-void SparseMap::remove(std::uint64_t id) {
+template <class Pose>
+void SparseMap<Pose>::remove(std::uint64_t id) {
   const auto found = ids_.find(id);
   if (found == ids_.end()) return;
   Landmark& landmark = landmarks_[found->second];
@@ -573,5 +632,8 @@ void SparseMap::remove(std::uint64_t id) {
   if (slot < visible_.size()) index_.moved(slot);
   ids_.erase(found);
 }
+
+template class SparseMap<SE2>;
+template class SparseMap<SE3>;
 
 }  // namespace cairn

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes another sparse map in: its submaps are appended, moved by where its frame lies, and all are solved for
+// Takes another sparse map of space in: its submaps are appended, moved by where its frame lies, and all are solved for
 // together.
 //
 // The map's submaps are one chain of bases, submap j leading from base j to base j + 1. Another chain is hung on by a
@@ -40,12 +40,13 @@ Matrix6 diagonal(double position, double turn) {
 }  // namespace
 
 // Appends a submap without landmarks; whoever calls evaluates it.
-SparseMap::Number SparseMap::bridge(const Submap<SE3>& link, Undo& undo) {
+template <>
+SparseMap<SE3>::Number SparseMap<SE3>::bridge(const Submap<SE3>& link, Undo& undo) {
   const auto number = static_cast<Number>(leaves_.size());
   Leaf leaf;
-  leaf.data = std::make_shared<const SubmapData>(link);
+  leaf.data = std::make_shared<const Data>(link);
   leaf.saved = undo.change;
-  leaf.key = TreeKey(bases_[number].translation() - options_.initial_pose.translation(), number);
+  leaf.key = key_of(number);
   bases_.push_back(bases_[number] * link.T_base_end);
   base_saved_.push_back(undo.change);
   leaves_.push_back(std::move(leaf));
@@ -53,16 +54,18 @@ SparseMap::Number SparseMap::bridge(const Submap<SE3>& link, Undo& undo) {
 }
 
 // Whether a bridge ends at a base that is fixed: parts of the map may hang together by that alone.
-bool SparseMap::anchored() const {
+template <>
+bool SparseMap<SE3>::anchored() const {
   for (const auto& [base, fixes] : fixes_) {
-    const SubmapData& before = *leaves_[base - 1].data;
+    const Data& before = *leaves_[base - 1].data;
     if (before.ids.empty() && before.covariance(0, 0) == kNothingPosition) return true;
   }
   return false;
 }
 
-void SparseMap::append(const SparseMap& other, const MergePlan& plan, const MergeOptions& options,
-                       MergeReport& report) {
+template <>
+void SparseMap<SE3>::append(const SparseMap& other, const MergePlan& plan, const MergeOptions& options,
+                            MergeReport& report) {
   if (other.anchored())
     throw Error(ErrorCode::state,
                 "other: it was merged by has_transform, which ties its parts to its own frame; merge the map into it");
@@ -104,7 +107,7 @@ void SparseMap::append(const SparseMap& other, const MergePlan& plan, const Merg
   // The landmarks. One that was removed from the other still ties its submaps together; nobody sees it.
   std::vector<Number> here(other.landmarks_.size());
   std::vector<Number> reshaped;
-  EliminationTree::Changes changes;
+  TreeChanges changes;
   for (Number l = 0; l < other.landmarks_.size(); ++l) {
     const Landmark& from = other.landmarks_[l];
     const auto known = from.slot != kNone ? ids_.find(plan.ids[from.slot]) : ids_.end();
@@ -141,7 +144,7 @@ void SparseMap::append(const SparseMap& other, const MergePlan& plan, const Merg
     Leaf leaf;
     leaf.data = from.data;
     leaf.saved = undo.change;
-    leaf.key = TreeKey(bases_[number].translation() - options_.initial_pose.translation(), number);
+    leaf.key = key_of(number);
     for (const Number l : from.landmarks) leaf.landmarks.push_back(l == kNone ? kNone : here[l]);
     leaves_.push_back(std::move(leaf));
   }
@@ -174,7 +177,9 @@ void SparseMap::append(const SparseMap& other, const MergePlan& plan, const Merg
 
 // The common landmark that the other's submaps pull at hardest, judged from below: the covariance of the difference of
 // its two estimates, given all other states, is the sum of the inverses of what either map's submaps know of it.
-void SparseMap::find_worst(Number offset, MergeReport& report, const SparseMap& other, const MergePlan& plan) const {
+template <>
+void SparseMap<SE3>::find_worst(Number offset, MergeReport& report, const SparseMap& other,
+                                const MergePlan& plan) const {
   double most = -1.0;
   std::pair<std::size_t, std::size_t> worst = plan.pairs[0];
   for (const auto& pair : plan.pairs) {

@@ -6,24 +6,25 @@
 
 namespace cairn {
 
-struct SparseMap::Undo {
+template <class Pose>
+struct SparseMap<Pose>::Undo {
   Undo(const SparseMap& map, Number number);
 
   Number change;
   Number landmarks;  // how many of each there were
   std::size_t leaf_count, base_count, visible;
-  EliminationTree tree;
-  std::map<Number, std::vector<AbsoluteFix<SE3>>> fixes;
+  Tree tree;
+  std::map<Number, std::vector<AbsoluteFix<Pose>>> fixes;
   std::vector<Number> pending;
   bool settled;
   std::vector<Number> stale;
-  Matrix6 base_covariance;
+  Square base_covariance;
   double length_scale, turn_scale;
-  std::vector<std::pair<Number, Vector3>> positions;
-  std::vector<std::pair<Number, SE3>> bases;
+  std::vector<std::pair<Number, Point>> positions;
+  std::vector<std::pair<Number, Pose>> bases;
   std::vector<std::pair<Number, Leaf>> leaves;
-  std::vector<std::pair<Number, SO3>> turned;  // leaves that were carried before they were saved, in order
-  std::vector<Number> extended;                // landmarks that got another submap
+  std::vector<std::pair<Number, Rotation>> turned;  // leaves that were carried before they were saved, in order
+  std::vector<Number> extended;                     // landmarks that got another submap
   std::vector<std::uint64_t> counts;
 };
 

@@ -251,6 +251,7 @@ class Filter final : public Landmarks {
   }
   bool find(std::uint64_t id, std::size_t& index) const override;
   void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override;
+  bool planar() const override { return kDim == 2; }
 
  private:
   using AnySensorSlot = typename SensorKinds<Pose>::Any;
@@ -261,7 +262,7 @@ class Filter final : public Landmarks {
     Index slot;
     Matrix3 noise;
     Prediction<Pose> prediction;  // at the estimate
-    Index number;           // in the window
+    Index number;                 // in the window
   };
   // A landmark that the sensor may see, where observations bring no names.
   struct Expected {
@@ -370,7 +371,7 @@ class Filter final : public Landmarks {
   FilterOptions<Pose> options_;
   Ekf<Pose> ekf_;
   std::unique_ptr<GlobalMap<Pose>> map_;  // null: a single map
-  double driven_ = 0.0;             // in the open submap, m
+  double driven_ = 0.0;                   // in the open submap, m
   ClosingReport closing_;
   std::size_t frames_to_wait_ = 0, next_wait_ = 1;  // before another attempt to close
   IdTable slots_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The life of submaps: when one is closed, how it joins the map, and what the caller's pose is meanwhile. Included by filter.cpp alone.
+// The life of submaps: when one is closed, how it joins the map, and what the caller's pose is meanwhile. Included by
+// filter.cpp alone.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -57,20 +58,14 @@ bool FilterOptions<Pose>::sparse() const {
 template <class Pose>
 std::unique_ptr<GlobalMap<Pose>> Filter<Pose>::make_map(const FilterOptions<Pose>& options) {
   if (options.single_map()) return nullptr;
-  if constexpr (kDim == 3) {  // TEMPORARY
-    if (options.sparse()) return std::make_unique<SparseMap>(map_options(options));
-    return std::make_unique<DenseMap>(map_options(options));
-  } else {
-    throw Error(ErrorCode::state, "filter: no submaps in the plane yet");
-  }
+  if (options.sparse()) return std::make_unique<SparseMap<Pose>>(map_options(options));
+  return std::make_unique<DenseMap<Pose>>(map_options(options));
 }
 
 template <class Pose>
 std::size_t Filter<Pose>::required_bytes(const FilterOptions<Pose>& options) {
   std::size_t bytes = arena_bytes(options);
-  if constexpr (kDim == 3) {  // TEMPORARY
-    if (!options.single_map() && !options.sparse()) bytes += DenseMap::required_bytes(map_options(options));
-  }
+  if (!options.single_map() && !options.sparse()) bytes += DenseMap<Pose>::required_bytes(map_options(options));
   return bytes;
 }
 
@@ -119,8 +114,7 @@ void Filter<Pose>::join_submap(ClosedBy reason, FixRequest<Pose>* fix) {
   next.landmarks = counting();
   Submap<Pose> submap = take_submap();
   if (options_.association != AssociationKind::known) {
-    if constexpr (kDim == 3)  // TEMPORARY
-      next.naming = name_landmarks(*map_, naming_options(options_), submap);
+    next.naming = name_landmarks(*map_, naming_options(options_), submap);
     if (next.naming.exhausted)
       say("closing: association stopped at %td joint tests, with %zu of %td landmarks named", next.naming.nodes,
           next.naming.named, next.landmarks);

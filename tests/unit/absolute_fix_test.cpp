@@ -17,7 +17,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 // The residual is z - h: its derivative is that of h with the other sign. Three values, of which the first rows()
 // count.
-Matrix36 numerical(const AbsoluteFix& fix, const SE3& T) {
+Matrix36 numerical(const AbsoluteFix<SE3>& fix, const SE3& T) {
   return -cairn::test::pose_jacobian([&](const SE3& pose) { return fix.residual(pose); }, T);
 }
 
@@ -31,17 +31,17 @@ TEST_CASE("absolute fix: nothing is left where the pose is what was measured") {
   Random random(1);
   const Vector3 lever(0.4, -0.2, 1.1);
   for (const SE3& T : cairn::test::awkward_poses(2)) {
-    const AbsoluteFix position = AbsoluteFix::position(T * lever, Matrix3::Identity(), lever);
+    const AbsoluteFix<SE3> position = AbsoluteFix<SE3>::position(T * lever, Matrix3::Identity(), lever);
     CHECK(position.residual(T).norm() <= 1e-13 * (1 + T.translation().norm()));
     CHECK(position.rows() == 3);
-    const AbsoluteFix attitude = AbsoluteFix::attitude(T.rotation(), Matrix3::Identity());
+    const AbsoluteFix<SE3> attitude = AbsoluteFix<SE3>::attitude(T.rotation(), Matrix3::Identity());
     CHECK(attitude.residual(T).norm() <= 1e-14);
     CHECK(attitude.rows() == 3);
     CHECK(position.defined(T));
     CHECK(attitude.defined(T));
   }
   const SE3 yawed(SO3::exp(Vector3(0, 0, 0.7)), Vector3(1, 2, 3));
-  CHECK(std::abs(AbsoluteFix::heading(0.7, 0.1).residual(yawed)(0)) <= 1e-15);
+  CHECK(std::abs(AbsoluteFix<SE3>::heading(0.7, 0.1).residual(yawed)(0)) <= 1e-15);
 }
 
 TEST_CASE("absolute fix: the residual is the error that the covariance speaks of") {
@@ -49,13 +49,13 @@ TEST_CASE("absolute fix: the residual is the error that the covariance speaks of
   for (const double size : {0.0, 1e-8, 0.1, 1.5, 3.0}) {
     const SE3 T(SO3::exp(random.normal_vector<3>()), 20 * random.normal_vector<3>());
     const Vector3 turn = size * random.normal_vector<3>().normalized();
-    const AbsoluteFix fix = AbsoluteFix::attitude(SO3::exp(turn) * T.rotation(), Matrix3::Identity());
+    const AbsoluteFix<SE3> fix = AbsoluteFix<SE3>::attitude(SO3::exp(turn) * T.rotation(), Matrix3::Identity());
     CHECK((fix.residual(T) - turn).norm() <= 1e-13 * (1 + size));
   }
   // Headings wrap.
   const SE3 back(SO3::exp(Vector3(0, 0, kPi - 0.01)), Vector3::Zero());
-  CHECK(AbsoluteFix::heading(-kPi + 0.02, 0.1).residual(back)(0) == doctest::Approx(0.03).epsilon(1e-10));
-  CHECK(AbsoluteFix::heading(7 * kPi, 0.1).residual(back)(0) == doctest::Approx(0.01).epsilon(1e-10));
+  CHECK(AbsoluteFix<SE3>::heading(-kPi + 0.02, 0.1).residual(back)(0) == doctest::Approx(0.03).epsilon(1e-10));
+  CHECK(AbsoluteFix<SE3>::heading(7 * kPi, 0.1).residual(back)(0) == doctest::Approx(0.01).epsilon(1e-10));
 }
 
 TEST_CASE("absolute fix: Jacobians against differences") {
@@ -63,15 +63,15 @@ TEST_CASE("absolute fix: Jacobians against differences") {
   const Vector3 lever(0.4, -0.2, 1.1);
   for (const SE3& T : cairn::test::awkward_poses(5)) {
     if (T.translation().norm() > 1e3) continue;  // differences lose their digits there
-    const AbsoluteFix position = AbsoluteFix::position(random.normal_vector<3>(), Matrix3::Identity(), lever);
+    const AbsoluteFix<SE3> position = AbsoluteFix<SE3>::position(random.normal_vector<3>(), Matrix3::Identity(), lever);
     CHECK(scaled(position.jacobian(T), numerical(position, T)) <= 1e-7);
     for (const double size : {0.0, 1e-8, 0.1, 1.0, 2.5}) {
       const SO3 seen = SO3::exp(size * random.normal_vector<3>().normalized()) * T.rotation();
-      const AbsoluteFix attitude = AbsoluteFix::attitude(seen, Matrix3::Identity());
+      const AbsoluteFix<SE3> attitude = AbsoluteFix<SE3>::attitude(seen, Matrix3::Identity());
       CHECK(scaled(attitude.jacobian(T), numerical(attitude, T)) <= 1e-7);
     }
     const Vector3 a = T.rotation() * Vector3::UnitX();
-    const AbsoluteFix heading = AbsoluteFix::heading(std::atan2(a.y(), a.x()) + 0.3, 0.1);
+    const AbsoluteFix<SE3> heading = AbsoluteFix<SE3>::heading(std::atan2(a.y(), a.x()) + 0.3, 0.1);
     if (!heading.defined(T)) continue;
     CHECK(scaled(heading.jacobian(T), numerical(heading, T)) <= 1e-6);
     CHECK(heading.jacobian(T).bottomRows<2>().isZero(0.0));
@@ -79,7 +79,7 @@ TEST_CASE("absolute fix: Jacobians against differences") {
 }
 
 TEST_CASE("absolute fix: no heading within 5 degrees of the vertical") {
-  const AbsoluteFix fix = AbsoluteFix::heading(0.3, 0.1);
+  const AbsoluteFix<SE3> fix = AbsoluteFix<SE3>::heading(0.3, 0.1);
   CHECK(fix.rows() == 1);
   CHECK(fix.covariance()(0, 0) == doctest::Approx(0.01));
   for (const double degrees : {0.0, 30.0, 84.9, -84.9, 95.1}) {

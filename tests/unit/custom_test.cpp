@@ -16,7 +16,7 @@ using namespace cairn::test;
 namespace {
 
 struct Wrapped {
-  const Sensor* sensor = nullptr;
+  const Sensor<SE3>* sensor = nullptr;
   int rows = 3;
   int refuse = 0;             // what the callbacks return
   double wrong_landmark = 0;  // error of one entry of a Jacobian
@@ -30,7 +30,7 @@ SE3 unpack(const double* pose) {
 std::int32_t predict_wrapped(void* user, const double* pose, const double* landmark, double* z, double* J_pose,
                              double* J_landmark) {
   const Wrapped& w = *static_cast<const Wrapped*>(user);
-  Prediction out;
+  Prediction<SE3> out;
   if (!w.sensor->predict(unpack(pose), Vector3(landmark[0], landmark[1], landmark[2]), kNoMount, out)) return 7;
   for (int i = 0; i < w.rows; ++i) {
     z[i] = out.z[i];
@@ -46,7 +46,7 @@ std::int32_t place_wrapped(void* user, const double* pose, const double* z, doub
   const Wrapped& w = *static_cast<const Wrapped*>(user);
   Vector3 full(5, 0, 0);  // what fewer than three values leave open
   for (int i = 0; i < w.rows; ++i) full[i] = z[i];
-  Placement out;
+  Placement<SE3> out;
   if (!w.sensor->place(unpack(pose), full, kNoMount, out)) return 7;
   for (int i = 0; i < 3; ++i) {
     landmark[i] = out.landmark[i] + w.offset;
@@ -57,18 +57,18 @@ std::int32_t place_wrapped(void* user, const double* pose, const double* z, doub
 }
 
 // Azimuth and elevation of a point of the body frame: two values, both angles, the head's rows moved up.
-class Bearing final : public Sensor {
+class Bearing final : public Sensor<SE3> {
  public:
   int rows() const override { return 2; }
   const Matrix3& noise() const override { return head_.noise(); }
-  bool predict(const SE3& T, const Vector3& p, const Vector2& mount, Prediction& out) const override {
+  bool predict(const SE3& T, const Vector3& p, const Vector2& mount, Prediction<SE3>& out) const override {
     if (!head_.predict(T, p, mount, out)) return false;
     out.z = Vector3(out.z[1], out.z[2], 0);
     out.J_z_pose.topRows<2>() = out.J_z_pose.bottomRows<2>().eval();
     out.J_z_landmark.topRows<2>() = out.J_z_landmark.bottomRows<2>().eval();
     return true;
   }
-  bool place(const SE3& T, const Vector3& z, const Vector2& mount, Placement& out) const override {
+  bool place(const SE3& T, const Vector3& z, const Vector2& mount, Placement<SE3>& out) const override {
     if (!head_.place(T, Vector3(20, z[0], z[1]), mount, out)) return false;
     out.J_landmark_z.leftCols<2>() = out.J_landmark_z.rightCols<2>().eval();
     return true;
@@ -98,8 +98,8 @@ TEST_CASE("custom: the same numbers as the sensor behind the callbacks") {
   const StereoHead head(mounted_head());
   Wrapped user;
   user.sensor = &head;
-  const CustomSensor custom(wrap(user, 6));
-  Prediction expected, seen;
+  const CustomSensor<SE3> custom(wrap(user, 6));
+  Prediction<SE3> expected, seen;
   REQUIRE(head.predict(kPose, kLandmark, kNoMount, expected));
   REQUIRE(custom.predict(kPose, kLandmark, kNoMount, seen));
   // The pose passes through a quaternion that is normalised once more.
@@ -107,7 +107,7 @@ TEST_CASE("custom: the same numbers as the sensor behind the callbacks") {
   CHECK((seen.J_z_pose - expected.J_z_pose).norm() < 1e-13);
   CHECK((seen.J_z_landmark - expected.J_z_landmark).norm() < 1e-13);
   CHECK(seen.J_z_mount.isZero(0));
-  Placement there, placed;
+  Placement<SE3> there, placed;
   REQUIRE(head.place(kPose, expected.z, kNoMount, there));
   REQUIRE(custom.place(kPose, expected.z, kNoMount, placed));
   CHECK((placed.landmark - there.landmark).norm() < 1e-13);
@@ -123,8 +123,8 @@ TEST_CASE("custom: fewer rows are packed tightly and leave the rest zero") {
     Wrapped user;
     user.sensor = &bearing;
     user.rows = rows;
-    const CustomSensor custom(wrap(user, 3));
-    Prediction expected, seen;
+    const CustomSensor<SE3> custom(wrap(user, 3));
+    Prediction<SE3> expected, seen;
     seen.z.setConstant(9);
     seen.J_z_pose.setConstant(9);
     seen.J_z_landmark.setConstant(9);
@@ -139,7 +139,7 @@ TEST_CASE("custom: fewer rows are packed tightly and leave the rest zero") {
     CHECK(seen.J_z_pose.bottomRows(3 - rows).isZero(0));
     CHECK(seen.J_z_landmark.bottomRows(3 - rows).isZero(0));
     CHECK(seen.J_z_mount.isZero(0));
-    Placement placed;
+    Placement<SE3> placed;
     REQUIRE(custom.place(kPose, seen.z, kNoMount, placed));
     CHECK(placed.J_landmark_z.leftCols(rows).norm() > 1);
     CHECK(placed.J_landmark_z.rightCols(3 - rows).isZero(0));
@@ -151,7 +151,7 @@ TEST_CASE("custom: angles are wrapped, and only they") {
   const StereoHead head;
   Wrapped user;
   user.sensor = &head;
-  const Vector3 r = CustomSensor(wrap(user, 2)).residual(Vector3(7, 7, 7), Vector3::Zero());
+  const Vector3 r = CustomSensor<SE3>(wrap(user, 2)).residual(Vector3(7, 7, 7), Vector3::Zero());
   CHECK((r - Vector3(7, 7 - 2 * kPi, 7)).norm() < 1e-14);
 }
 
@@ -186,30 +186,30 @@ TEST_CASE("custom: refusals") {
   Wrapped user;
   user.sensor = &head;
   CustomParameters p = wrap(user, 6);
-  Prediction seen;
-  Placement placed;
-  CHECK(CustomSensor(p).predict(kPose, kLandmark, kNoMount, seen));
-  CHECK(CustomSensor(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
-  CHECK_FALSE(CustomSensor(p).predict(kPose, kPose.translation(), kNoMount, seen));
+  Prediction<SE3> seen;
+  Placement<SE3> placed;
+  CHECK(CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen));
+  CHECK(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
+  CHECK_FALSE(CustomSensor<SE3>(p).predict(kPose, kPose.translation(), kNoMount, seen));
   for (int code : {1, -1}) {
     user.refuse = code;
-    CHECK_FALSE(CustomSensor(p).predict(kPose, kLandmark, kNoMount, seen));
-    CHECK_FALSE(CustomSensor(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
+    CHECK_FALSE(CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen));
+    CHECK_FALSE(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
   }
   user.refuse = 0;
   p.place = nullptr;
-  CHECK_FALSE(CustomSensor(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
+  CHECK_FALSE(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
 
   p.predict = spoil_predict;
   p.place = spoil_place;
   spoiled = -1;
-  CHECK(CustomSensor(p).predict(kPose, kLandmark, kNoMount, seen));
-  CHECK(CustomSensor(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
+  CHECK(CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen));
+  CHECK(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
   for (spoiled = 0; spoiled < 6; ++spoiled) {
     for (double value : {kNaN, kInfinity}) {
       spoiled_by = value;
-      CHECK_FALSE(CustomSensor(p).predict(kPose, kLandmark, kNoMount, seen));
-      CHECK_FALSE(CustomSensor(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
+      CHECK_FALSE(CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen));
+      CHECK_FALSE(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
     }
   }
 }
@@ -223,38 +223,38 @@ TEST_CASE("custom: check finds a wrong Jacobian and passes a right one") {
     double worst = -1;
     Wrapped user;
     user.sensor = &head;
-    Placement ahead;
+    Placement<SE3> ahead;
     REQUIRE(head.place(T, Vector3(12, 0.3, 0.2), kNoMount, ahead));
-    REQUIRE(check_custom(CustomSensor(wrap(user, 6)), T, ahead.landmark, worst));
+    REQUIRE(check_custom(CustomSensor<SE3>(wrap(user, 6)), T, ahead.landmark, worst));
     CHECK(worst < 1e-6);
     REQUIRE(camera.place(T, Vector3(300, 290, 200), kNoMount, ahead));
     user.sensor = &camera;
-    REQUIRE(check_custom(CustomSensor(wrap(user, 0)), T, ahead.landmark, worst));
+    REQUIRE(check_custom(CustomSensor<SE3>(wrap(user, 0)), T, ahead.landmark, worst));
     CHECK(worst < 1e-6);
     // Two values don't tell where a landmark at 12 m lies, but the check holds what they do tell.
     REQUIRE(bearing.place(T, Vector3(kPi, 0.2, 0), kNoMount, ahead));
     user.sensor = &bearing;
     user.rows = 2;
-    REQUIRE(check_custom(CustomSensor(wrap(user, 3)), T, ahead.landmark + Vector3(0.1, 0.2, 0.3), worst));
+    REQUIRE(check_custom(CustomSensor<SE3>(wrap(user, 3)), T, ahead.landmark + Vector3(0.1, 0.2, 0.3), worst));
     CHECK(worst < 1e-6);
   }
   Wrapped user;
   user.sensor = &head;
   double worst = -1;
   user.wrong_landmark = 1e-3;
-  REQUIRE(check_custom(CustomSensor(wrap(user, 6)), kPose, kLandmark, worst));
+  REQUIRE(check_custom(CustomSensor<SE3>(wrap(user, 6)), kPose, kLandmark, worst));
   CHECK(worst > 0.9e-3);
   CHECK(worst < 1.1e-3);
   user.wrong_landmark = 0;
   user.offset = 0.1;  // relative to the 10 m of the landmark's first coordinate, to 3 of its second
-  REQUIRE(check_custom(CustomSensor(wrap(user, 6)), kPose, kLandmark, worst));
+  REQUIRE(check_custom(CustomSensor<SE3>(wrap(user, 6)), kPose, kLandmark, worst));
   CHECK(std::abs(worst - 0.1 / 2) < 1e-3);
   user.offset = 0;
   CustomParameters blind = wrap(user, 6);
   blind.place = nullptr;
-  REQUIRE(check_custom(CustomSensor(blind), kPose, kLandmark, worst));
+  REQUIRE(check_custom(CustomSensor<SE3>(blind), kPose, kLandmark, worst));
   CHECK(worst < 1e-6);
   const StereoHead at_origin;
   user.sensor = &at_origin;
-  CHECK_FALSE(check_custom(CustomSensor(wrap(user, 6)), kPose, kPose.translation(), worst));
+  CHECK_FALSE(check_custom(CustomSensor<SE3>(wrap(user, 6)), kPose, kPose.translation(), worst));
 }

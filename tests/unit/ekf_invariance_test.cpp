@@ -14,8 +14,8 @@ using namespace cairn::test;
 namespace {
 
 struct Run {
-  Run(const FilterOptions& options, const Sensor& sensor)
-      : arena(Filter::arena_bytes(options)), filter(arena, options), sensor_(sensor) {
+  Run(const FilterOptions<SE3>& options, const Sensor<SE3>& sensor)
+      : arena(Filter<SE3>::arena_bytes(options)), filter(arena, options), sensor_(sensor) {
     if (const auto* head = dynamic_cast<const StereoHead*>(&sensor)) filter.add(*head);
     if (const auto* camera = dynamic_cast<const StereoCamera*>(&sensor)) filter.add(*camera);
   }
@@ -54,10 +54,10 @@ struct Run {
   }
 
   Arena arena;
-  Filter filter;
+  Filter<SE3> filter;
 
  private:
-  const Sensor& sensor_;
+  const Sensor<SE3>& sensor_;
 };
 
 // Largest factor by which `after` exceeds `before` along any direction.
@@ -68,16 +68,16 @@ double largest_gain(const Matrix6& after, const Matrix6& before) {
   return Eigen::SelfAdjointEigenSolver<Matrix6>(0.5 * (ratio + ratio.transpose())).eigenvalues().maxCoeff();
 }
 
-FilterOptions options_for(ErrorKind error, unsigned seed) {
+FilterOptions<SE3> options_for(ErrorKind error, unsigned seed) {
   Random random(seed);
-  FilterOptions options = random_options(error, random);
+  FilterOptions<SE3> options = random_options(error, random);
   options.initial_covariance = Vector6(1, 1, 1, 0.1, 0.1, 0.1).cwiseAbs2().asDiagonal();
   return options;
 }
 
 // A drive of `frames` frames; the filter only hears of the motion's noise where it is told of any.
 double gauge_gain(ErrorKind error, unsigned seed, int frames, const Matrix6& motion_noise) {
-  const FilterOptions options = options_for(error, seed);
+  const FilterOptions<SE3> options = options_for(error, seed);
   const StereoHead head = scenario_head(0.02, seed % 2 == 0);
   Run run(options, head);
   Drive drive(seed, options);
@@ -99,8 +99,8 @@ TEST_CASE("ekf: turning and shifting the start turns and shifts everything, and 
       CAPTURE(seed);
       const StereoHead head = scenario_head(0.02, true);
       const StereoCamera camera = scenario_camera();
-      const Sensor& sensor = seed == 3 ? static_cast<const Sensor&>(camera) : head;
-      FilterOptions options = options_for(error, seed), moved_options = options;
+      const Sensor<SE3>& sensor = seed == 3 ? static_cast<const Sensor<SE3>&>(camera) : head;
+      FilterOptions<SE3> options = options_for(error, seed), moved_options = options;
       Random random(seed);
       options.initial_covariance = random_covariance(random, 0.5, 0.1);
       const SE3 G{SO3::exp(2 * random.normal_vector<3>()), 30 * random.normal_vector<3>()};
@@ -152,7 +152,7 @@ TEST_CASE("ekf: landmarks teach the invariant filter nothing of the gauge, and t
 
 TEST_CASE("ekf: a vehicle that stands and looks learns nothing of its own pose") {
   for (ErrorKind error : {ErrorKind::invariant, ErrorKind::standard}) {
-    const FilterOptions options = options_for(error, 5);
+    const FilterOptions<SE3> options = options_for(error, 5);
     const StereoHead head = scenario_head(0, false);
     Run run(options, head);
     Drive drive(5, options);
@@ -175,11 +175,11 @@ TEST_CASE("ekf: a vehicle that stands and looks learns nothing of its own pose")
 // error wins on landmarks it pays back on absolute positions. The test is here so that an improvement gets noticed.
 TEST_CASE("ekf: a vehicle that stands and gets position fixes learns nothing of its attitude" *
           doctest::description("known limit of the invariant error") * doctest::should_fail()) {
-  FilterOptions options;
+  FilterOptions<SE3> options;
   options.gate_probability = 1;
   options.initial_covariance = Vector6(4, 4, 4, 0.09, 0.09, 0.09).asDiagonal();
-  Arena arena(Filter::arena_bytes(options));
-  Filter filter(arena, options);
+  Arena arena(Filter<SE3>::arena_bytes(options));
+  Filter<SE3> filter(arena, options);
   Random random(6);
   for (int i = 0; i < 10; ++i)
     filter.update_position(Vector3(1.5, 1.5, 1.5) + 0.1 * random.normal_vector<3>(), 0.01 * Matrix3::Identity(),
@@ -188,12 +188,12 @@ TEST_CASE("ekf: a vehicle that stands and gets position fixes learns nothing of 
 }
 
 TEST_CASE("ekf: with the standard error, position fixes teach a vehicle that stands its position alone") {
-  FilterOptions options;
+  FilterOptions<SE3> options;
   options.error = ErrorKind::standard;
   options.gate_probability = 1;
   options.initial_covariance = Vector6(4, 4, 4, 0.09, 0.09, 0.09).asDiagonal();
-  Arena arena(Filter::arena_bytes(options));
-  Filter filter(arena, options);
+  Arena arena(Filter<SE3>::arena_bytes(options));
+  Filter<SE3> filter(arena, options);
   Random random(6);
   for (int i = 0; i < 10; ++i)
     filter.update_position(Vector3(1.5, 1.5, 1.5) + 0.1 * random.normal_vector<3>(), 0.01 * Matrix3::Identity(),

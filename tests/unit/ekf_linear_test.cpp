@@ -46,7 +46,7 @@ TEST_CASE("ekf: equals least squares over the whole drive where the problem is l
   for (ErrorKind error : {ErrorKind::invariant, ErrorKind::standard}) {
     CAPTURE(static_cast<int>(error));
     Random random(17);
-    FilterOptions options;
+    FilterOptions<SE3> options;
     options.error = error;
     options.max_landmarks = kLandmarks;
     options.max_observations = kLandmarks;
@@ -56,10 +56,10 @@ TEST_CASE("ekf: equals least squares over the whole drive where the problem is l
     options.initial_pose = SE3(R, Vector3(12, -7, 3));
     const Matrix3 start = random_covariance_of_points(random, 0.8);
     options.initial_covariance.topLeftCorner<3, 3>() = start;
-    Arena arena(Filter::arena_bytes(options));
-    Filter filter(arena, options);
-    const CartesianParameters parameters;
-    const int sensor = filter.add(Cartesian(parameters));
+    Arena arena(Filter<SE3>::arena_bytes(options));
+    Filter<SE3> filter(arena, options);
+    const CartesianParameters<SE3> parameters;
+    const int sensor = filter.add(Cartesian<SE3>(parameters));
 
     LeastSquares squares;
     squares.add(-1, 0, options.initial_pose.translation(), start);
@@ -131,9 +131,9 @@ TEST_CASE("ekf: equals least squares over the whole drive where the problem is l
 TEST_CASE("ekf: the covariance stays positive definite over a long drive") {
   for (ErrorKind error : {ErrorKind::invariant, ErrorKind::standard}) {
     Random random(9);
-    const FilterOptions options = random_options(error, random);
-    Arena arena(Filter::arena_bytes(options));
-    Filter filter(arena, options);
+    const FilterOptions<SE3> options = random_options(error, random);
+    Arena arena(Filter<SE3>::arena_bytes(options));
+    Filter<SE3> filter(arena, options);
     const StereoHead head = scenario_head(0.01, true);
     const int number = filter.add(head);
     SE3 truth = options.initial_pose;
@@ -149,7 +149,7 @@ TEST_CASE("ekf: the covariance stays positive definite over a long drive") {
       for (std::uint64_t id = 0; id < 20 && count < 8; ++id) {
         const double azimuth = 0.314 * static_cast<double>(id);
         const Vector3 l = options.initial_pose * Vector3(12 * std::cos(azimuth), 4 + 12 * std::sin(azimuth), 1);
-        Prediction seen;
+        Prediction<SE3> seen;
         if ((truth.rotation().inverse() * (l - truth.translation())).x() < 3) continue;
         REQUIRE(head.predict(truth, l, Vector2::Zero(), seen));
         seen.z += head.noise().diagonal().cwiseSqrt().cwiseProduct(random.normal_vector<3>());

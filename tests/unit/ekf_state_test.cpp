@@ -44,7 +44,7 @@ struct Bare {
     return ekf.propagate(step);
   }
   void place(const Vector3& z) {
-    Placement p;
+    Placement<SE3> p;
     sensor.place(ekf.pose(), z, Vector2::Zero(), p);
     REQUIRE(ekf.augment(p.landmark, p.J_landmark_pose, nullptr,
                         p.J_landmark_z * sensor.noise() * p.J_landmark_z.transpose(), true));
@@ -73,7 +73,7 @@ struct Bare {
   }
 
   static constexpr Ekf<SE3>::Capacity capacity{12, 6};
-  Cartesian sensor = scenario_points();
+  Cartesian<SE3> sensor = scenario_points();
   bool invariant;
   Vector3 origin;
   std::unique_ptr<Arena> arena;
@@ -219,7 +219,7 @@ TEST_CASE("ekf: what is not finite is refused, with nothing changed") {
 TEST_CASE("ekf: an update that would lose positive definiteness leaves everything bit for bit") {
   for (ErrorKind error : kBoth) {
     Random random(6);
-    FilterOptions options = random_options(error, random);
+    FilterOptions<SE3> options = random_options(error, random);
     Pair pair(options), twin(options);  // the twin never sees the bad update
     Drive drive(60, options), same(60, options);
     const StereoHead head = scenario_head(0.02, true);
@@ -234,7 +234,7 @@ TEST_CASE("ekf: an update that would lose positive definiteness leaves everythin
     }
     const auto bits = [](Pair& each) {
       std::vector<double> all(4096, 0.0);
-      const Filter& f = each.filter();
+      const Filter<SE3>& f = each.filter();
       std::vector<std::size_t> indices(f.size());
       for (std::size_t i = 0; i < f.size(); ++i) indices[i] = i;
       double* at = all.data() + 3600;

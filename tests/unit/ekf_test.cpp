@@ -21,11 +21,11 @@ void check(Pair& pair) {
 }
 
 // Motion, frames of one sensor, and now and then a removal.
-void drive_with(const Sensor& sensor, ErrorKind error, unsigned seed, double noise_scale = 1) {
+void drive_with(const Sensor<SE3>& sensor, ErrorKind error, unsigned seed, double noise_scale = 1) {
   CAPTURE(seed);
   CAPTURE(static_cast<int>(error));
   Random random(seed);
-  const FilterOptions options = random_options(error, random);
+  const FilterOptions<SE3> options = random_options(error, random);
   Pair pair(options);
   Drive drive(seed + 1000, options);
   const int number = pair.add(sensor);
@@ -81,17 +81,17 @@ TEST_CASE("ekf: a custom sensor that depends on more than the body point") {
 TEST_CASE("ekf: all sensors, absolute measurements and linear updates in turn") {
   const StereoHead per_frame = scenario_head(0.02, true), per_observation = scenario_head(0.01, false);
   const StereoCamera camera = scenario_camera();
-  const Cartesian points = scenario_points();
-  const CustomSensor compass = scenario_compass();
-  const Sensor* sensors[] = {&per_frame, &camera, &points, &per_observation, &compass};
+  const Cartesian<SE3> points = scenario_points();
+  const CustomSensor<SE3> compass = scenario_compass();
+  const Sensor<SE3>* sensors[] = {&per_frame, &camera, &points, &per_observation, &compass};
   for (ErrorKind error : kBoth) {
     CAPTURE(static_cast<int>(error));
     Random random(7);
-    FilterOptions options = random_options(error, random);
+    FilterOptions<SE3> options = random_options(error, random);
     options.initial_pose = SE3(SO3::exp(Vector3(0.1, 0.2, 2)), Vector3(30, -10, 5));  // level enough for a heading
     Pair pair(options);
     Drive drive(70, options);
-    for (const Sensor* sensor : sensors) pair.add(*sensor);
+    for (const Sensor<SE3>* sensor : sensors) pair.add(*sensor);
     for (int step = 0; step < 15; ++step) {
       CAPTURE(step);
       drive.move(pair);
@@ -149,11 +149,11 @@ TEST_CASE("ekf: all sensors, absolute measurements and linear updates in turn") 
 TEST_CASE("ekf: a start that is exactly known") {
   for (ErrorKind error : kBoth) {
     Random random(8);
-    FilterOptions options = random_options(error, random);
+    FilterOptions<SE3> options = random_options(error, random);
     options.initial_covariance.setZero();
     Pair pair(options);
     Drive drive(80, options);
-    const Cartesian points = scenario_points();
+    const Cartesian<SE3> points = scenario_points();
     pair.add(points);
     CHECK(pair.update(0, drive.look(points, 4)));
     CHECK(pair.update(0, drive.look(points, 8)));
@@ -168,7 +168,7 @@ TEST_CASE("ekf: frames of many rows in a larger map") {
   for (ErrorKind error : kBoth) {
     CAPTURE(static_cast<int>(error));
     Random random(15);
-    FilterOptions options = random_options(error, random);
+    FilterOptions<SE3> options = random_options(error, random);
     options.max_landmarks = options.max_observations = 45;
     const StereoHead head = scenario_head(0.02, true);
     Pair pair(options);
@@ -189,7 +189,7 @@ TEST_CASE("ekf: gates refuse what trying everything refuses") {
     for (unsigned seed = 90; seed < 96; ++seed) {
       CAPTURE(seed);
       Random random(seed);
-      FilterOptions options = random_options(error, random);
+      FilterOptions<SE3> options = random_options(error, random);
       options.gate_probability = seed % 2 == 0 ? 1 : 0.99;
       options.batch_gate_probability = 0.9;
       const StereoHead head = scenario_head(0.02, seed % 3 == 0);

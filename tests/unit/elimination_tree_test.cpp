@@ -24,6 +24,7 @@ struct Block {
 };
 
 // Leaves, and all of them in one dense matrix.
+template <class Pose>
 class Leaves final : public LeafSource {
  public:
   std::vector<Block> blocks;
@@ -43,7 +44,7 @@ class Leaves final : public LeafSource {
     Eigen::Index next = 0;
     for (auto& [v, state] : at) {
       state = next;
-      next += dimension(v);
+      next += dimension<Pose>(v);
     }
     return at;
   }
@@ -51,12 +52,12 @@ class Leaves final : public LeafSource {
     const auto at = states();
     std::vector<Eigen::Index> out;
     for (const Variable v : block.variables)
-      for (Index d = 0; d < dimension(v); ++d) out.push_back(at.at(v) + d);
+      for (Index d = 0; d < dimension<Pose>(v); ++d) out.push_back(at.at(v) + d);
     return out;
   }
   Matrix inverse() const {
     const auto at = states();
-    const Eigen::Index n = at.rbegin()->second + dimension(at.rbegin()->first);
+    const Eigen::Index n = at.rbegin()->second + dimension<Pose>(at.rbegin()->first);
     Matrix H = Matrix::Zero(n, n);
     for (const Block& block : blocks) {
       const std::vector<Eigen::Index> own = states_of(block);
@@ -73,18 +74,19 @@ class Leaves final : public LeafSource {
 };
 
 // Right-hand sides and solutions as dense columns.
-class Columns final : public EliminationTree::System {
+template <class Pose>
+class Columns final : public EliminationTree<Pose>::System {
  public:
   Columns(std::map<Variable, Eigen::Index> states, Matrix b, bool go_on)
       : solution_(Matrix::Zero(b.rows(), b.cols())), states_(std::move(states)), b_(std::move(b)), go_on_(go_on) {}
 
   void right_hand_side(Variable v, double* b, Index ld) const override {
     for (Eigen::Index c = 0; c < b_.cols(); ++c)
-      for (Index d = 0; d < dimension(v); ++d) b[c * ld + d] += b_(states_.at(v) + d, c);
+      for (Index d = 0; d < dimension<Pose>(v); ++d) b[c * ld + d] += b_(states_.at(v) + d, c);
   }
   bool solution(Variable v, const double* x, Index ld) override {
     for (Eigen::Index c = 0; c < b_.cols(); ++c)
-      for (Index d = 0; d < dimension(v); ++d) solution_(states_.at(v) + d, c) = x[c * ld + d];
+      for (Index d = 0; d < dimension<Pose>(v); ++d) solution_(states_.at(v) + d, c) = x[c * ld + d];
     CHECK(visited.insert(v).second);  // once each
     return go_on_;
   }
@@ -98,28 +100,33 @@ class Columns final : public EliminationTree::System {
   bool go_on_;
 };
 
-class Blocks final : public EliminationTree::Covariances {
+template <class Pose>
+class Blocks final : public EliminationTree<Pose>::Covariances {
  public:
   void leaf(std::uint32_t leaf, const Matrix& covariance) override { CHECK(of.emplace(leaf, covariance).second); }
   std::map<std::uint32_t, Matrix> of;
 };
 
-// How all go along with a shift: three columns.
+// How all go along with a shift: a column for each of its directions.
+template <class Pose>
 Matrix shifts(const std::vector<Variable>& variables) {
-  Matrix columns = Matrix::Zero(dimension(variables), 3);
+  Matrix columns = Matrix::Zero(dimension<Pose>(variables), Pose::kDim);
   Index row = 0;
   for (const Variable v : variables) {
-    columns.middleRows<3>(row).setIdentity();
-    row += dimension(v);
+    columns.middleRows<Pose::kDim>(row).setIdentity();
+    row += dimension<Pose>(v);
   }
   return columns;
 }
 
 // Leaves that pull towards a point each: values of all variables, and the force of each leaf where it was last looked
 // at.
-class Springs final : public EliminationTree::Relaxation {
+template <class Pose>
+class Springs final : public EliminationTree<Pose>::Relaxation {
  public:
-  explicit Springs(const Leaves& leaves) : leaves_(leaves) {}
+  using RigidMotion = typename EliminationTree<Pose>::RigidMotion;
+
+  explicit Springs(const Leaves<Pose>& leaves) : leaves_(leaves) {}
 
   double tolerance = 0.0;
   std::map<Variable, Matrix> values;
@@ -128,16 +135,16 @@ class Springs final : public EliminationTree::Relaxation {
 
   void pull(std::uint32_t leaf, Matrix target) {
     targets_[leaf] = std::move(target);
-    for (const Variable v : leaves_.blocks[leaf].variables) values.emplace(v, Matrix::Zero(dimension(v), 1));
+    for (const Variable v : leaves_.blocks[leaf].variables) values.emplace(v, Matrix::Zero(dimension<Pose>(v), 1));
     look_at(leaf);
   }
   Matrix at(std::uint32_t leaf) const {
     const Block& block = leaves_.blocks[leaf];
-    Matrix x(dimension(block.variables), 1);
+    Matrix x(dimension<Pose>(block.variables), 1);
     Index row = 0;
     for (const Variable v : block.variables) {
-      x.middleRows(row, dimension(v)) = values.at(v);
-      row += dimension(v);
+      x.middleRows(row, dimension<Pose>(v)) = values.at(v);
+      row += dimension<Pose>(v);
     }
     return x;
   }
@@ -162,7 +169,7 @@ class Springs final : public EliminationTree::Relaxation {
   }
   Matrix value() const {
     Matrix x(leaves_.inverse().rows(), 1);
-    for (const auto& [v, state] : leaves_.states()) x.middleRows(state, dimension(v)) = values.at(v);
+    for (const auto& [v, state] : leaves_.states()) x.middleRows(state, dimension<Pose>(v)) = values.at(v);
     return x;
   }
 
@@ -171,31 +178,31 @@ class Springs final : public EliminationTree::Relaxation {
       Index at = 0;
       for (const Variable u : leaves_.blocks[leaf].variables) {
         if (u == v)
-          for (Index d = 0; d < dimension(v); ++d) b[d] += force(at + d);
-        at += dimension(u);
+          for (Index d = 0; d < dimension<Pose>(v); ++d) b[d] += force(at + d);
+        at += dimension<Pose>(u);
       }
     }
   }
   bool solution(Variable v, const double* x, Index) override {
-    values.at(v) += Eigen::Map<const Matrix>(x, dimension(v), 1);
+    values.at(v) += Eigen::Map<const Matrix>(x, dimension<Pose>(v), 1);
     return true;
   }
   bool matters(Variable v, const double* x) const override {
-    return Eigen::Map<const Matrix>(x, dimension(v), 1).norm() >= tolerance;
+    return Eigen::Map<const Matrix>(x, dimension<Pose>(v), 1).norm() >= tolerance;
   }
   // No more than a shift: there is no geometry here.
-  EliminationTree::RigidMotion take_rigid(const std::vector<Variable>& variables,
-                                          Eigen::VectorXd& motion) const override {
-    EliminationTree::RigidMotion rigid{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
-    const Matrix shift = shifts(variables);
+  RigidMotion take_rigid(const std::vector<Variable>& variables, Eigen::VectorXd& motion) const override {
+    using Point = typename Pose::Point;
+    RigidMotion rigid{Point::Zero(), Point::Zero(), Pose::Rotation::Tangent::Zero()};
+    const Matrix shift = shifts<Pose>(variables);
     rigid.move = shift.transpose() * motion / static_cast<double>(variables.size());
     motion -= shift * rigid.move;
     return rigid;
   }
-  void carry(Variable v, const EliminationTree::RigidMotion& motion) override {
-    values.at(v).topRows<3>() += motion.move;
+  void carry(Variable v, const RigidMotion& motion) override {
+    values.at(v).template topRows<Pose::kDim>() += motion.move;
   }
-  void carry_leaf(std::uint32_t leaf, const EliminationTree::RigidMotion&) override {
+  void carry_leaf(std::uint32_t leaf, const RigidMotion&) override {
     CHECK(!leaves_.absolute(leaf));
     ++carried;
   }
@@ -205,7 +212,7 @@ class Springs final : public EliminationTree::Relaxation {
   }
 
  private:
-  const Leaves& leaves_;
+  const Leaves<Pose>& leaves_;
   std::map<std::uint32_t, Matrix> targets_, forces_;
 };
 
@@ -213,21 +220,22 @@ double difference(const Matrix& a, const Matrix& b) {
   return (a - b).norm() / (1e-300 + b.norm());
 }
 
+template <class Pose>
 class Growth {
  public:
   explicit Growth(unsigned seed) : random_(seed) {}
 
-  Leaves leaves;
-  EliminationTree tree;
+  Leaves<Pose> leaves;
+  EliminationTree<Pose> tree;
   std::size_t refactored = 0;
-  Springs* springs = nullptr;  // what is settled before each change
-  double foreseen = 0.0;       // by the last relax()
+  Springs<Pose>* springs = nullptr;  // what is settled before each change
+  double foreseen = 0.0;             // by the last relax()
 
   // Another leaf somewhere: its two bases, landmarks of its own neighbourhood, known ones and new ones, and now and
   // then one that some old leaf has had to itself so far.
   void add(const Vector3& place, int known, int fresh, bool one_of_an_old_leaf) {
     const auto number = static_cast<std::uint32_t>(leaves.blocks.size());
-    EliminationTree::Changes changes;
+    TreeChanges changes;
     std::vector<Variable> variables{base_variable(number), base_variable(number + 1)};
     const auto hold = [&](Variable v) {
       if (std::find(variables.begin(), variables.end(), v) == variables.end()) variables.push_back(v);
@@ -266,7 +274,7 @@ class Growth {
 
   // One step from all that was evaluated or named since the last; returns how many it visits.
   std::size_t relax() {
-    std::vector<EliminationTree::Touch> touches;
+    std::vector<TreeTouch> touches;
     for (const std::uint32_t leaf : springs->visited) touches.push_back(tree.touch(leaves.blocks[leaf].key));
     springs->visited.clear();
     foreseen = tree.relax(touches, *springs);
@@ -274,12 +282,12 @@ class Growth {
   }
 
   Matrix information(const std::vector<Variable>& variables) {
-    const Index n = dimension(variables);
+    const Index n = dimension<Pose>(variables);
     Matrix J(n + 2, n);
     for (Eigen::Index i = 0; i < J.size(); ++i) J.data()[i] = random_.normal();
     Matrix all = J.transpose() * J + 0.1 * Matrix::Identity(n, n);
     if (!leaves.relative || leaves.blocks.empty()) return all;
-    const Matrix shift = shifts(variables);
+    const Matrix shift = shifts<Pose>(variables);
     const Matrix differences =
         Matrix::Identity(n, n) - shift * shift.transpose() / static_cast<double>(variables.size());
     return differences * all * differences;
@@ -300,17 +308,18 @@ class Growth {
 };
 
 // Everything that a tree can be asked, against the dense inverse of what it was told.
-void check(const EliminationTree& tree, const Leaves& leaves, Growth& growth) {
+template <class Pose>
+void check(const EliminationTree<Pose>& tree, const Leaves<Pose>& leaves, Growth<Pose>& growth) {
   const Matrix inverse = leaves.inverse();
   const auto states = leaves.states();
-  std::vector<EliminationTree::Touch> all;
+  std::vector<TreeTouch> all;
   std::vector<TreeKey> keys;
   for (const Block& block : leaves.blocks) {
     all.push_back(tree.touch(block.key));
     keys.push_back(block.key);
   }
   const Matrix b = growth.columns(inverse.rows(), 3);
-  Columns whole(states, b, true);
+  Columns<Pose> whole(states, b, true);
   tree.solve(all, 3, whole);
   CHECK(difference(whole.solution_, inverse * b) <= 1e-9);
   CHECK(whole.visited.size() == states.size());
@@ -318,60 +327,60 @@ void check(const EliminationTree& tree, const Leaves& leaves, Growth& growth) {
   // One variable's columns, touched where it was eliminated and nowhere else.
   const Block& block = leaves.blocks[growth.below(leaves.blocks.size())];
   const Variable v = block.variables[growth.below(block.variables.size())];
-  const Eigen::Index at = states.at(v), d = dimension(v);
+  const Eigen::Index at = states.at(v), d = dimension<Pose>(v);
   const Matrix unit = Matrix::Identity(inverse.rows(), inverse.rows()).middleCols(at, d);
-  Columns column(states, unit, true);
+  Columns<Pose> column(states, unit, true);
   tree.solve({tree.touch(v, block.key)}, d, column);
   CHECK(difference(column.solution_, inverse.middleCols(at, d)) <= 1e-9);
-  Columns path(states, unit, false);  // what is visited all the same
+  Columns<Pose> path(states, unit, false);  // what is visited all the same
   tree.solve({tree.touch(v, block.key)}, d, path);
   CHECK(path.visited.count(v) == 1);
   for (const Variable u : path.visited)
-    CHECK(difference(path.solution_.middleRows(states.at(u), dimension(u)),
-                     inverse.block(states.at(u), at, dimension(u), d)) <= 1e-8);
+    CHECK(difference(path.solution_.middleRows(states.at(u), dimension<Pose>(u)),
+                     inverse.block(states.at(u), at, dimension<Pose>(u), d)) <= 1e-8);
 
-  Blocks blocks;
+  Blocks<Pose> blocks;
   tree.covariances(keys, blocks);
   REQUIRE(blocks.of.size() == leaves.blocks.size());
   for (std::uint32_t i = 0; i < leaves.blocks.size(); ++i) {
     const std::vector<Eigen::Index> own = leaves.states_of(leaves.blocks[i]);
     CHECK(difference(blocks.of.at(i), inverse(own, own)) <= 1e-9);
   }
-  Blocks alone;
+  Blocks<Pose> alone;
   tree.covariances({block.key}, alone);
   REQUIRE(alone.of.size() == 1);
   CHECK(alone.of.begin()->second == blocks.of.at(block.key.leaf));  // whatever else is asked for
 
   const Eigen::Index newest = states.at(base_variable(leaves.blocks.size()));
-  CHECK(difference(tree.last_covariance(), inverse.block<6, 6>(newest, newest)) <= 1e-9);
+  CHECK(difference(tree.last_covariance(), inverse.block<Pose::kDof, Pose::kDof>(newest, newest)) <= 1e-9);
 }
 
 }  // namespace
 
-TEST_CASE("elimination tree: equal to a dense inverse while it grows") {
+TEST_CASE_TEMPLATE("elimination tree: equal to a dense inverse while it grows", Pose, SE3, SE2) {
   SUBCASE("places anywhere, landmarks of anywhere") {
-    Growth growth(1);
+    Growth<Pose> growth(1);
     for (int i = 0; i < 24; ++i) {
       growth.add(growth.anywhere(300), i % 4, 1 + i % 3, i % 3 == 2);
       check(growth.tree, growth.leaves, growth);
     }
   }
   SUBCASE("all in one cell") {
-    Growth growth(2);
+    Growth<Pose> growth(2);
     for (int i = 0; i < 12; ++i) {
       growth.add(Vector3(0.5, 0.5, 0.5), 3, 2, i % 2 == 1);
       check(growth.tree, growth.leaves, growth);
     }
   }
   SUBCASE("along a line, and home again") {
-    Growth growth(3);
+    Growth<Pose> growth(3);
     for (int i = 0; i < 20; ++i) {
       growth.add(Vector3(i < 10 ? 40.0 * i : 40.0 * (19 - i), 0, 0), 2, 2, false);
       check(growth.tree, growth.leaves, growth);
     }
   }
   SUBCASE("farther out than there are cells") {
-    Growth growth(4);
+    Growth<Pose> growth(4);
     for (const double x : {0.0, 1e5, -1e7, 1e9, 1e300, -1e300}) {
       growth.add(Vector3(x, -x, x), 2, 2, true);
       check(growth.tree, growth.leaves, growth);
@@ -379,11 +388,11 @@ TEST_CASE("elimination tree: equal to a dense inverse while it grows") {
   }
 }
 
-TEST_CASE("elimination tree: a copy is a tree of its own") {
-  Growth growth(5);
+TEST_CASE_TEMPLATE("elimination tree: a copy is a tree of its own", Pose, SE3, SE2) {
+  Growth<Pose> growth(5);
   for (int i = 0; i < 10; ++i) growth.add(growth.anywhere(100), 3, 2, i % 2 == 0);
-  const EliminationTree copy = growth.tree;
-  const Leaves before = growth.leaves;
+  const EliminationTree<Pose> copy = growth.tree;
+  const Leaves<Pose> before = growth.leaves;
   for (int i = 0; i < 6; ++i) growth.add(growth.anywhere(100), 3, 2, true);
   check(copy, before, growth);
   check(growth.tree, growth.leaves, growth);
@@ -393,17 +402,17 @@ TEST_CASE("elimination tree: a copy is a tree of its own") {
   check(growth.tree, growth.leaves, growth);
 }
 
-TEST_CASE("elimination tree: motions that were kept are never lost") {
+TEST_CASE_TEMPLATE("elimination tree: motions that were kept are never lost", Pose, SE3, SE2) {
   for (unsigned seed = 10; seed < 16; ++seed) {
     CAPTURE(seed);
-    Growth growth(seed);
-    Springs springs(growth.leaves);
+    Growth<Pose> growth(seed);
+    Springs<Pose> springs(growth.leaves);
     growth.springs = &springs;
     std::size_t spared = 0;
     for (std::uint32_t i = 0; i < 60; ++i) {
       // Old leaves keep their variables here: what a leaf pulls towards stays as it is.
       growth.add(growth.anywhere(seed % 2 == 0 ? 100 : 1000), static_cast<int>(i % 3), 2, false);
-      springs.pull(i, growth.columns(dimension(growth.leaves.blocks[i].variables), 1));
+      springs.pull(i, growth.columns(dimension<Pose>(growth.leaves.blocks[i].variables), 1));
       springs.tolerance = 0.3;
       spared += i + 1 - growth.relax();
       if (i % 12 != 11) continue;
@@ -415,18 +424,18 @@ TEST_CASE("elimination tree: motions that were kept are never lost") {
   }
 }
 
-TEST_CASE("elimination tree: what is carried along is never lost either") {
+TEST_CASE_TEMPLATE("elimination tree: what is carried along is never lost either", Pose, SE3, SE2) {
   for (unsigned seed = 30; seed < 36; ++seed) {
     CAPTURE(seed);
-    Growth growth(seed);
+    Growth<Pose> growth(seed);
     growth.leaves.relative = true;
-    Springs springs(growth.leaves);
+    Springs<Pose> springs(growth.leaves);
     growth.springs = &springs;
     for (std::uint32_t i = 0; i < 60; ++i) {
       growth.add(growth.anywhere(seed % 2 == 0 ? 100 : 1000), static_cast<int>(i % 3), 2, false);
-      springs.pull(i, 0.01 * growth.columns(dimension(growth.leaves.blocks[i].variables), 1));
+      springs.pull(i, 0.01 * growth.columns(dimension<Pose>(growth.leaves.blocks[i].variables), 1));
       // The first leaf is the only one that knows where all are: the rest follows it.
-      if (i % 6 == 5) springs.pull(0, shifts(growth.leaves.blocks[0].variables) * growth.columns(3, 1));
+      if (i % 6 == 5) springs.pull(0, shifts<Pose>(growth.leaves.blocks[0].variables) * growth.columns(Pose::kDim, 1));
       if (i % 6 == 5) springs.visited.push_back(0);
       springs.tolerance = 0.3;
       growth.relax();
@@ -439,15 +448,15 @@ TEST_CASE("elimination tree: what is carried along is never lost either") {
   }
 }
 
-TEST_CASE("elimination tree: the fall of a quadratic cost is foretold") {
+TEST_CASE_TEMPLATE("elimination tree: the fall of a quadratic cost is foretold", Pose, SE3, SE2) {
   for (unsigned seed = 20; seed < 24; ++seed) {
     CAPTURE(seed);
-    Growth growth(seed);
-    Springs springs(growth.leaves);
+    Growth<Pose> growth(seed);
+    Springs<Pose> springs(growth.leaves);
     growth.springs = &springs;
     for (std::uint32_t i = 0; i < 30; ++i) {
       growth.add(growth.anywhere(100), static_cast<int>(i % 3), 2, false);
-      springs.pull(i, growth.columns(dimension(growth.leaves.blocks[i].variables), 1));
+      springs.pull(i, growth.columns(dimension<Pose>(growth.leaves.blocks[i].variables), 1));
       const double before = springs.cost();
       growth.relax();
       CHECK(growth.foreseen > 0.0);
@@ -456,11 +465,11 @@ TEST_CASE("elimination tree: the fall of a quadratic cost is foretold") {
   }
 }
 
-TEST_CASE("elimination tree: an update that fails changes nothing") {
-  Growth growth(6);
+TEST_CASE_TEMPLATE("elimination tree: an update that fails changes nothing", Pose, SE3, SE2) {
+  Growth<Pose> growth(6);
   for (int i = 0; i < 10; ++i) growth.add(growth.anywhere(100), 3, 2, i % 2 == 0);
-  const Leaves before = growth.leaves;
-  Blocks expected, actual;
+  const Leaves<Pose> before = growth.leaves;
+  Blocks<Pose> expected, actual;
   std::vector<TreeKey> keys;
   for (const Block& block : before.blocks) keys.push_back(block.key);
   growth.tree.covariances(keys, expected);
@@ -476,20 +485,20 @@ TEST_CASE("elimination tree: an update that fails changes nothing") {
   check(growth.tree, growth.leaves, growth);
 }
 
-TEST_CASE("elimination tree: nothing to change, nothing to ask") {
-  EliminationTree tree;
-  Leaves none;
+TEST_CASE_TEMPLATE("elimination tree: nothing to change, nothing to ask", Pose, SE3, SE2) {
+  EliminationTree<Pose> tree;
+  Leaves<Pose> none;
   std::size_t refactored = 0;
   std::vector<std::uint32_t> assembled;
   CHECK(tree.update(none, {}, refactored, assembled));
   CHECK(tree.memory_bytes() == 0);
-  Columns columns({}, Matrix(0, 1), true);
+  Columns<Pose> columns({}, Matrix(0, 1), true);
   tree.solve({}, 1, columns);
   CHECK(columns.visited.empty());
 }
 
-TEST_CASE("elimination tree: a change reaches one path") {
-  Growth growth(7);
+TEST_CASE_TEMPLATE("elimination tree: a change reaches one path", Pose, SE3, SE2) {
+  Growth<Pose> growth(7);
   for (int i = 0; i < 40; ++i) growth.add(Vector3(30.0 * i, 0, 0), 0, 3, false);
   std::size_t refactored = 0;
   std::vector<std::uint32_t> assembled;

@@ -14,17 +14,21 @@ namespace {
 using namespace cairn;
 using cairn::test::Random;
 
+template <class Pose>
 struct Vehicle {
-  explicit Vehicle(const FilterOptions& options) : arena(Filter::arena_bytes(options)), filter(arena, options) {
-    Cartesian sensor;
+  explicit Vehicle(const FilterOptions<Pose>& options)
+      : arena(Filter<Pose>::arena_bytes(options)), filter(arena, options) {
+    Cartesian<Pose> sensor;
     filter.add(sensor);
   }
   Arena arena;
-  Filter filter;
+  Filter<Pose> filter;
 };
 
-FilterOptions options_of(ErrorKind error, Index submap_landmarks, JoinKind join) {
-  FilterOptions options;
+template <class Pose>
+FilterOptions<Pose> options_of(ErrorKind error, Index submap_landmarks, JoinKind join) {
+  using Space = Embedding<Pose>;
+  FilterOptions<Pose> options;
   options.error = error;
   options.max_landmarks = 60;
   options.max_observations = 16;
@@ -33,38 +37,43 @@ FilterOptions options_of(ErrorKind error, Index submap_landmarks, JoinKind join)
   options.gate_probability = 1.0;
   options.batch_gate_probability = 1.0;
   options.step_tolerance = 1e-12;
-  options.initial_pose = SE3(SO3::exp(Vector3(0.1, -0.2, 0.7)), Vector3(10, -5, 2));
-  options.initial_covariance.topLeftCorner<3, 3>() = Vector3(0.04, 0.01, 0.09).asDiagonal();
+  options.initial_pose = Space::down(SE3(SO3::exp(Vector3(0.1, -0.2, 0.7)), Vector3(10, -5, 2)));
+  options.initial_covariance.template topLeftCorner<Pose::kDim, Pose::kDim>() =
+      Space::down(Vector3(0.04, 0.01, 0.09)).asDiagonal();
   return options;
 }
 
 // A drive on a ring of landmarks, twice round; both filters get the same.
-template <class Visit>
+template <class Pose, class Visit>
 void drive(double turn_sigma, Visit&& visit) {
+  constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn;
+  using Point = typename Pose::Point;
+  using Space = Embedding<Pose>;
   Random random(7);
-  std::vector<Vector3> landmarks;
+  std::vector<Point> landmarks;
   for (int i = 0; i < 30; ++i)
-    landmarks.push_back(Vector3(12 * std::cos(0.21 * i), 12 * std::sin(0.21 * i), 0.5 * std::sin(1.3 * i)));
-  SE3 truth;
-  const SE3 step(SO3::exp(Vector3(0.01, 0.005, 0.105)), Vector3(1.0, 0, 0.01));
+    landmarks.push_back(
+        Space::down(Vector3(12 * std::cos(0.21 * i), 12 * std::sin(0.21 * i), 0.5 * std::sin(1.3 * i))));
+  Pose truth;
+  const Pose step = Space::down(SE3(SO3::exp(Vector3(0.01, 0.005, 0.105)), Vector3(1.0, 0, 0.01)));
   for (int k = 0; k < 120; ++k) {
-    Increment<SE3> increment;
-    const Vector3 noise = 0.05 * random.normal_vector<3>();
-    const Vector3 turn = turn_sigma * random.normal_vector<3>();
-    increment.T_before_after = SE3(SO3::exp(turn) * step.rotation(), step.translation() + noise);
+    Increment<Pose> increment;
+    const Point noise = 0.05 * random.normal_vector<kDim>();
+    const typename Pose::Rotation::Tangent turn = turn_sigma * random.normal_vector<kTurn>();
+    increment.T_before_after = Pose(Pose::Rotation::exp(turn) * step.rotation(), step.translation() + noise);
     increment.covariance.setZero();
-    increment.covariance.topLeftCorner<3, 3>() = Matrix3::Identity() * 0.0025;
-    increment.covariance.bottomRightCorner<3, 3>() = Matrix3::Identity() * turn_sigma * turn_sigma;
+    increment.covariance.diagonal().template head<kDim>().setConstant(0.0025);
+    increment.covariance.diagonal().template tail<kTurn>().setConstant(turn_sigma * turn_sigma);
     truth = truth * step;
     std::vector<Observation> seen;
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
-      const Vector3 y = truth.inverse() * landmarks[i];
+      const Point y = truth.inverse() * landmarks[i];
       if (y.norm() > 9.0 || seen.size() == 16) continue;
       Observation observation{i, {}, {}};
-      const Vector3 z = y + 0.1 * random.normal_vector<3>();
-      for (int d = 0; d < 3; ++d) {
+      const Point z = y + 0.1 * random.normal_vector<kDim>();
+      for (int d = 0; d < kDim; ++d) {
         observation.z[d] = z(d);
-        observation.covariance[4 * d] = 0.01;
+        observation.covariance[(kDim + 1) * d] = 0.01;
       }
       seen.push_back(observation);
     }
@@ -72,7 +81,8 @@ void drive(double turn_sigma, Visit&& visit) {
   }
 }
 
-void feed(Filter& filter, const Increment<SE3>& increment, const std::vector<Observation>& seen) {
+template <class Pose>
+void feed(Filter<Pose>& filter, const Increment<Pose>& increment, const std::vector<Observation>& seen) {
   filter.propagate(increment);
   std::copy(seen.begin(), seen.end(), filter.staging());
   filter.update(0, static_cast<Index>(seen.size()));
@@ -80,9 +90,10 @@ void feed(Filter& filter, const Increment<SE3>& increment, const std::vector<Obs
 
 double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return (a - b).norm() / (1e-300 + b.norm()); }
 
+template <class Pose>
 void compare(ErrorKind error, JoinKind join, double tolerance) {
-  Vehicle single(options_of(error, 0, join)), submaps(options_of(error, 9, join));
-  drive(0.0, [&](const Increment<SE3>& increment, const std::vector<Observation>& seen) {
+  Vehicle<Pose> single(options_of<Pose>(error, 0, join)), submaps(options_of<Pose>(error, 9, join));
+  drive<Pose>(0.0, [&](const Increment<Pose>& increment, const std::vector<Observation>& seen) {
     feed(single.filter, increment, seen);
     feed(submaps.filter, increment, seen);
   });
@@ -110,12 +121,12 @@ void compare(ErrorKind error, JoinKind join, double tolerance) {
 
 }  // namespace
 
-TEST_CASE("dense joining: equal to a single map on a linear-Gaussian problem") {
-  SUBCASE("invariant") { compare(ErrorKind::invariant, JoinKind::dense, 1e-10); }
-  SUBCASE("standard") { compare(ErrorKind::standard, JoinKind::dense, 1e-10); }
+TEST_CASE_TEMPLATE("dense joining: equal to a single map on a linear-Gaussian problem", Pose, SE3, SE2) {
+  SUBCASE("invariant") { compare<Pose>(ErrorKind::invariant, JoinKind::dense, 1e-10); }
+  SUBCASE("standard") { compare<Pose>(ErrorKind::standard, JoinKind::dense, 1e-10); }
 }
 
-TEST_CASE("sparse joining: equal to a single map on a linear-Gaussian problem") {
-  SUBCASE("invariant") { compare(ErrorKind::invariant, JoinKind::sparse, 1e-8); }
-  SUBCASE("standard") { compare(ErrorKind::standard, JoinKind::sparse, 1e-8); }
+TEST_CASE_TEMPLATE("sparse joining: equal to a single map on a linear-Gaussian problem", Pose, SE3, SE2) {
+  SUBCASE("invariant") { compare<Pose>(ErrorKind::invariant, JoinKind::sparse, 1e-8); }
+  SUBCASE("standard") { compare<Pose>(ErrorKind::standard, JoinKind::sparse, 1e-8); }
 }

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "map/dense_landmarks.hpp"
+#include "map/dense_map.hpp"
 #include "map/owned_map.hpp"
 #include "map/sparse_map.hpp"
 #include "numerical.hpp"
@@ -322,10 +323,10 @@ TEST_CASE("merge: pairs beyond those that are tested jointly are tested each by 
 namespace {
 
 // A map of one submap.
-std::unique_ptr<SparseMap> sparse(const std::vector<std::uint64_t>& ids, const std::vector<Vector3>& points,
-                                  double sigma) {
-  auto map = std::make_unique<SparseMap>(MapOptions());
-  Submap submap;
+std::unique_ptr<SparseMap<SE3>> sparse(const std::vector<std::uint64_t>& ids, const std::vector<Vector3>& points,
+                                       double sigma) {
+  auto map = std::make_unique<SparseMap<SE3>>(MapOptions<SE3>());
+  Submap<SE3> submap;
   submap.error = ErrorKind::standard;
   submap.T_base_end = SE3(SO3(), Vector3(1, 2, 3));
   submap.ids = ids;
@@ -352,7 +353,7 @@ TEST_CASE("sparse merge: what the test of the pairs lets pass, the growth of the
     MergeReport report;
     const MergePlan plan = plan_merge(*a, *b, options, 10, report);
     CHECK(report.distance < 1e-9);
-    SparseMap both(*a);
+    SparseMap<SE3> both(*a);
     if (!wrong) {
       both.append(*b, plan, options, report);
       CHECK(report.rows == 84);
@@ -371,5 +372,47 @@ TEST_CASE("sparse merge: what the test of the pairs lets pass, the growth of the
       CHECK(report.distance < 200.0);
     }
     CHECK(a->size() == 34);
+  }
+}
+
+TEST_CASE("merge: maps of the plane are copied, and not merged") {
+  Submap<SE2> submap;
+  submap.T_base_end = SE2(SO2::from_angle(0.3), Vector2(1, 2));
+  submap.ids = {5, 7, 9};
+  submap.counts = {1, 2, 3};
+  submap.landmarks = {Vector2(4, 1), Vector2(-3, 6), Vector2(8, -2)};
+  submap.covariance = 0.01 * Matrix::Identity(9, 9);
+  SparseMap<SE2> sparse{MapOptions<SE2>()};
+  DenseMap<SE2> dense{MapOptions<SE2>()};
+  sparse.join(submap);
+  dense.join(submap);
+  Random random(96);
+  const Plain space = map_of(random, submap.ids, {Vector3(4, 1, 0), Vector3(-3, 6, 0), Vector3(8, -2, 1)}, 0.1, 0.1);
+  for (const Landmarks* source : {static_cast<const Landmarks*>(&sparse), static_cast<const Landmarks*>(&dense)}) {
+    const OwnedMap copy(*source, {1}), of_space(space, {2});
+    const Landmarks& own = *copy.landmarks;
+    CHECK(is_sparse(own) == (source == &sparse));
+    CHECK(own.planar());
+    CHECK(!of_space.landmarks->planar());
+    REQUIRE(own.size() == 3);
+    const std::size_t all[] = {0, 1, 2};
+    Matrix before(9, 9), after(9, 9);
+    source->joint_covariance(all, 3, before.data());
+    own.joint_covariance(all, 3, after.data());
+    CHECK(before == after);
+    CHECK(before.block<2, 2>(3, 0).norm() > 0.0);  // all three begin at one base
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::size_t index = 0;
+      REQUIRE(own.find(submap.ids[i], index));
+      CHECK(index == i);
+      CHECK(own.observations(i) == i + 1);
+      CHECK(own.position(i) == source->position(i));
+      CHECK((own.position(i) - Vector3(submap.landmarks[i].x(), submap.landmarks[i].y(), 0)).norm() <= 1e-12);
+    }
+    MergeReport report;
+    const auto refusal = doctest::Contains("maps of the plane can't be merged");
+    CHECK_THROWS_WITH(OwnedMap(copy, *source, {2}, MergeOptions(), report), refusal);
+    CHECK_THROWS_WITH(OwnedMap(copy, space, {2}, MergeOptions(), report), refusal);
+    CHECK_THROWS_WITH(OwnedMap(of_space, *source, {1}, MergeOptions(), report), refusal);
   }
 }

@@ -29,7 +29,7 @@ std::vector<Vector6> twists(double dt) {
 TEST_CASE("twist: many small steps add up to one") {
   const double dt = 0.5;
   for (const Vector6& twist : twists(dt)) {
-    const Increment<SE3> step = integrate_twist(twist.head<3>(), twist.tail<3>(), dt, TwistNoise());
+    const Increment<SE3> step = integrate_twist<SE3>(twist.head<3>(), twist.tail<3>(), dt, TwistNoise());
     // Midpoint rule: its error is (turn / steps)^2 / 24 of the way, 1e-9 of 3 m.
     constexpr int kSteps = 20000;
     const SO3 whole = SO3::exp(twist.tail<3>() * (dt / kSteps)), half = SO3::exp(twist.tail<3>() * (dt / kSteps / 2));
@@ -52,7 +52,7 @@ TEST_CASE("twist: covariance is that of the ordinary error") {
   Vector6 sigma;
   sigma << noise.velocity_sigma, noise.rate_sigma;
   for (const Vector6& twist : twists(dt)) {
-    const Increment<SE3> step = integrate_twist(twist.head<3>(), twist.tail<3>(), dt, noise);
+    const Increment<SE3> step = integrate_twist<SE3>(twist.head<3>(), twist.tail<3>(), dt, noise);
     const auto error = [&](const Vector6& n) {
       return Vector6(pose_error(SE3::exp((twist + n) * dt), step.T_before_after));
     };
@@ -67,7 +67,7 @@ TEST_CASE("twist: sampled errors have the covariance") {
   const Vector3 v(2, -0.5, 0.1), w(0.2, -0.3, 1.5);
   const double dt = 0.8;
   const TwistNoise noise;
-  const Increment<SE3> step = integrate_twist(v, w, dt, noise);
+  const Increment<SE3> step = integrate_twist<SE3>(v, w, dt, noise);
   const Matrix6 information = step.covariance.inverse();
   test::Random random(23);
   constexpr int kSamples = 20000;
@@ -87,20 +87,20 @@ TEST_CASE("twist: a planar vehicle has the planar blocks of a spatial one") {
   const Vector3 twist(1.5, -0.2, 0.7), variance(0.04, 0.01, 0.0025);
   const Increment<SE2> planar = integrate_twist<SE2>(twist, 0.5, variance.asDiagonal());
   TwistNoise noise{Vector3(0.2, 0.1, 1), Vector3(1, 1, 0.05)};
-  const Increment<SE3> spatial = integrate_twist(Vector3(1.5, -0.2, 0), Vector3(0, 0, 0.7), 0.5, noise);
+  const Increment<SE3> spatial = integrate_twist<SE3>(Vector3(1.5, -0.2, 0), Vector3(0, 0, 0.7), 0.5, noise);
   const int rows[] = {0, 1, 5};
   CHECK((planar.covariance - spatial.covariance(rows, rows)).norm() < 1e-15);
   CHECK((planar.T_before_after.translation() - spatial.T_before_after.translation().head<2>()).norm() < 1e-15);
 }
 
 TEST_CASE("twist: no time, no motion, no uncertainty") {
-  const Increment<SE3> step = integrate_twist(Vector3(1, 2, 3), Vector3(1, 2, 3), 0, TwistNoise());
+  const Increment<SE3> step = integrate_twist<SE3>(Vector3(1, 2, 3), Vector3(1, 2, 3), 0, TwistNoise());
   CHECK(step.T_before_after.log() == Vector6::Zero());
   CHECK(step.covariance == Matrix6::Zero());
 }
 
 TEST_CASE("wheels: both on, straight ahead") {
-  const Increment<SE3> step = drive_wheels(Wheels(), 2, 2, 0.5);
+  const Increment<SE3> step = drive_wheels<SE3>(Wheels(), 2, 2, 0.5);
   CHECK((step.T_before_after.translation() - Vector3(0.3, 0, 0)).norm() < 1e-15);
   CHECK(step.T_before_after.rotation().log() == Vector3::Zero());
 }
@@ -110,14 +110,14 @@ TEST_CASE("wheels: sign of the yaw rate") {
   wheels.radius = 0.25;
   wheels.track = 0.5;
   // z up: the right side runs faster, the vehicle turns left. On the spot: 0.25 / 0.5 * (1 - -1) * 0.5.
-  const Increment<SE3> up = drive_wheels(wheels, -1, 1, 0.5);
+  const Increment<SE3> up = drive_wheels<SE3>(wheels, -1, 1, 0.5);
   CHECK((up.T_before_after.rotation().log() - Vector3(0, 0, 0.5)).norm() < 1e-15);
   CHECK(up.T_before_after.translation().norm() < 1e-15);
-  CHECK(drive_wheels(wheels, 1, 2, 0.5).T_before_after.translation().y() > 0);
+  CHECK(drive_wheels<SE3>(wheels, 1, 2, 0.5).T_before_after.translation().y() > 0);
   wheels.yaw_left_minus_right = true;
-  const Increment<SE3> down = drive_wheels(wheels, -1, 1, 0.5);
+  const Increment<SE3> down = drive_wheels<SE3>(wheels, -1, 1, 0.5);
   CHECK((down.T_before_after.rotation().log() - Vector3(0, 0, -0.5)).norm() < 1e-15);
-  CHECK(drive_wheels(wheels, 1, 2, 0.5).T_before_after.translation().y() < 0);
+  CHECK(drive_wheels<SE3>(wheels, 1, 2, 0.5).T_before_after.translation().y() < 0);
 }
 
 TEST_CASE("wheels: an arc ends where geometry says") {
@@ -125,7 +125,7 @@ TEST_CASE("wheels: an arc ends where geometry says") {
   const double left = 1.0, right = 3.0, dt = 0.7;
   const double turn = wheels.radius / wheels.track * (right - left) * dt;
   const double radius = 0.5 * wheels.radius * (right + left) * dt / turn;
-  const SE3 T = drive_wheels(wheels, left, right, dt).T_before_after;
+  const SE3 T = drive_wheels<SE3>(wheels, left, right, dt).T_before_after;
   CHECK((T.translation() - Vector3(radius * std::sin(turn), radius * (1 - std::cos(turn)), 0)).norm() < 1e-15);
   CHECK((T.rotation().log() - Vector3(0, 0, turn)).norm() < 1e-15);
 }
@@ -134,7 +134,7 @@ TEST_CASE("wheels: without noise nothing is uncertain") {
   Wheels wheels;
   wheels.rate_sigma = wheels.slip_sigma = wheels.lateral_sigma = wheels.vertical_sigma = 0;
   wheels.roll_rate_sigma = wheels.pitch_rate_sigma = 0;
-  CHECK(drive_wheels(wheels, 2, 3, 0.5).covariance == Matrix6::Zero());
+  CHECK(drive_wheels<SE3>(wheels, 2, 3, 0.5).covariance == Matrix6::Zero());
 }
 
 TEST_CASE("wheels: covariance of a straight step, by hand") {
@@ -153,7 +153,7 @@ TEST_CASE("wheels: covariance of a straight step, by hand") {
   expected(5, 5) = yaw;
   expected(1, 5) = expected(5, 1) = way / 2 * yaw;
   expected(2, 4) = expected(4, 2) = -way / 2 * pitch;  // nose down is a positive pitch rate
-  CHECK((drive_wheels(wheels, left, right, dt).covariance - expected).norm() < 1e-17);
+  CHECK((drive_wheels<SE3>(wheels, left, right, dt).covariance - expected).norm() < 1e-17);
 }
 
 TEST_CASE("wheels: covariance of any step against the numerical one") {
@@ -162,7 +162,7 @@ TEST_CASE("wheels: covariance of any step against the numerical one") {
   for (bool left_minus_right : {false, true}) {
     wheels.yaw_left_minus_right = left_minus_right;
     const double left = -1, right = 4, dt = 0.6;
-    const Increment<SE3> step = drive_wheels(wheels, left, right, dt);
+    const Increment<SE3> step = drive_wheels<SE3>(wheels, left, right, dt);
     using Noise = Eigen::Matrix<double, 6, 1>;  // left, right, lateral, vertical, roll rate, pitch rate
     const auto error = [&](const Noise& n) {
       const double l = left + n[0], r = right + n[1], sign = left_minus_right ? -1 : 1;

@@ -93,12 +93,13 @@ std::vector<Eigen::Matrix<double, N, 1>> awkward_turns(unsigned seed) {
 }
 
 // Poses with these turns, from the origin to far from it.
-inline std::vector<Rigid<SO3>> awkward_poses(unsigned seed) {
+template <class Pose = Rigid<SO3>>
+std::vector<Pose> awkward_poses(unsigned seed) {
   Random random(seed);
-  std::vector<Rigid<SO3>> poses;
+  std::vector<Pose> poses;
   double far = 0;
-  for (const Vector3& turn : awkward_turns<3>(seed + 1)) {
-    poses.emplace_back(SO3::exp(turn), far * random.normal_vector<3>());
+  for (const typename Pose::Rotation::Tangent& turn : awkward_turns<Pose::kTurn>(seed + 1)) {
+    poses.emplace_back(Pose::Rotation::exp(turn), far * random.normal_vector<Pose::kDim>());
     far = far == 0 ? 1e-8 : far > 100 ? 0 : 100 * far;
   }
   return poses;

@@ -66,7 +66,7 @@ class ReferenceFilter {
   using Noise = std::function<Dynamic(const State&)>;
   // `least`: linearisations before the residual may end it, as far as `iterations` allow.
   FrameResult update(const Residual& residual, const Noise& noise, int least, int iterations);
-  FrameResult update_frame(const Sensor& sensor, const std::vector<Seen>& frame);
+  FrameResult update_frame(const Sensor<SE3>& sensor, const std::vector<Seen>& frame);
   FrameResult update_position(const Vector3& position, const Matrix3& covariance, const Vector3& lever_arm);
   FrameResult update_attitude(const SO3& attitude, const Matrix3& covariance);
   FrameResult update_heading(double heading, double sigma);
@@ -87,13 +87,13 @@ class ReferenceFilter {
   State retract(const State& state, const DynamicVector& error) const;
   DynamicVector local(const State& from, const State& to) const;  // retract(from, local(from, to)) is `to`
   Dynamic ordinary_by_own() const;
-  bool compare(const Sensor& sensor, const Seen& seen, const State& state, Vector3& residual) const;
-  Residual frame_residual(const Sensor& sensor, const std::vector<Seen>& frame) const;
-  Dynamic frame_noise(const Sensor& sensor, const std::vector<Seen>& frame, const State& state) const;
+  bool compare(const Sensor<SE3>& sensor, const Seen& seen, const State& state, Vector3& residual) const;
+  Residual frame_residual(const Sensor<SE3>& sensor, const std::vector<Seen>& frame) const;
+  Dynamic frame_noise(const Sensor<SE3>& sensor, const std::vector<Seen>& frame, const State& state) const;
   // Numbers of the known observations that pass, and each one's own squared distance.
-  void gate(const Sensor& sensor, const std::vector<Seen>& known, std::vector<std::size_t>& kept,
+  void gate(const Sensor<SE3>& sensor, const std::vector<Seen>& known, std::vector<std::size_t>& kept,
             std::vector<double>& distance) const;
-  bool place(const Sensor& sensor, const Seen& seen);
+  bool place(const Sensor<SE3>& sensor, const Seen& seen);
 
   Options options_;
   State state_;

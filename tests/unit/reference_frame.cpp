@@ -31,15 +31,16 @@ Dynamic choose(const std::vector<std::size_t>& which, Index rows, std::size_t al
 
 }  // namespace
 
-bool ReferenceFilter::compare(const Sensor& sensor, const Seen& seen, const State& x, Vector3& residual) const {
-  Prediction prediction;
+bool ReferenceFilter::compare(const Sensor<SE3>& sensor, const Seen& seen, const State& x, Vector3& residual) const {
+  Prediction<SE3> prediction;
   const std::size_t landmark = static_cast<std::size_t>(find(seen.id));
   if (!sensor.predict(x.pose, x.landmarks[landmark], mount_of(x), prediction)) return false;
   residual = sensor.residual(seen.z, prediction.z);
   return true;
 }
 
-ReferenceFilter::Residual ReferenceFilter::frame_residual(const Sensor& sensor, const std::vector<Seen>& frame) const {
+ReferenceFilter::Residual ReferenceFilter::frame_residual(const Sensor<SE3>& sensor,
+                                                          const std::vector<Seen>& frame) const {
   return [this, &sensor, frame](const State& x, DynamicVector& out) {
     const Index rows = sensor.rows();
     out.resize(rows * static_cast<Index>(frame.size()));
@@ -53,14 +54,14 @@ ReferenceFilter::Residual ReferenceFilter::frame_residual(const Sensor& sensor, 
 }
 
 // Noise of the observations, with that of the mount's angles where each observation has its own.
-Dynamic ReferenceFilter::frame_noise(const Sensor& sensor, const std::vector<Seen>& frame, const State& x) const {
+Dynamic ReferenceFilter::frame_noise(const Sensor<SE3>& sensor, const std::vector<Seen>& frame, const State& x) const {
   const Index rows = sensor.rows(), m = rows * static_cast<Index>(frame.size());
   Dynamic R = Dynamic::Zero(m, m);
   for (std::size_t i = 0; i < frame.size(); ++i) {
     Dynamic noise = frame[i].noise.topLeftCorner(rows, rows);
     if (sensor.mount_noise_mode() == MountNoise::per_observation) {
       const Vector3& l = x.landmarks[static_cast<std::size_t>(find(frame[i].id))];
-      Prediction at, moved;
+      Prediction<SE3> at, moved;
       sensor.predict(x.pose, l, Vector2::Zero(), at);
       const Dynamic J = differentiate(
           [&](const DynamicVector& angles) {
@@ -76,7 +77,7 @@ Dynamic ReferenceFilter::frame_noise(const Sensor& sensor, const std::vector<See
 }
 
 // Each observation alone, then all together: while those fail, the one goes without which the others fit best.
-void ReferenceFilter::gate(const Sensor& sensor, const std::vector<Seen>& known, std::vector<std::size_t>& kept,
+void ReferenceFilter::gate(const Sensor<SE3>& sensor, const std::vector<Seen>& known, std::vector<std::size_t>& kept,
                            std::vector<double>& distance) const {
   kept.clear();
   if (known.empty()) return;
@@ -116,7 +117,7 @@ void ReferenceFilter::gate(const Sensor& sensor, const std::vector<Seen>& known,
 }
 
 // The new landmark's error as a function of everything it depends on: the whole state, and the observation's own noise.
-bool ReferenceFilter::place(const Sensor& sensor, const Seen& seen) {
+bool ReferenceFilter::place(const Sensor<SE3>& sensor, const Seen& seen) {
   const Index rows = sensor.rows();
   const bool own_mount = sensor.mount_noise_mode() == MountNoise::per_observation;
   const auto placed = [&](const State& x, const DynamicVector& noise, State& out) {
@@ -124,7 +125,7 @@ bool ReferenceFilter::place(const Sensor& sensor, const Seen& seen) {
     z.head(rows) += noise.head(rows);
     Vector2 mount = mount_of(x);
     if (own_mount) mount += noise.tail<2>();
-    Placement placement;
+    Placement<SE3> placement;
     if (!sensor.place(x.pose, z, mount, placement)) return false;
     out = x;
     out.landmarks.push_back(placement.landmark);
@@ -150,7 +151,7 @@ bool ReferenceFilter::place(const Sensor& sensor, const Seen& seen) {
   return true;
 }
 
-FrameResult ReferenceFilter::update_frame(const Sensor& sensor, const std::vector<Seen>& frame) {
+FrameResult ReferenceFilter::update_frame(const Sensor<SE3>& sensor, const std::vector<Seen>& frame) {
   FrameResult result;
   std::vector<std::size_t> number, fresh, kept;
   std::vector<Seen> known, taken;

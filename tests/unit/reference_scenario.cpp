@@ -11,7 +11,7 @@ Vector3 noisy(Random& random, const Vector3& x, const Vector3& sigma) {
   return x + sigma.cwiseProduct(random.normal_vector<3>());
 }
 
-ReferenceFilter::Options reference_options(const FilterOptions& o) {
+ReferenceFilter::Options reference_options(const FilterOptions<SE3>& o) {
   return {o.error == ErrorKind::invariant, o.iterations, o.iteration_tolerance, o.gate_probability,
           o.batch_gate_probability};
 }
@@ -42,17 +42,17 @@ std::int32_t compass_place(void*, const double* pose, const double* z, double* l
 
 }  // namespace
 
-Pair::Pair(const FilterOptions& options)
-    : arena_(std::make_unique<Arena>(Filter::arena_bytes(options))),
-      filter_(std::make_unique<Filter>(*arena_, options)),
+Pair::Pair(const FilterOptions<SE3>& options)
+    : arena_(std::make_unique<Arena>(Filter<SE3>::arena_bytes(options))),
+      filter_(std::make_unique<Filter<SE3>>(*arena_, options)),
       reference_(reference_options(options), options.initial_pose, options.initial_covariance) {}
 
-int Pair::add(const Sensor& sensor) {
+int Pair::add(const Sensor<SE3>& sensor) {
   sensors_.push_back(&sensor);
   if (const auto* head = dynamic_cast<const StereoHead*>(&sensor)) return filter_->add(*head);
   if (const auto* camera = dynamic_cast<const StereoCamera*>(&sensor)) return filter_->add(*camera);
-  if (const auto* point = dynamic_cast<const Cartesian*>(&sensor)) return filter_->add(*point);
-  return filter_->add(dynamic_cast<const CustomSensor&>(sensor));
+  if (const auto* point = dynamic_cast<const Cartesian<SE3>*>(&sensor)) return filter_->add(*point);
+  return filter_->add(dynamic_cast<const CustomSensor<SE3>&>(sensor));
 }
 
 void Pair::set_noise(const TwistNoise& twist, const Wheels& wheels) {
@@ -147,19 +147,19 @@ StereoCamera scenario_camera() {
   return StereoCamera(p);
 }
 
-Cartesian scenario_points() {
-  CartesianParameters p;
+Cartesian<SE3> scenario_points() {
+  CartesianParameters<SE3> p;
   p.T_body_sensor = SE3(SO3::exp(Vector3(0.3, -0.5, 1.0)), Vector3(-0.2, 0.3, 0.8));
   p.sigma << 0.1, 0.2, 0.15;
-  return Cartesian(p);
+  return Cartesian<SE3>(p);
 }
 
-CustomSensor scenario_compass() {
+CustomSensor<SE3> scenario_compass() {
   CustomParameters p;
   p.predict = compass_predict;
   p.place = compass_place;
   p.sigma << 0.2, 0.1, 0.3;
-  return CustomSensor(p);
+  return CustomSensor<SE3>(p);
 }
 
 Matrix6 random_covariance(Random& random, double metres, double radians) {
@@ -171,8 +171,8 @@ Matrix6 random_covariance(Random& random, double metres, double radians) {
   return 0.5 * (square + square.transpose());
 }
 
-FilterOptions random_options(ErrorKind error, Random& random) {
-  FilterOptions options;
+FilterOptions<SE3> random_options(ErrorKind error, Random& random) {
+  FilterOptions<SE3> options;
   options.error = error;
   options.max_landmarks = 20;
   options.max_observations = 10;
@@ -183,7 +183,8 @@ FilterOptions random_options(ErrorKind error, Random& random) {
   return options;
 }
 
-Drive::Drive(unsigned seed, const FilterOptions& options, int landmarks) : random_(seed), truth_(options.initial_pose) {
+Drive::Drive(unsigned seed, const FilterOptions<SE3>& options, int landmarks)
+    : random_(seed), truth_(options.initial_pose) {
   for (int i = 0; i < landmarks; ++i)
     landmarks_.push_back(truth_ * Vector3{random_.uniform(-5, 25), random_.uniform(-15, 15), random_.uniform(-4, 4)});
 }
@@ -221,14 +222,14 @@ SE3 Drive::advance(const Vector6& tau) {
   return SE3::exp(tau);
 }
 
-std::vector<Seen> Drive::look(const Sensor& sensor, std::size_t most, double scale, const Vector2& mount) {
+std::vector<Seen> Drive::look(const Sensor<SE3>& sensor, std::size_t most, double scale, const Vector2& mount) {
   std::vector<Seen> frame;
   const std::size_t first = static_cast<std::size_t>(random_.uniform(0, static_cast<double>(landmarks_.size())));
   for (std::size_t k = 0; k < landmarks_.size() && frame.size() < most; ++k) {
     const std::size_t i = (first + k) % landmarks_.size();
     const double distance = (landmarks_[i] - truth_.translation()).norm();
-    Prediction seen;
-    Placement placed;
+    Prediction<SE3> seen;
+    Placement<SE3> placed;
     if (distance < 2 || distance > 25 || !sensor.predict(truth_, landmarks_[i], mount, seen)) continue;
     Seen one{i + 100, seen.z, sensor.noise()};
     one.z = noisy(random_, seen.z, scale * Vector3(sensor.noise().diagonal().cwiseSqrt()));

@@ -21,11 +21,11 @@ struct Difference {
 
 class Pair {
  public:
-  Pair(const FilterOptions& options);
+  Pair(const FilterOptions<SE3>& options);
 
-  Filter& filter() { return *filter_; }
+  Filter<SE3>& filter() { return *filter_; }
   ReferenceFilter& reference() { return reference_; }
-  int add(const Sensor& sensor);
+  int add(const Sensor<SE3>& sensor);
 
   void predict_twist(const Vector3& v, const Vector3& w, double dt);
   void predict_wheels(double left, double right, double dt);
@@ -38,9 +38,9 @@ class Pair {
 
  private:
   std::unique_ptr<Arena> arena_;
-  std::unique_ptr<Filter> filter_;
+  std::unique_ptr<Filter<SE3>> filter_;
   ReferenceFilter reference_;
-  std::vector<const Sensor*> sensors_;
+  std::vector<const Sensor<SE3>*> sensors_;
   TwistNoise twist_noise_;
   Wheels wheels_;
 };
@@ -48,17 +48,17 @@ class Pair {
 // Sensors with a mount that is not the body's own axes.
 StereoHead scenario_head(double encoder_sigma, bool per_frame);
 StereoCamera scenario_camera();
-Cartesian scenario_points();
+Cartesian<SE3> scenario_points();
 // Sees landmarks along the map's own axes, as with a compass: it depends on more than the body point.
-CustomSensor scenario_compass();
+CustomSensor<SE3> scenario_compass();
 
 // Options with a random start, uncertain by centimetres to metres and by some degrees, gates open.
-FilterOptions random_options(ErrorKind error, Random& random);
+FilterOptions<SE3> random_options(ErrorKind error, Random& random);
 Matrix6 random_covariance(Random& random, double metres, double radians);
 
 class Drive {
  public:
-  Drive(unsigned seed, const FilterOptions& options, int landmarks = 16);
+  Drive(unsigned seed, const FilterOptions<SE3>& options, int landmarks = 16);
 
   // One to four motions, not necessarily of one kind.
   void move(Pair& pair);
@@ -66,7 +66,7 @@ class Drive {
   SE3 advance(const Vector6& tau);
   // What the sensor sees of up to `most` landmarks between 2 m and 25 m, with noise `scale` times what it claims. A
   // head's true mount angles are off by `mount`.
-  std::vector<Seen> look(const Sensor& sensor, std::size_t most, double scale = 1,
+  std::vector<Seen> look(const Sensor<SE3>& sensor, std::size_t most, double scale = 1,
                          const Vector2& mount = Vector2::Zero());
   const SE3& truth() const { return truth_; }
   Random& random() { return random_; }

@@ -22,16 +22,16 @@ double relative(const A& analytic, const B& numerical) {
 // All Jacobians of a prediction and of a placement against central differences, and that both undo each other.
 // The differences are good to 1e-9 of a Jacobian at the nearest points (numerical.hpp); a coordinate x, rounded to
 // 1e-16 x a few times, adds a few 1e-12 x when it is divided by the step of 1e-4.
-void check_sensor(const Sensor& sensor, const SE3& T, const Vector3& z, const Vector2& mount) {
-  Placement placed;
+void check_sensor(const Sensor<SE3>& sensor, const SE3& T, const Vector3& z, const Vector2& mount) {
+  Placement<SE3> placed;
   REQUIRE(sensor.place(T, z, mount, placed));
   const double tolerance = 1e-9 + 1e-11 * placed.landmark.norm();
-  Prediction seen;
+  Prediction<SE3> seen;
   REQUIRE(sensor.predict(T, placed.landmark, mount, seen));
   CHECK(sensor.residual(z, seen.z).norm() < tolerance * (1 + z.norm()));
 
   const auto z_of = [&](const SE3& pose, const Vector3& landmark, const Vector2& angles) {
-    Prediction p;
+    Prediction<SE3> p;
     REQUIRE(sensor.predict(pose, landmark, angles, p));
     return p.z;
   };
@@ -44,7 +44,7 @@ void check_sensor(const Sensor& sensor, const SE3& T, const Vector3& z, const Ve
         tolerance);
 
   const auto landmark_of = [&](const SE3& pose, const Vector3& value, const Vector2& angles) {
-    Placement p;
+    Placement<SE3> p;
     REQUIRE(sensor.place(pose, value, angles, p));
     return p.landmark;
   };
@@ -57,28 +57,28 @@ void check_sensor(const Sensor& sensor, const SE3& T, const Vector3& z, const Ve
 }
 
 // What a refusal must not depend on: that the point itself is at fault.
-bool sees(const Sensor& sensor, const Vector3& landmark) {
-  Prediction out;
+bool sees(const Sensor<SE3>& sensor, const Vector3& landmark) {
+  Prediction<SE3> out;
   return sensor.predict(SE3(), landmark, kNoMount, out);
 }
-bool places(const Sensor& sensor, const Vector3& z) {
-  Placement out;
+bool places(const Sensor<SE3>& sensor, const Vector3& z) {
+  Placement<SE3> out;
   return sensor.place(SE3(), z, kNoMount, out);
 }
 
-void check_never_nan(const Sensor& sensor) {
+void check_never_nan(const Sensor<SE3>& sensor) {
   for (double bad : {kNaN, kInfinity, -kInfinity, 1e300}) {
     for (int i = 0; i < 3; ++i) {
       Vector3 x(5, 0.1, 0.2);
       x[i] = bad;
-      Prediction seen;
+      Prediction<SE3> seen;
       if (sensor.predict(SE3(), x, kNoMount, seen)) {
         CHECK(seen.z.allFinite());
         CHECK(seen.J_z_pose.allFinite());
         CHECK(seen.J_z_landmark.allFinite());
         CHECK(seen.J_z_mount.allFinite());
       }
-      Placement placed;
+      Placement<SE3> placed;
       if (sensor.place(SE3(), x, kNoMount, placed)) {
         CHECK(placed.landmark.allFinite());
         CHECK(placed.J_landmark_pose.allFinite());
@@ -87,7 +87,7 @@ void check_never_nan(const Sensor& sensor) {
       CHECK_FALSE((std::isnan(bad) && (sees(sensor, x) || places(sensor, x))));
     }
     const SE3 nowhere(SO3(), Vector3(0, bad, 0));
-    Prediction seen;
+    Prediction<SE3> seen;
     if (sensor.predict(nowhere, Vector3(5, 0, 0), kNoMount, seen)) CHECK(seen.z.allFinite());
   }
 }
@@ -103,14 +103,14 @@ TEST_CASE("stereo head: the mount of eq. 4") {
   const Vector3 m_c(8, 2, -1);
   const Vector3 m_b =
       p.platform + SO3::exp(Vector3(0, 0, pan)) * (SO3::exp(Vector3(0, stick, 0)) * (p.stick + p.R_stick_camera * m_c));
-  Prediction seen;
+  Prediction<SE3> seen;
   REQUIRE(head.predict(T, T * m_b, kNoMount, seen));
   CHECK((seen.z - Vector3(m_c.norm(), std::atan2(2, 8), std::atan2(-1, std::hypot(8, 2)))).norm() < 1e-14);
 
   // A mount error adds to the encoders.
   StereoHead turned(p);
   turned.point(pan + 0.02, stick - 0.03);
-  Prediction expected;
+  Prediction<SE3> expected;
   REQUIRE(turned.predict(T, T * m_b, kNoMount, expected));
   REQUIRE(head.predict(T, T * m_b, Vector2(0.02, -0.03), seen));
   CHECK((seen.z - expected.z).norm() < 1e-14);
@@ -118,7 +118,7 @@ TEST_CASE("stereo head: the mount of eq. 4") {
 
 TEST_CASE("stereo head: signs with the default mount") {
   StereoHead head;
-  Prediction seen;
+  Prediction<SE3> seen;
   REQUIRE(head.predict(SE3(), Vector3(3, 3, 0), kNoMount, seen));
   CHECK((seen.z - Vector3(std::sqrt(18), kPi / 4, 0)).norm() < 1e-14);  // left is positive
   REQUIRE(head.predict(SE3(), Vector3(2, 0, 2), kNoMount, seen));
@@ -190,7 +190,7 @@ TEST_CASE("stereo head: noise and residual") {
 
 TEST_CASE("stereo camera: the pinhole, and where it looks") {
   const StereoCamera camera;
-  Prediction seen;
+  Prediction<SE3> seen;
   // 10 m ahead, 1 m to the left, 0.5 m up: in the image left of and above the centre.
   REQUIRE(camera.predict(SE3(), Vector3(10, 1, 0.5), kNoMount, seen));
   CHECK((seen.z - Vector3(320 - 50, 320 - 60, 240 - 25)).norm() < 1e-11);
@@ -241,18 +241,18 @@ TEST_CASE("stereo camera: refusals") {
 }
 
 TEST_CASE("cartesian: the point in the sensor's frame") {
-  CartesianParameters p;
+  CartesianParameters<SE3> p;
   p.T_body_sensor = SE3(SO3::exp(Vector3(0.2, -0.4, 1)), Vector3(0.5, 0.1, 0.3));
-  const Cartesian sensor(p);
+  const Cartesian<SE3> sensor(p);
   const SE3 T(SO3::exp(Vector3(0.1, 0.2, 2)), Vector3(4, 5, 6));
-  Prediction seen;
+  Prediction<SE3> seen;
   REQUIRE(sensor.predict(T, T * (p.T_body_sensor * Vector3(1, 2, 3)), kNoMount, seen));
   CHECK((seen.z - Vector3(1, 2, 3)).norm() < 1e-14);
   CHECK((sensor.noise() - 0.01 * Matrix3::Identity()).norm() < 1e-16);
   Random random(35);
   for (const SE3& pose : awkward_poses(36)) {
     check_sensor(sensor, pose, 10 * random.normal_vector<3>(), kNoMount);
-    check_sensor(Cartesian(), pose, 1e-8 * random.normal_vector<3>(), kNoMount);
+    check_sensor(Cartesian<SE3>(), pose, 1e-8 * random.normal_vector<3>(), kNoMount);
   }
   check_never_nan(sensor);
 }

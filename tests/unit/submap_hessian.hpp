@@ -2,19 +2,21 @@
 // A submap factor's information with both triangles.
 #pragma once
 
-#include <Eigen/Geometry>
+#include <vector>
 
 #include "map/submap_factor.hpp"
 
 namespace cairn::test {
 
-inline Eigen::MatrixXd whole_hessian(const SubmapFactor& factor, const FactorValues& values,
-                                     const std::vector<Matrix3>& axes) {
-  return factor.hessian(values, axes).selfadjointView<Eigen::Lower>();
+template <class Pose>
+Eigen::MatrixXd whole_hessian(const SubmapFactor<Pose>& factor, const FactorValues<Pose>& values,
+                              const std::vector<typename Pose::Rotation>& axes) {
+  return factor.hessian(values, axes).template selfadjointView<Eigen::Lower>();
 }
 // By errors in the axes of the map.
-inline Eigen::MatrixXd whole_hessian(const SubmapFactor& factor, const FactorValues& values) {
-  return whole_hessian(factor, values, std::vector<Matrix3>(2 + factor.shared().size(), Matrix3::Identity()));
+template <class Pose>
+Eigen::MatrixXd whole_hessian(const SubmapFactor<Pose>& factor, const FactorValues<Pose>& values) {
+  return whole_hessian(factor, values, std::vector<typename Pose::Rotation>(2 + factor.shared().size()));
 }
 
 }  // namespace cairn::test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Damped Gauss-Newton on the sparse map's factor. The factor may be of older linearisation points; the gradient never
-// is, so that what the steps converge to is the minimum.
+// is, so that what the steps converge to is the minimum. Included by sparse_map.cpp alone.
+#pragma once
+
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -11,8 +13,9 @@
 
 namespace cairn {
 
+template <class Pose>
 template <class Visit>
-void SparseMap::for_leaves_of(Variable v, Visit&& visit) const {
+void SparseMap<Pose>::for_leaves_of(Variable v, Visit&& visit) const {
   const auto number = static_cast<Number>(v >> 1);
   if (is_landmark(v)) {
     for (const Number leaf : landmarks_[number].submaps) visit(leaf);
@@ -23,42 +26,50 @@ void SparseMap::for_leaves_of(Variable v, Visit&& visit) const {
 }
 
 // Adds the descent in the variable's axes.
-void SparseMap::gradient_of(Variable v, double* b) const {
-  const SO3 own = axes(v).inverse();
+template <class Pose>
+void SparseMap<Pose>::gradient_of(Variable v, double* b) const {
+  const Rotation own = axes(v).inverse();
   for_leaves_of(v, [&](Number number) {
     const Leaf& leaf = leaves_[number];
     const auto at = std::lower_bound(leaf.variables.begin(), leaf.variables.end(), v) - leaf.variables.begin();
-    const SO3 turn = own * leaf.turned;
-    for (Index d = 0; d < dimension(v); d += 3)
-      Eigen::Map<Vector3>(b + d) -= turn * Vector3(leaf.gradient.segment<3>(leaf.states[at] + d));
+    const Rotation turn = own * leaf.turned;
+    const double* pull = leaf.gradient.data() + leaf.states[at];
+    Eigen::Map<Point> force(b);
+    force -= turn * Point(Eigen::Map<const Point>(pull));
+    if (is_landmark(v)) return;
+    Eigen::Map<Tangent> moment(b + kDim);
+    moment -= turn.adjoint(Tangent(Eigen::Map<const Tangent>(pull + kDim)));
   });
 }
 
 // One linear solution. Lengths and turns are measured by one scale of the whole map.
-class SparseMap::Step final : public EliminationTree::Relaxation {
+template <class Pose>
+class SparseMap<Pose>::Step final : public EliminationTree<Pose>::Relaxation {
  public:
+  using RigidMotion = typename Tree::RigidMotion;
+
   Step(const SparseMap& map, double tolerance) : map_(map), tolerance_(tolerance) {}
 
   void right_hand_side(Variable v, double* b, Index) const override { map_.gradient_of(v, b); }
   bool solution(Variable v, const double* x, Index) override {
     StepEntry entry{v, {}};
-    for (Index d = 0; d < dimension(v); d += 3)
-      Eigen::Map<Vector3>(entry.value + d) = map_.axes(v) * Vector3(Eigen::Map<const Vector3>(x + d));
+    const Rotation& R = map_.axes(v);
+    Eigen::Map<Point>(entry.value) = R * Point(Eigen::Map<const Point>(x));
+    if (!is_landmark(v))
+      Eigen::Map<Tangent>(entry.value + kDim) = R.adjoint(Tangent(Eigen::Map<const Tangent>(x + kDim)));
     largest = std::max(largest, size(v, x));
     entries.push_back(entry);
     return true;
   }
   bool matters(Variable v, const double* x) const override { return !(size(v, x) < tolerance_); }
-  EliminationTree::RigidMotion take_rigid(const std::vector<Variable>& variables,
-                                          Eigen::VectorXd& motion) const override;
-  void carry(Variable v, const EliminationTree::RigidMotion& motion) override {
+  RigidMotion take_rigid(const std::vector<Variable>& variables, Eigen::VectorXd& motion) const override;
+  void carry(Variable v, const RigidMotion& motion) override {
     StepEntry entry{v, {}};
-    Eigen::Map<Vector3> move(entry.value), turn(entry.value + 3);
-    move = motion.move + motion.turn.cross(map_.place_of(v) - motion.centre);
-    if (!is_landmark(v)) turn = motion.turn;
+    Eigen::Map<Point>(entry.value) = motion.move + Rotation::swing(motion.turn, map_.place_of(v) - motion.centre);
+    if (!is_landmark(v)) Eigen::Map<Tangent>(entry.value + kDim) = motion.turn;
     entries.push_back(entry);
   }
-  void carry_leaf(std::uint32_t number, const EliminationTree::RigidMotion& motion) override {
+  void carry_leaf(std::uint32_t number, const RigidMotion& motion) override {
     carried.emplace_back(number, motion.turn);
     for (const Number landmark : map_.leaves_[number].landmarks)
       if (landmark != kNone && !map_.shared(landmark)) carry(landmark_variable(landmark), motion);
@@ -67,13 +78,13 @@ class SparseMap::Step final : public EliminationTree::Relaxation {
 
   std::vector<StepEntry> entries;
   std::vector<Number> visited;
-  std::vector<std::pair<Number, Vector3>> carried;  // leaves, and by what they turn
+  std::vector<std::pair<Number, Tangent>> carried;  // leaves, and by what they turn
   double largest = 0.0;
 
  private:
   double size(Variable v, const double* x) const {
-    const double way = Eigen::Map<const Vector3>(x).norm() / map_.length_scale_;
-    return is_landmark(v) ? way : std::max(way, Eigen::Map<const Vector3>(x + 3).norm() / map_.turn_scale_);
+    const double way = Eigen::Map<const Point>(x).norm() / map_.length_scale_;
+    return is_landmark(v) ? way : std::max(way, Eigen::Map<const Tangent>(x + kDim).norm() / map_.turn_scale_);
   }
 
   const SparseMap& map_;
@@ -81,85 +92,90 @@ class SparseMap::Step final : public EliminationTree::Relaxation {
 };
 
 // Least squares by the map's scales.
-EliminationTree::RigidMotion SparseMap::Step::take_rigid(const std::vector<Variable>& variables,
-                                                         Eigen::VectorXd& motion) const {
+template <class Pose>
+typename EliminationTree<Pose>::RigidMotion SparseMap<Pose>::Step::take_rigid(const std::vector<Variable>& variables,
+                                                                              Eigen::VectorXd& motion) const {
   const double by_length = 1.0 / (map_.length_scale_ * map_.length_scale_);
   const double by_turn = 1.0 / (map_.turn_scale_ * map_.turn_scale_);
-  EliminationTree::RigidMotion rigid{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
-  std::vector<Matrix3> axes;
+  RigidMotion rigid{Point::Zero(), Point::Zero(), Tangent::Zero()};
+  std::vector<PointSquare> axes;
   Index at = 0;
   for (const Variable v : variables) {
     axes.push_back(map_.axes(v).matrix());
     rigid.centre += map_.place_of(v);
-    rigid.move += axes.back() * motion.segment<3>(at);
+    rigid.move += axes.back() * motion.segment<kDim>(at);
     at += dimension(v);
   }
   const auto count = static_cast<double>(variables.size());
   rigid.centre /= count;
   rigid.move /= count;
-  Matrix3 A = Matrix3::Zero();
-  Vector3 b = Vector3::Zero();
+  Jacobian A = Jacobian::Zero();
+  Tangent b = Tangent::Zero();
   at = 0;
   for (std::size_t i = 0; i < variables.size(); at += dimension(variables[i++])) {
-    const Vector3 arm = map_.place_of(variables[i]) - rigid.centre;
-    A += by_length * (arm.squaredNorm() * Matrix3::Identity() - arm * arm.transpose());
-    b += by_length * arm.cross(axes[i] * motion.segment<3>(at) - rigid.move);
+    const Point arm = map_.place_of(variables[i]) - rigid.centre;
+    A += by_length * Rotation::inertia(arm);
+    b += by_length * Rotation::moment(arm, axes[i] * motion.segment<kDim>(at) - rigid.move);
     if (is_landmark(variables[i])) continue;
-    A += by_turn * Matrix3::Identity();
-    b += by_turn * axes[i] * motion.segment<3>(at + 3);
+    A += by_turn * Jacobian::Identity();
+    b += by_turn * map_.axes(variables[i]).adjoint() * motion.segment<kTurn>(at + kDim);
   }
-  A.diagonal().array() += 1e-9 * A.trace() + DBL_MIN;  // points on a line leave one turn open
+  A.diagonal().array() += 1e-9 * A.trace() + DBL_MIN;  // points on a line leave one turn of space open
   rigid.turn = A.ldlt().solve(b);
   at = 0;
   for (std::size_t i = 0; i < variables.size(); at += dimension(variables[i++])) {
-    const Vector3 arm = map_.place_of(variables[i]) - rigid.centre;
-    motion.segment<3>(at) -= axes[i].transpose() * (rigid.move + rigid.turn.cross(arm));
-    if (!is_landmark(variables[i])) motion.segment<3>(at + 3) -= axes[i].transpose() * rigid.turn;
+    const Point arm = map_.place_of(variables[i]) - rigid.centre;
+    motion.segment<kDim>(at) -= axes[i].transpose() * (rigid.move + Rotation::swing(rigid.turn, arm));
+    if (!is_landmark(variables[i]))
+      motion.segment<kTurn>(at + kDim) -= map_.axes(variables[i]).adjoint().transpose() * rigid.turn;
   }
   return rigid;
 }
 
 // What a step is taken from.
-struct SparseMap::Before {
-  std::vector<SE3> bases;
-  std::vector<Vector3> positions;
-  std::vector<SO3> turned;  // of the leaves that it carries
+template <class Pose>
+struct SparseMap<Pose>::Before {
+  std::vector<Pose> bases;
+  std::vector<Point> positions;
+  std::vector<Rotation> turned;  // of the leaves that it carries
   struct Evaluation {
     double cost;
     Eigen::VectorXd gradient;
-    SO3 turned;
+    Rotation turned;
   };
   std::vector<Evaluation> evaluations;  // of the leaves that it visits
 };
 
 // A rigid motion of many must stay one, whatever its size: with the turn theta of its own base, of that which saw it
 // first, a point goes by V(theta) delta, as (Exp(theta) - I) (p - c) = V(theta) (theta x (p - c)).
-void SparseMap::place(const Step& step, double factor, const Before& from) {
-  std::unordered_map<Number, Matrix3> turned;  // V by base
+template <class Pose>
+void SparseMap<Pose>::place(const Step& step, double factor, const Before& from) {
+  std::unordered_map<Number, PointSquare> turned;  // V by base
   std::size_t base = 0, position = 0;
   for (const StepEntry& entry : step.entries) {
     if (is_landmark(entry.variable)) continue;
     const auto number = static_cast<Number>(entry.variable >> 1);
-    const Vector3 move = factor * Eigen::Map<const Vector3>(entry.value);
-    const Vector3 turn = factor * Eigen::Map<const Vector3>(entry.value + 3);
-    const Matrix3 V = SO3::translation_jacobian(turn);
-    const SE3& before = from.bases[base++];
-    bases_[number] = SE3(SO3::exp(turn) * before.rotation(), before.translation() + V * move);
+    const Point move = factor * Eigen::Map<const Point>(entry.value);
+    const Tangent turn = factor * Eigen::Map<const Tangent>(entry.value + kDim);
+    const PointSquare V = Rotation::translation_jacobian(turn);
+    const Pose& before = from.bases[base++];
+    bases_[number] = Pose(Rotation::exp(turn) * before.rotation(), before.translation() + V * move);
     turned.emplace(number, V);
   }
   for (const StepEntry& entry : step.entries) {
     if (!is_landmark(entry.variable)) continue;
     Landmark& landmark = landmarks_[static_cast<Number>(entry.variable >> 1)];
-    const Vector3 move = factor * Eigen::Map<const Vector3>(entry.value);
+    const Point move = factor * Eigen::Map<const Point>(entry.value);
     const auto first = turned.find(landmark.submaps[0]);
-    landmark.position = from.positions[position++] + (first != turned.end() ? Vector3(first->second * move) : move);
+    landmark.position = from.positions[position++] + (first != turned.end() ? Point(first->second * move) : move);
   }
   for (std::size_t i = 0; i < step.carried.size(); ++i)
-    leaves_[step.carried[i].first].turned = SO3::exp(factor * step.carried[i].second) * from.turned[i];
+    leaves_[step.carried[i].first].turned = Rotation::exp(factor * step.carried[i].second) * from.turned[i];
 }
 
 // Puts the step's variables where it takes them, and evaluates the leaves that it visits; returns their cost.
-double SparseMap::take_step(const Step& step, double factor, const Before& from) {
+template <class Pose>
+double SparseMap<Pose>::take_step(const Step& step, double factor, const Before& from) {
   place(step, factor, from);
   double cost = 0.0;
   for (const Number leaf : step.visited) {
@@ -171,7 +187,8 @@ double SparseMap::take_step(const Step& step, double factor, const Before& from)
 
 // As if it had not been taken. The leaves get back what they were evaluated to, which may have been elsewhere: where
 // motions of other variables rest, the tree counts what these do to them.
-void SparseMap::take_back(const Step& step, Before& from) {
+template <class Pose>
+void SparseMap<Pose>::take_back(const Step& step, Before& from) {
   place(step, 0.0, from);
   for (std::size_t i = 0; i < step.visited.size(); ++i) {
     Leaf& leaf = leaves_[step.visited[i]];
@@ -183,7 +200,8 @@ void SparseMap::take_back(const Step& step, Before& from) {
 
 // Makes the tree anew where `changes` reach, and where leaves are stale: the newest of these first, and what is too
 // much for once waits for the next time. What was kept above all that is handed down before.
-void SparseMap::refactor(EliminationTree::Changes changes, Undo& undo, JoinReport& report) {
+template <class Pose>
+void SparseMap<Pose>::refactor(TreeChanges changes, Undo& undo, JoinReport& report) {
   constexpr std::size_t kAtOnce = 256;
   const std::size_t taken = std::min(stale_.size(), kAtOnce);
   for (std::size_t i = stale_.size() - taken; i < stale_.size(); ++i) changes.leaves.push_back(leaves_[stale_[i]].key);
@@ -208,7 +226,8 @@ void SparseMap::refactor(EliminationTree::Changes changes, Undo& undo, JoinRepor
 }
 
 // Saves what the step moves, and hands it out besides.
-SparseMap::Before SparseMap::save_step(const Step& step, Undo& undo) {
+template <class Pose>
+typename SparseMap<Pose>::Before SparseMap<Pose>::save_step(const Step& step, Undo& undo) {
   Before before;
   for (const Number leaf : step.visited) {
     save_leaf(undo, leaf);
@@ -232,7 +251,8 @@ SparseMap::Before SparseMap::save_step(const Step& step, Undo& undo) {
 }
 
 // Iterates from where the leaves pull that were evaluated since the tree took their forces in.
-void SparseMap::optimise(Undo& undo, JoinReport& report) {
+template <class Pose>
+void SparseMap<Pose>::optimise(Undo& undo, JoinReport& report) {
   constexpr int kHalvings = 6;
   // A chain's slackness grows by the cube of its length, and so does what stiffness of another shape does to it.
   const double borne = std::clamp(10.0 * std::pow(static_cast<double>(leaves_.size()), -1.5), 5e-5, 0.3);
@@ -241,10 +261,10 @@ void SparseMap::optimise(Undo& undo, JoinReport& report) {
   double tolerance = options_.step_tolerance;
   for (int i = 0; i < options_.most_iterations && !settled_; ++i) {
     if (!stale_.empty()) refactor({}, undo, report);
-    std::vector<EliminationTree::Touch> touches;
+    std::vector<TreeTouch> touches;
     for (const Number leaf : pending_) touches.push_back(tree_.touch(leaves_[leaf].key));
     Step step(*this, tolerance);
-    const EliminationTree before_step = tree_;
+    const Tree before_step = tree_;
     const double foreseen = tree_.relax(touches, step);
     ++report.iterations;
     Before from = save_step(step, undo);
@@ -252,7 +272,7 @@ void SparseMap::optimise(Undo& undo, JoinReport& report) {
     // Where motions rest, the costs are of other places than those that the step is taken from. A small step's hardly
     // are; one that hands everything down is compared with what it comes from.
     double before = 0.0;
-    for (const Before::Evaluation& evaluation : from.evaluations) before += evaluation.cost;
+    for (const typename Before::Evaluation& evaluation : from.evaluations) before += evaluation.cost;
     if (tolerance == 0.0) before = take_step(step, 0.0, from);
     double after = take_step(step, 1.0, from);
     if (!(after <= before + kSlack) && tolerance > 0.0) {
@@ -289,10 +309,11 @@ void SparseMap::optimise(Undo& undo, JoinReport& report) {
 }
 
 // A fix of the newest base, within a change.
-FixReport SparseMap::fix_base(const AbsoluteFix<SE3>& fix, double threshold, Undo& undo) {
+template <class Pose>
+FixReport SparseMap<Pose>::fix_base(const AbsoluteFix<Pose>& fix, double threshold, Undo& undo) {
   FixReport report;
   const int rows = fix.rows();
-  const SE3 T = bases_.back();
+  const Pose T = bases_.back();
   if (!fix.defined(T)) return report;
   const Eigen::MatrixXd J = fix.jacobian(T).topRows(rows);
   const Eigen::VectorXd r = fix.residual(T).head(rows);
@@ -302,10 +323,10 @@ FixReport SparseMap::fix_base(const AbsoluteFix<SE3>& fix, double threshold, Und
   if (!report.accepted) return report;
   if (leaves_.empty()) {  // nothing but the prior, in one linearisation
     const Eigen::MatrixXd PJ = base_covariance_ * J.transpose();
-    const Vector6 e = PJ * S.ldlt().solve(r);
-    const Matrix6 lower = base_covariance_ - PJ * S.ldlt().solve(PJ.transpose());
+    const typename Pose::Tangent e = PJ * S.ldlt().solve(r);
+    const Square lower = base_covariance_ - PJ * S.ldlt().solve(PJ.transpose());
     bases_[0] = prior_ = retract(T, e);
-    base_covariance_ = prior_covariance_ = lower.selfadjointView<Eigen::Lower>();
+    base_covariance_ = prior_covariance_ = lower.template selfadjointView<Eigen::Lower>();
     report.iterations = 1;
     return report;
   }
@@ -314,7 +335,7 @@ FixReport SparseMap::fix_base(const AbsoluteFix<SE3>& fix, double threshold, Und
   save_leaf(undo, leaf);
   fixes_[leaf + 1].push_back(fix);
   evaluate(leaf);
-  EliminationTree::Changes changes;
+  TreeChanges changes;
   changes.leaves.push_back(leaves_[leaf].key);
   refactor(std::move(changes), undo, joined);
   optimise(undo, joined);
@@ -322,7 +343,8 @@ FixReport SparseMap::fix_base(const AbsoluteFix<SE3>& fix, double threshold, Und
   return report;
 }
 
-FixReport SparseMap::fix(const AbsoluteFix<SE3>& fix, double threshold) {
+template <class Pose>
+FixReport SparseMap<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold) {
   Undo undo(*this, ++change_);
   try {
     const FixReport report = fix_base(fix, threshold, undo);

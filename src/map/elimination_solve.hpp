@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Solutions and covariances out of the elimination tree.
+// Solutions and covariances out of the elimination tree. Included by elimination_tree.cpp alone.
+#pragma once
+
 #include <algorithm>
 
 #include "map/elimination_front.hpp"
@@ -8,8 +10,9 @@
 namespace cairn {
 namespace {
 
-using Front = EliminationTree::Front;
-using Touch = EliminationTree::Touch;
+using Front = TreeFront;
+using FrontPointer = std::shared_ptr<const Front>;
+using Touch = TreeTouch;
 using Matrix = Eigen::MatrixXd;
 using Factor = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
 using TouchIterator = std::vector<Touch>::const_iterator;
@@ -29,7 +32,7 @@ struct Halves {
     while (bounds[0] != end && elsewhere(*bounds[0])) ++bounds[0];
     while (bounds[2] != bounds[0] && elsewhere(*(bounds[2] - 1))) --bounds[2];
     bounds[1] = bounds[2];
-    if (front.bit != EliminationTree::kCrown)
+    if (front.bit != Front::kCrown)
       bounds[1] = std::find_if(bounds[0], bounds[2], [&](const Touch& touch) { return touch.key.bit(front.bit); });
   }
   bool touch(const Front& child, int side) const {
@@ -47,11 +50,10 @@ struct Pass {
   bool stirs = false;
   std::unique_ptr<Pass> child[2];
 
-  // Takes in what the child on a side hands up.
+  // Takes in what the child on a side hands up, to these rows.
   template <class Columns>
-  void add_child(const Front& front, int side, Columns& b) const {
+  void add_child(int side, const std::vector<Index>& map, Columns& b) const {
     const Matrix& up = child[side]->above;
-    const std::vector<Index> map = state_map(front.child[side]->boundary, front);
     for (Index c = 0; c < b.cols(); ++c)
       for (std::size_t i = 0; i < map.size(); ++i) b(map[i], c) += up(static_cast<Index>(i), c);
   }
@@ -70,9 +72,12 @@ void substitute(const Front& front, const Boundary& boundary, Columns& y) {
   eliminated_block(front).transpose().triangularView<Eigen::Upper>().solveInPlace(y);
 }
 
+template <class Pose>
 class Solver {
  public:
-  Solver(Index columns, EliminationTree::System& system) : columns_(columns), system_(system) {}
+  using System = typename EliminationTree<Pose>::System;
+
+  Solver(Index columns, System& system) : columns_(columns), system_(system) {}
 
   std::unique_ptr<Pass> forward(const Front& front, TouchIterator begin, TouchIterator end) const {
     auto pass = std::make_unique<Pass>();
@@ -82,12 +87,12 @@ class Solver {
       const Front& child = *front.child[side];
       if (child.leaf() || !halves.touch(child, side)) continue;
       pass->child[side] = forward(child, halves.bounds[side], halves.bounds[side + 1]);
-      pass->add_child(front, side, b);
+      pass->add_child(side, state_map<Pose>(child.boundary, front), b);
     }
     Index at = 0;
     for (const Variable v : front.eliminated) {
       system_.right_hand_side(v, b.data() + at, front.e + front.b);
-      at += dimension(v);
+      at += dimension<Pose>(v);
     }
     pass->eliminate(front, b);
     return pass;
@@ -103,7 +108,7 @@ class Solver {
     for (std::size_t i = 0; i < front.eliminated.size(); ++i) {
       const Variable v = front.eliminated[i];
       active[i] = system_.solution(v, x.data() + at, front.e + front.b);
-      at += dimension(v);
+      at += dimension<Pose>(v);
     }
     for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
       const Front& child = *front.child[side];
@@ -112,7 +117,7 @@ class Solver {
       std::vector<char> child_active = boundary_flags(front, child, active);
       if (below == nullptr && std::none_of(child_active.begin(), child_active.end(), [](char a) { return a != 0; }))
         continue;
-      const std::vector<Index> map = state_map(child.boundary, front);
+      const std::vector<Index> map = state_map<Pose>(child.boundary, front);
       Matrix x_child(child.e + child.b, columns_);
       for (Index c = 0; c < columns_; ++c)
         for (std::size_t i = 0; i < map.size(); ++i) x_child(child.e + static_cast<Index>(i), c) = x(map[i], c);
@@ -126,7 +131,7 @@ class Solver {
     std::vector<char> flags(child.eliminated.size(), 0);
     std::size_t j = 0;
     for (const Variable v : child.boundary) {
-      const auto found = front.bit == EliminationTree::kCrown
+      const auto found = front.bit == Front::kCrown
                              ? std::find(front.eliminated.begin(), front.eliminated.end(), v)
                              : std::lower_bound(front.eliminated.begin(), front.eliminated.end(), v);
       if (found != front.eliminated.end() && *found == v) {
@@ -140,7 +145,7 @@ class Solver {
   }
 
   Index columns_;
-  EliminationTree::System& system_;
+  System& system_;
 };
 
 Matrix chosen(const Matrix& covariance, const std::vector<Index>& map) {
@@ -152,8 +157,9 @@ Matrix chosen(const Matrix& covariance, const std::vector<Index>& map) {
 }
 
 // With K = L_BE L_EE^-1:  Sigma_BE = -Sigma_BB K,  Sigma_EE = (L_EE L_EE^T)^-1 + K^T Sigma_BB K.
+template <class Pose>
 void invert(const Front& front, const Matrix& boundary, TouchIterator begin, TouchIterator end,
-            EliminationTree::Covariances& visitor) {
+            typename EliminationTree<Pose>::Covariances& visitor) {
   if (front.leaf()) {
     visitor.leaf(front.key.leaf, boundary);
     return;
@@ -172,8 +178,8 @@ void invert(const Front& front, const Matrix& boundary, TouchIterator begin, Tou
   for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
     const Front& child = *front.child[side];
     if (halves.bounds[side] == halves.bounds[side + 1]) continue;
-    invert(child, chosen(covariance, state_map(child.boundary, front)), halves.bounds[side], halves.bounds[side + 1],
-           visitor);
+    invert<Pose>(child, chosen(covariance, state_map<Pose>(child.boundary, front)), halves.bounds[side],
+                 halves.bounds[side + 1], visitor);
   }
 }
 
@@ -191,7 +197,8 @@ bool by_key(const Touch& a, const Touch& b) {
 
 }  // namespace
 
-class EliminationTree::Relaxer {
+template <class Pose>
+class EliminationTree<Pose>::Relaxer {
  public:
   using Vector = Eigen::VectorXd;
 
@@ -222,10 +229,10 @@ class EliminationTree::Relaxer {
         std::int32_t& slot = slots_[v];
         if (slot < 0) {
           slot = static_cast<std::int32_t>(forces_.size());
-          forces_.push_back(Vector6::Zero());
+          forces_.push_back(Pose::Tangent::Zero());
         }
-        forces_[slot].head(dimension(v)) += rest->force.segment(at, dimension(v));
-        at += dimension(v);
+        forces_[slot].head(dimension<Pose>(v)) += rest->force.segment(at, dimension<Pose>(v));
+        at += dimension<Pose>(v);
       }
     }
   }
@@ -239,13 +246,13 @@ class EliminationTree::Relaxer {
       if (child.leaf() || !halves.touch(child, side)) continue;
       pass->child[side] = forward(child, halves.bounds[side], halves.bounds[side + 1]);
       pass->stirs = pass->stirs || pass->child[side]->stirs;
-      pass->add_child(front, side, b);
+      pass->add_child(side, state_map<Pose>(child.boundary, front), b);
     }
     Index at = 0;
     for (const Variable v : front.eliminated) {
       system_.right_hand_side(v, b.data() + at, front.e + front.b);
-      if (slots_[v] >= 0) b.segment(at, dimension(v)) += forces_[slots_[v]].head(dimension(v));
-      at += dimension(v);
+      if (slots_[v] >= 0) b.segment(at, dimension<Pose>(v)) += forces_[slots_[v]].head(dimension<Pose>(v));
+      at += dimension<Pose>(v);
     }
     pass->eliminate(front, b);
     if (!pass->stirs) {  // by the motion that the forces would cause here, were the boundary held
@@ -269,7 +276,7 @@ class EliminationTree::Relaxer {
       Index at = 0;
       for (const Variable v : front.eliminated) {
         system_.solution(v, x.data() + at, front.e + front.b);
-        at += dimension(v);
+        at += dimension<Pose>(v);
       }
     }
     const Halves halves(front, begin, end);
@@ -277,7 +284,7 @@ class EliminationTree::Relaxer {
       const FrontPointer& child = front.child[side];
       const bool touched = halves.touch(*child, side);
       if (!moves && !touched) continue;
-      const std::vector<Index> map = state_map(child->boundary, front);
+      const std::vector<Index> map = state_map<Pose>(child->boundary, front);
       Vector motion(child->b);
       for (std::size_t i = 0; i < map.size(); ++i) motion(static_cast<Index>(i)) = x(map[i]);
       if (child->leaf()) {
@@ -327,7 +334,7 @@ class EliminationTree::Relaxer {
     Index at = 0;
     for (const Variable v : variables) {
       if (system_.matters(v, motion.data() + at)) return true;
-      at += dimension(v);
+      at += dimension<Pose>(v);
     }
     return false;
   }
@@ -335,10 +342,11 @@ class EliminationTree::Relaxer {
   EliminationTree& tree_;
   Relaxation& system_;
   std::vector<std::int32_t> slots_;  // by variable: where in forces_, -1: none
-  std::vector<Vector6> forces_;
+  std::vector<typename Pose::Tangent> forces_;
 };
 
-void EliminationTree::keep_rest(const FrontPointer& front, Eigen::VectorXd motion, Eigen::VectorXd y) {
+template <class Pose>
+void EliminationTree<Pose>::keep_rest(const FrontPointer& front, Eigen::VectorXd motion, Eigen::VectorXd y) {
   if (motion.isZero(0.0)) motion.resize(0);
   if (y.isZero(0.0)) y.resize(0);
   if (motion.size() == 0 && y.size() == 0) return;
@@ -349,7 +357,8 @@ void EliminationTree::keep_rest(const FrontPointer& front, Eigen::VectorXd motio
       std::make_shared<const Rest>(Rest{front, std::move(motion), std::move(y), std::move(force)});
 }
 
-EliminationTree::Rest EliminationTree::take_rest(const Front& front) {
+template <class Pose>
+typename EliminationTree<Pose>::Rest EliminationTree<Pose>::take_rest(const Front& front) {
   const auto found = rests_.find({front.key, front.bit});
   if (found == rests_.end()) return Rest();
   Rest rest = *found->second;
@@ -357,7 +366,8 @@ EliminationTree::Rest EliminationTree::take_rest(const Front& front) {
   return rest;
 }
 
-double EliminationTree::relax(std::vector<Touch> touches, Relaxation& system) {
+template <class Pose>
+double EliminationTree<Pose>::relax(std::vector<Touch> touches, Relaxation& system) {
   if (crown_ == nullptr) return 0.0;
   touches.insert(touches.end(), carried_.begin(), carried_.end());
   carried_.clear();
@@ -370,7 +380,8 @@ double EliminationTree::relax(std::vector<Touch> touches, Relaxation& system) {
   return fall(*pass);
 }
 
-void EliminationTree::settle(const Changes& changes, Relaxation& system) {
+template <class Pose>
+void EliminationTree<Pose>::settle(const Changes& changes, Relaxation& system) {
   if (crown_ == nullptr || rests_.empty()) return;
   std::vector<Touch> touches;
   for (const TreeKey& key : changes.leaves) touches.push_back(touch(key));
@@ -380,22 +391,24 @@ void EliminationTree::settle(const Changes& changes, Relaxation& system) {
       .backward(*crown_, Eigen::VectorXd(0), nullptr, touches.begin(), touches.end(), Eigen::VectorXd(0), false);
 }
 
-void EliminationTree::solve(std::vector<Touch> touches, Index columns, System& system) const {
+template <class Pose>
+void EliminationTree<Pose>::solve(std::vector<Touch> touches, Index columns, System& system) const {
   if (crown_ == nullptr) return;
   std::stable_sort(touches.begin(), touches.end(), by_key);
-  Solver solver(columns, system);
+  Solver<Pose> solver(columns, system);
   const auto pass = solver.forward(*crown_, touches.begin(), touches.end());
   Matrix x(crown_->e, columns);
   std::vector<char> active(crown_->eliminated.size(), 0);
   solver.backward(*crown_, pass.get(), x, active);
 }
 
-void EliminationTree::covariances(std::vector<TreeKey> leaves, Covariances& visitor) const {
+template <class Pose>
+void EliminationTree<Pose>::covariances(std::vector<TreeKey> leaves, Covariances& visitor) const {
   if (crown_ == nullptr) return;
   std::vector<Touch> touches;
   for (const TreeKey& key : leaves) touches.push_back(touch(key));
   std::stable_sort(touches.begin(), touches.end(), by_key);
-  invert(*crown_, Matrix(0, 0), touches.begin(), touches.end(), visitor);
+  invert<Pose>(*crown_, Matrix(0, 0), touches.begin(), touches.end(), visitor);
 }
 
 }  // namespace cairn

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Queries of the sparse map. Covariances are recovered from the factor when they are asked for, and kept until the map
-// changes.
+// changes. Included by sparse_map.cpp alone.
+#pragma once
+
 #include <algorithm>
 
 #include "map/sparse_map.hpp"
 
 namespace cairn {
 
-bool SparseMap::find(std::uint64_t id, std::size_t& index) const {
+template <class Pose>
+bool SparseMap<Pose>::find(std::uint64_t id, std::size_t& index) const {
   const auto found = ids_.find(id);
   if (found == ids_.end()) return false;
   index = landmarks_[found->second].slot;
@@ -15,7 +18,8 @@ bool SparseMap::find(std::uint64_t id, std::size_t& index) const {
 }
 
 // Fills the cache, leaf by leaf.
-class SparseMap::CovarianceCache final : public EliminationTree::Covariances {
+template <class Pose>
+class SparseMap<Pose>::CovarianceCache final : public EliminationTree<Pose>::Covariances {
  public:
   explicit CovarianceCache(const SparseMap& map) : map_(map) {}
 
@@ -30,25 +34,25 @@ class SparseMap::CovarianceCache final : public EliminationTree::Covariances {
     }
     const std::vector<Index>& shared_ones = leaf.factor->shared();
     for (std::size_t i = 0; i < shared_ones.size(); ++i) {
-      const Index at = leaf.order[12 + 3 * i];
+      const Index at = leaf.order[Factor::column(static_cast<Index>(i))];
       // From the leaf that is asked for it alone: the others agree but for their last bits.
       const Number landmark = leaf.landmarks[shared_ones[i]];
-      if (map_.landmarks_[landmark].submaps[0] == number) keep(landmark, covariance.block<3, 3>(at, at));
+      if (map_.landmarks_[landmark].submaps[0] == number) keep(landmark, covariance.block<kDim, kDim>(at, at));
     }
     if (privates.empty()) return;
-    Eigen::MatrixXd A, W, sorted(3 * static_cast<Index>(privates.size()), covariance.rows());
+    Eigen::MatrixXd A, W, sorted(kDim * static_cast<Index>(privates.size()), covariance.rows());
     leaf.factor->express_private(privates, map_.values(leaf), A, W);
     for (Index c = 0; c < A.cols(); ++c) sorted.col(leaf.order[c]) = A.col(c);
     const Eigen::MatrixXd across = sorted * covariance;
     for (std::size_t a = 0; a < privates.size(); ++a) {
-      const auto row = 3 * static_cast<Index>(a);
+      const auto row = kDim * static_cast<Index>(a);
       keep(leaf.landmarks[privates[a]],
-           W.block<3, 3>(row, row) + across.middleRows<3>(row) * sorted.middleRows<3>(row).transpose());
+           W.block<kDim, kDim>(row, row) + across.middleRows<kDim>(row) * sorted.middleRows<kDim>(row).transpose());
     }
   }
 
  private:
-  void keep(Number landmark, const Matrix3& covariance) {
+  void keep(Number landmark, const PointSquare& covariance) {
     map_.covariances_[landmark] = 0.5 * (covariance + covariance.transpose());
     map_.covariance_of_[landmark] = map_.change_;
   }
@@ -56,7 +60,8 @@ class SparseMap::CovarianceCache final : public EliminationTree::Covariances {
   const SparseMap& map_;
 };
 
-void SparseMap::prepare_covariances(const std::vector<std::size_t>& indices) const {
+template <class Pose>
+void SparseMap<Pose>::prepare_covariances(const std::vector<std::size_t>& indices) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   covariances_.resize(landmarks_.size());
   covariance_of_.resize(landmarks_.size(), 0);
@@ -74,14 +79,16 @@ void SparseMap::prepare_covariances(const std::vector<std::size_t>& indices) con
   tree_.covariances(std::move(keys), cache);
 }
 
-Matrix3 SparseMap::covariance(std::size_t index) const {
+template <class Pose>
+Matrix3 SparseMap<Pose>::covariance(std::size_t index) const {
   prepare_covariances({index});
   const std::lock_guard<std::mutex> lock(mutex_);
-  return covariances_[visible_[index]];
+  return Embedding<Pose>::up(covariances_[visible_[index]]);
 }
 
 // Columns of the covariance for chosen variables; of the solution their rows alone.
-class SparseMap::Columns final : public EliminationTree::System {
+template <class Pose>
+class SparseMap<Pose>::Columns final : public EliminationTree<Pose>::System {
  public:
   explicit Columns(std::vector<Variable> variables) : variables_(std::move(variables)) {
     Index state = 0;
@@ -120,8 +127,9 @@ class SparseMap::Columns final : public EliminationTree::System {
   std::vector<Index> states_;
 };
 
-void SparseMap::base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
-  const auto size = static_cast<Index>(6 + 3 * count);
+template <class Pose>
+void SparseMap<Pose>::base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  const auto size = static_cast<Index>(kDof + kDim * count);
   Eigen::Map<Eigen::MatrixXd> joint(matrix, size, size);
   if (leaves_.empty()) {
     joint = base_covariance_;
@@ -130,7 +138,7 @@ void SparseMap::base_joint_covariance(const std::size_t* indices, std::size_t co
   // All asked for are A e + w by chosen variables' errors e; only private landmarks of one submap share a w.
   const Variable newest = base_variable(bases_.size() - 1);
   std::vector<Variable> variables{newest};
-  std::vector<EliminationTree::Touch> touches{tree_.touch(newest, leaves_.back().key)};
+  std::vector<TreeTouch> touches{tree_.touch(newest, leaves_.back().key)};
   std::map<Number, std::vector<std::size_t>> privates;  // by leaf: which of those asked for
   const auto want = [&](Variable v, Number leaf) {
     variables.push_back(v);
@@ -152,11 +160,12 @@ void SparseMap::base_joint_covariance(const std::size_t* indices, std::size_t co
   to_map_axes(variables, columns.covariance);
 
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, columns.columns()), W = Eigen::MatrixXd::Zero(size, size);
-  A.block<6, 6>(0, columns.state(newest)).setIdentity();
+  A.block<kDof, kDof>(0, columns.state(newest)).setIdentity();
   for (std::size_t i = 0; i < count; ++i) {
     const Number landmark = visible_[indices[i]];
     if (shared(landmark))
-      A.block<3, 3>(static_cast<Index>(6 + 3 * i), columns.state(landmark_variable(landmark))).setIdentity();
+      A.block<kDim, kDim>(static_cast<Index>(kDof + kDim * i), columns.state(landmark_variable(landmark)))
+          .setIdentity();
   }
   for (const auto& [number, asked] : privates) {
     const Leaf& leaf = leaves_[number];
@@ -164,17 +173,18 @@ void SparseMap::base_joint_covariance(const std::size_t* indices, std::size_t co
     for (const std::size_t i : asked)
       local.push_back(std::find(leaf.landmarks.begin(), leaf.landmarks.end(), visible_[indices[i]]) -
                       leaf.landmarks.begin());
-    Eigen::MatrixXd own, noise, sorted(3 * static_cast<Index>(local.size()), static_cast<Index>(leaf.order.size()));
+    Eigen::MatrixXd own, noise, sorted(kDim * static_cast<Index>(local.size()), static_cast<Index>(leaf.order.size()));
     leaf.factor->express_private(local, values(leaf), own, noise);
     for (Index c = 0; c < own.cols(); ++c) sorted.col(leaf.order[c]) = own.col(c);
     for (std::size_t a = 0; a < asked.size(); ++a) {
-      const auto row = static_cast<Index>(6 + 3 * asked[a]), from = 3 * static_cast<Index>(a);
+      const auto row = static_cast<Index>(kDof + kDim * asked[a]), from = kDim * static_cast<Index>(a);
       for (std::size_t v = 0; v < leaf.variables.size(); ++v) {
         const Index d = dimension(leaf.variables[v]);
-        A.block(row, columns.state(leaf.variables[v]), 3, d) = sorted.block(from, leaf.states[v], 3, d);
+        A.block(row, columns.state(leaf.variables[v]), kDim, d) = sorted.block(from, leaf.states[v], kDim, d);
       }
       for (std::size_t b = 0; b < asked.size(); ++b)
-        W.block<3, 3>(row, static_cast<Index>(6 + 3 * asked[b])) = noise.block<3, 3>(from, 3 * static_cast<Index>(b));
+        W.block<kDim, kDim>(row, static_cast<Index>(kDof + kDim * asked[b])) =
+            noise.block<kDim, kDim>(from, kDim * static_cast<Index>(b));
     }
   }
   joint = A * columns.covariance * A.transpose() + W;
@@ -182,10 +192,12 @@ void SparseMap::base_joint_covariance(const std::size_t* indices, std::size_t co
     for (Index r = c + 1; r < size; ++r) joint(c, r) = joint(r, c);
 }
 
-void SparseMap::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
-  std::vector<double> joint((6 + 3 * count) * (6 + 3 * count));
+template <class Pose>
+void SparseMap<Pose>::joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  const std::size_t size = kDof + kDim * count;
+  std::vector<double> joint(size * size);
   base_joint_covariance(indices, count, joint.data());
-  without_pose<SE3>(joint.data(), count, matrix);
+  without_pose<Pose>(joint.data(), count, matrix);
 }
 
 }  // namespace cairn
