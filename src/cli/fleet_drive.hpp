@@ -20,6 +20,7 @@ class FleetDrive : public TeamDrive {
   cairn_range_bearing radar() const override;
   std::uint32_t landmarks() const override { return options_.features; }
   std::uint32_t largest_frame() const override { return options_.features + options_.vehicles; }
+  double submap_distance() const override { return options_.course_length / 16; }
   bool next(TeamStep& step) override;
   bool true_landmark(std::uint64_t id, double position[2]) const override;
   const cairn_fleet* fleet() const { return fleet_.get(); }

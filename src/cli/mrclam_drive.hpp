@@ -26,6 +26,7 @@ class MrclamDrive : public TeamDrive {
   cairn_range_bearing radar() const override;
   std::uint32_t landmarks() const override { return static_cast<std::uint32_t>(log_.landmarks.size()); }
   std::uint32_t largest_frame() const override { return largest_frame_; }
+  double submap_distance() const override { return 2; }
   bool next(TeamStep& step) override;
   bool true_landmark(std::uint64_t id, double position[2]) const override;
 

@@ -45,6 +45,7 @@ class TeamDrive {
   virtual cairn_range_bearing radar() const = 0;
   virtual std::uint32_t landmarks() const = 0;      // at most
   virtual std::uint32_t largest_frame() const = 0;  // landmarks and vehicles
+  virtual double submap_distance() const = 0;       // after which a submap is closed, m
   virtual bool next(TeamStep& step) = 0;            // false after the last step
   virtual bool true_landmark(std::uint64_t id, double position[2]) const = 0;
 };

@@ -68,8 +68,9 @@ TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
   filter.batch_gate_probability = choices.batch_gate.value_or(filter.batch_gate_probability);
   filter.initial_pose = drive_.start(vehicle);
   if (choices_.mode == CAIRN_TEAM_SUBMAPS) {
-    filter.submap_landmarks = choices.submap_landmarks.value_or(drive_.landmarks());
-    filter.submap_distance = choices.submap_distance;
+    // By the way driven: one frame may hold all landmarks that there are.
+    filter.submap_landmarks = choices.submap_landmarks.value_or(std::min<std::uint32_t>(4096, 2 * room + 1));
+    filter.submap_distance = choices.submap_distance > 0 ? choices.submap_distance : drive_.submap_distance();
     filter.submap_extent = choices.submap_extent;
     filter.submap_sigma = choices.submap_sigma;
     filter.join = CAIRN_JOIN_DENSE;

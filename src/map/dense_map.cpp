@@ -14,8 +14,9 @@ namespace {
 
 template <class Pose>
 typename Ekf<Pose>::Capacity capacity_of(const MapOptions<Pose>& options) {
-  return {static_cast<Index>(options.max_landmarks),
-          static_cast<Index>(std::min(options.submap_capacity, options.max_landmarks))};
+  return {static_cast<Index>(options.max_landmarks + options.max_companions),
+          static_cast<Index>(std::min(options.submap_capacity, options.max_landmarks)),
+          static_cast<Index>(options.max_companions)};
 }
 
 // Rows and columns of a symmetric matrix of the landmarks' blocks behind the states of the pose.
@@ -32,7 +33,7 @@ template <class Pose>
 void measure_movement(const std::vector<typename Pose::Point>& before, const Ekf<Pose>& ekf, JoinReport& report) {
   double sum = 0.0;
   for (std::size_t i = 0; i < before.size(); ++i) {
-    const double way = (ekf.landmark(static_cast<Index>(i)) - before[i]).squaredNorm();
+    const double way = (ekf.landmark(ekf.companions() + static_cast<Index>(i)) - before[i]).squaredNorm();
     report.moved_max = std::max(report.moved_max, std::sqrt(way));
     sum += way;
   }
@@ -49,7 +50,7 @@ DenseMap<Pose>::DenseMap(const MapOptions<Pose>& options, std::size_t bytes)
     : options_(options),
       arena_(bytes),
       ekf_(arena_, options.error, capacity_of(options)),
-      slots_(arena_, options.max_landmarks),
+      indices_(arena_, options.max_landmarks),
       ids_(arena_.take<std::uint64_t>(options.max_landmarks)),
       counts_(arena_.take<std::uint64_t>(options.max_landmarks)) {
   ekf_.start(options.initial_pose, options.initial_covariance);
@@ -188,11 +189,11 @@ JoinReport DenseMap<Pose>::join_and_fix(const Submap<Pose>& submap, FixRequest<P
   std::vector<Pair> pairs;
   std::vector<Eigen::Index> fresh;
   for (Eigen::Index i = 0; i < submap.size(); ++i) {
-    const std::int32_t slot = slots_.find(submap.ids[i]);
-    if (slot == IdTable::kAbsent)
+    const std::int32_t index = indices_.find(submap.ids[i]);
+    if (index == IdTable::kAbsent)
       fresh.push_back(i);
     else
-      pairs.push_back({i, slot});
+      pairs.push_back({i, slot_of(static_cast<std::size_t>(index))});
   }
   if (size() + fresh.size() > options_.max_landmarks)
     throw Error(ErrorCode::capacity, "submap: %zu new landmarks, and the map holds %zu of max_landmarks = %zu",
@@ -223,7 +224,7 @@ JoinReport DenseMap<Pose>::join_and_fix(const Submap<Pose>& submap, FixRequest<P
   std::vector<Index> slots;
   for (const Pair& pair : pairs) slots.push_back(pair.slot);
   std::vector<Point> before, landmarks;
-  for (std::size_t i = 0; i < size(); ++i) before.push_back(ekf_.landmark(static_cast<Index>(i)));
+  for (std::size_t i = 0; i < size(); ++i) before.push_back(ekf_.landmark(slot_of(i)));
   for (const Eigen::Index i : fresh) landmarks.push_back(submap.landmarks[i]);
   Closed closed{base(), submap.ids};
   if (closed_.size() == closed_.capacity()) closed_.reserve(2 * closed_.size() + 8);
@@ -238,12 +239,12 @@ JoinReport DenseMap<Pose>::join_and_fix(const Submap<Pose>& submap, FixRequest<P
     throw;
   }
   for (std::size_t a = 0; a < fresh.size(); ++a) {
-    const std::size_t slot = size() - fresh.size() + a;
-    ids_[slot] = submap.ids[fresh[a]];
-    counts_[slot] = submap.counts[fresh[a]];
-    slots_.set(ids_[slot], static_cast<std::int32_t>(slot));
+    const std::size_t index = size() - fresh.size() + a;
+    ids_[index] = submap.ids[fresh[a]];
+    counts_[index] = submap.counts[fresh[a]];
+    indices_.set(ids_[index], static_cast<std::int32_t>(index));
   }
-  for (const Pair& pair : pairs) counts_[pair.slot] += submap.counts[pair.local];
+  for (const Pair& pair : pairs) counts_[pair.slot - ekf_.companions()] += submap.counts[pair.local];
   measure_movement<Pose>(before, ekf_, report);
   closed_.push_back(std::move(closed));
   return report;
@@ -267,28 +268,57 @@ FixReport DenseMap<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold) {
 
 template <class Pose>
 void DenseMap<Pose>::remove(std::uint64_t id) {
-  const std::int32_t slot = slots_.find(id);
-  if (slot == IdTable::kAbsent) return;
-  const Index last = ekf_.size() - 1;
-  ekf_.remove(slot);
-  slots_.erase(id);
-  if (slot == last) return;
-  ids_[slot] = ids_[last];
-  counts_[slot] = counts_[last];
-  slots_.set(ids_[slot], slot);
+  const std::int32_t index = indices_.find(id);
+  if (index == IdTable::kAbsent) return;
+  const std::size_t last = size() - 1;
+  ekf_.remove(slot_of(static_cast<std::size_t>(index)));
+  indices_.erase(id);
+  if (static_cast<std::size_t>(index) == last) return;
+  ids_[index] = ids_[last];
+  counts_[index] = counts_[last];
+  indices_.set(ids_[index], index);
 }
 
 template <class Pose>
 bool DenseMap<Pose>::find(std::uint64_t id, std::size_t& index) const {
-  const std::int32_t slot = slots_.find(id);
-  if (slot == IdTable::kAbsent) return false;
-  index = static_cast<std::size_t>(slot);
+  const std::int32_t found = indices_.find(id);
+  if (found == IdTable::kAbsent) return false;
+  index = static_cast<std::size_t>(found);
   return true;
 }
 
 template <class Pose>
+Index DenseMap<Pose>::companion(std::uint64_t id) const {
+  const auto found = std::find(companions_.begin(), companions_.end(), id);
+  if (found == companions_.end())
+    throw Error(ErrorCode::not_found, "vehicle: the map knows no vehicle %llu", static_cast<unsigned long long>(id));
+  return found - companions_.begin();
+}
+
+template <class Pose>
+void DenseMap<Pose>::add_vehicle(std::uint64_t id, const Pose& pose, const typename Pose::Square& covariance) {
+  if (!closed_.empty())
+    throw Error(ErrorCode::state, "vehicle: the map holds submaps already; vehicles join it before the first one");
+  if (companions_.size() == options_.max_companions)
+    throw Error(ErrorCode::capacity, "vehicle: the map has room for %zu beside its own", options_.max_companions);
+  companions_.reserve(companions_.size() + 1);
+  if (!ekf_.add_companion(pose, Pose::Square::Zero(), covariance))
+    throw Error(ErrorCode::numerical, "vehicle: its pose or covariance is not finite; nothing was changed");
+  companions_.push_back(id);
+}
+
+template <class Pose>
+void DenseMap<Pose>::look_from(std::uint64_t id) {
+  if (id == vehicle_) return;
+  const Index k = companion(id);
+  ekf_.activate(k);
+  std::swap(companions_[static_cast<std::size_t>(k)], vehicle_);
+}
+
+template <class Pose>
 void DenseMap<Pose>::base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
-  const std::vector<Index> slots(indices, indices + count);
+  std::vector<Index> slots;
+  for (std::size_t i = 0; i < count; ++i) slots.push_back(slot_of(indices[i]));
   ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), matrix, static_cast<Index>(kDof + kDim * count));
 }
 

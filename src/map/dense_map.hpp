@@ -30,15 +30,25 @@ class DenseMap final : public GlobalMap<Pose> {
   Pose submap_base(std::size_t submap) const override { return closed_[submap].base; }
   const std::vector<std::uint64_t>& submap_ids(std::size_t submap) const override { return closed_[submap].ids; }
 
-  // Landmarks
-  std::size_t size() const override { return static_cast<std::size_t>(ekf_.size()); }
+  // Submaps of several vehicles: what is said of the base is of the one looked from, at first the map's own. Others are
+  // added before the first submap.
+  void name_vehicle(std::uint64_t id) { vehicle_ = id; }
+  void add_vehicle(std::uint64_t id, const Pose& pose, const typename Pose::Square& covariance);
+  void look_from(std::uint64_t id);
+  Pose vehicle_base(std::uint64_t id) const { return id == vehicle_ ? base() : ekf_.companion(companion(id)); }
+  typename Pose::Square vehicle_base_covariance(std::uint64_t id) const {
+    return id == vehicle_ ? base_covariance() : ekf_.companion_covariance(companion(id));
+  }
+
+  // Landmarks, counted from 0 behind the slots of companions
+  std::size_t size() const override { return static_cast<std::size_t>(ekf_.size() - ekf_.companions()); }
   std::uint64_t id(std::size_t index) const override { return ids_[index]; }
   std::uint64_t observations(std::size_t index) const override { return counts_[index]; }
   Vector3 position(std::size_t index) const override {
-    return Embedding<Pose>::up(ekf_.landmark(static_cast<Index>(index)));
+    return Embedding<Pose>::up(ekf_.landmark(slot_of(index)));
   }
   Matrix3 covariance(std::size_t index) const override {
-    return Embedding<Pose>::up(ekf_.landmark_covariance(static_cast<Index>(index)));
+    return Embedding<Pose>::up(ekf_.landmark_covariance(slot_of(index)));
   }
   bool find(std::uint64_t id, std::size_t& index) const override;
   void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override;
@@ -54,6 +64,8 @@ class DenseMap final : public GlobalMap<Pose> {
   };
 
   DenseMap(const MapOptions<Pose>& options, std::size_t bytes);
+  Index slot_of(std::size_t index) const { return ekf_.companions() + static_cast<Index>(index); }
+  Index companion(std::uint64_t id) const;
   void open(const std::vector<Pair>& pairs);
   bool linearise(const Submap<Pose>& submap, const std::vector<Pair>& pairs, const Eigen::MatrixXd& noise,
                  double* residual_only);
@@ -66,10 +78,12 @@ class DenseMap final : public GlobalMap<Pose> {
   MapOptions<Pose> options_;
   Arena arena_;
   Ekf<Pose> ekf_;
-  IdTable slots_;
+  IdTable indices_;
   std::uint64_t* ids_;
   std::uint64_t* counts_;
   std::vector<Closed> closed_;
+  std::uint64_t vehicle_ = 0;              // looked from
+  std::vector<std::uint64_t> companions_;  // by number
 };
 
 extern template class DenseMap<SE2>;

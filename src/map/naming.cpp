@@ -50,16 +50,13 @@ class Naming final : public Innovations {
     report.nodes = association.nodes();
     report.exhausted = association.exhausted();
 
+    association.demand_support(options_.support, [&](Index, Index pair) { return confusable(candidates_[pair]); });
+
     std::vector<Index> chosen(submap_.landmarks.size(), kUnpaired);
-    std::vector<std::size_t> doubtful;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       const Index pair = association.chosen(static_cast<Index>(i));
-      if (pair == kUnpaired) continue;
-      chosen[i] = static_cast<Index>(known_[candidates_[pair].landmark].index);
-      if (confusable(candidates_[pair])) doubtful.push_back(i);
+      if (pair != kUnpaired) chosen[i] = static_cast<Index>(known_[candidates_[pair].landmark].index);
     }
-    if (static_cast<Index>(doubtful.size()) < options_.support)
-      for (const std::size_t i : doubtful) chosen[i] = kUnpaired;
     return chosen;
   }
   // Whether a landmark without a pair is far enough from all that the map knows.

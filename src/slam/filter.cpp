@@ -150,6 +150,8 @@ void Filter<Pose>::say(const char* format, ...) const {
   log_(log_payload_, line);
 }
 
+template MapOptions<SE2> map_options(const FilterOptions<SE2>&);
+template MapOptions<SE3> map_options(const FilterOptions<SE3>&);
 template class Filter<SE2>;
 template class Filter<SE3>;
 

@@ -122,6 +122,10 @@ struct SensorKinds<SE2> {
   using Any = std::variant<RangeBearing, Cartesian<SE2>, CustomSensor<SE2>, ExtendedObservation>;
 };
 
+// Of the map that a filter's submaps join.
+template <class Pose>
+MapOptions<Pose> map_options(const FilterOptions<Pose>& options);
+
 // In space (SE3) or in the plane (SE2). As Landmarks it speaks of space in either case.
 template <class Pose>
 class Filter final : public Landmarks {

@@ -20,6 +20,20 @@ namespace {
 constexpr Index kDenseAtMost = 100;
 
 template <class Pose>
+NamingOptions naming_options(const FilterOptions<Pose>& options) {
+  NamingOptions naming;
+  naming.joint = options.association == AssociationKind::joint;
+  naming.nodes = options.association_nodes;
+  naming.support = options.association_support;
+  naming.gate_probability = options.gate_probability;
+  naming.joint_gate_probability = options.batch_gate_probability;
+  naming.new_probability = options.new_probability;
+  return naming;
+}
+
+}  // namespace
+
+template <class Pose>
 MapOptions<Pose> map_options(const FilterOptions<Pose>& options) {
   MapOptions<Pose> map;
   map.error = options.error;
@@ -34,20 +48,6 @@ MapOptions<Pose> map_options(const FilterOptions<Pose>& options) {
   map.initial_covariance = options.initial_covariance;
   return map;
 }
-
-template <class Pose>
-NamingOptions naming_options(const FilterOptions<Pose>& options) {
-  NamingOptions naming;
-  naming.joint = options.association == AssociationKind::joint;
-  naming.nodes = options.association_nodes;
-  naming.support = options.association_support;
-  naming.gate_probability = options.gate_probability;
-  naming.joint_gate_probability = options.batch_gate_probability;
-  naming.new_probability = options.new_probability;
-  return naming;
-}
-
-}  // namespace
 
 template <class Pose>
 bool FilterOptions<Pose>::sparse() const {

@@ -35,9 +35,18 @@ Team::Team(const TeamOptions& options) : options_(options) {
   if (submaps == options.filter.single_map())
     throw Error(ErrorCode::argument, submaps ? "options.submap_landmarks is 0; a team that fuses submaps needs some"
                                              : "options.submap_landmarks: this team's filter holds a single map");
-  box_ = std::make_unique<Box>(filter_options(options));
-  radar_ = box_->filter.add(RangeBearing(options.radar));
-  box_->filter.name_vehicle(options.vehicle);
+  if (submaps) {
+    MapOptions<SE2> map = map_options(options.filter);
+    map.max_companions = static_cast<std::size_t>(options.max_vehicles - 1);
+    fleet_ = std::make_unique<Fleet>(map);
+    fleet_->map.name_vehicle(options.vehicle);
+    box_ = fleet_->join(options.vehicle, options);
+    radar_ = 0;
+  } else {
+    box_ = std::make_unique<Box>(filter_options(options));
+    radar_ = box_->filter.add(RangeBearing(options.radar));
+    box_->filter.name_vehicle(options.vehicle);
+  }
   if (options.mode == TeamMode::eo_diagonal || options.mode == TeamMode::eo_full)
     extended_ = box_->filter.add(ExtendedObservation(options.radar, {}, options.mode == TeamMode::eo_full));
   if (options.baseline) {
@@ -79,6 +88,8 @@ Team::Member& Team::add_member(std::uint64_t vehicle) {
 }
 
 void Team::add(std::uint64_t vehicle) {
+  if (options_.mode == TeamMode::submaps)
+    throw Error(ErrorCode::state, "start: a team that fuses submaps has to know where a teammate started");
   add_member(vehicle);
 }
 
@@ -86,7 +97,11 @@ void Team::add(std::uint64_t vehicle, const SE2& start, const Matrix3& covarianc
   Member& member = add_member(vehicle);
   try {
     if (options_.mode == TeamMode::joint) box_->filter.add_vehicle(vehicle, start, covariance);
-    if (options_.mode == TeamMode::submaps) box_->add_teammate(vehicle, start, covariance, options_);
+    if (options_.mode == TeamMode::submaps) {
+      auto box = fleet_->join(vehicle, options_);
+      fleet_->map.add_vehicle(vehicle, start, covariance);
+      fleet_->teammates[vehicle] = std::move(box);
+    }
   } catch (...) {
     members_.pop_back();
     throw;
@@ -364,8 +379,14 @@ void Team::settle() {
   }
 }
 
+const Filter<SE2>& Team::filter_of(std::uint64_t vehicle) const {
+  if (fleet_ == nullptr || vehicle == options_.vehicle) return box_->filter;
+  const auto teammate = fleet_->teammates.find(vehicle);
+  return teammate != fleet_->teammates.end() ? teammate->second->filter : box_->filter;
+}
+
 SE2 Team::pose(std::uint64_t vehicle) const {
-  SE2 T = box_->pose(vehicle);
+  SE2 T = filter_of(vehicle).vehicle_pose(vehicle);
   if (vehicle != options_.vehicle) return T;
   for (const auto& entry : members_.front().waiting)
     for (const Increment<SE2>& motion : entry.second.packet.motions) T = T * motion.T_before_after;
@@ -374,9 +395,9 @@ SE2 Team::pose(std::uint64_t vehicle) const {
 }
 
 Matrix3 Team::covariance(std::uint64_t vehicle) const {
-  Matrix3 P = box_->covariance(vehicle);
+  Matrix3 P = filter_of(vehicle).vehicle_covariance(vehicle);
   if (vehicle != options_.vehicle) return P;
-  SE2 T = box_->pose(vehicle);
+  SE2 T = filter_of(vehicle).vehicle_pose(vehicle);
   const auto move = [&](const Increment<SE2>& motion) {
     // e_p += G(R d) e_R + R dp, e_R += dtheta
     const Matrix2 R = T.rotation().matrix();

@@ -85,6 +85,7 @@ class Team {
 
  private:
   struct Box;
+  struct Fleet;
   struct Waiting {
     Packet packet;
     std::uint32_t checksum;
@@ -122,6 +123,7 @@ class Team {
   void take_in_extended(std::vector<Turn>& turns);
   void take_in_submaps(std::vector<Turn>& turns);
   void take_in_own(Turn& turn);
+  const Filter<SE2>& filter_of(std::uint64_t vehicle) const;
   void move(Filter<SE2>& filter, const Packet& packet);
   void find_members(const std::vector<Turn>& turns);
   bool scan(Filter<SE2>& filter, int sensor, const std::vector<Observation>& landmarks,
@@ -131,7 +133,8 @@ class Team {
   bool attempt(bool own, Function&& function);
 
   TeamOptions options_;
-  std::unique_ptr<Box> box_;       // of the team
+  std::unique_ptr<Fleet> fleet_;   // mode submaps
+  std::unique_ptr<Box> box_;       // of the team; mode submaps: of the own vehicle
   std::unique_ptr<Box> baseline_;  // of the own vehicle alone
   int radar_ = -1, extended_ = -1;
   std::deque<Member> members_;     // the own first

@@ -246,6 +246,19 @@ void Team::take_in_extended(std::vector<Turn>& turns) {
   }
 }
 
-void Team::take_in_submaps(std::vector<Turn>&) {}
+// Submaps are of one vehicle each and share nothing: what closes joins the map of all, over the landmarks that it has in
+// common with it. Sightings of each other would tie submaps together, and are left out (cooperative paper, section 1).
+void Team::take_in_submaps(std::vector<Turn>& turns) {
+  for (Turn& turn : turns) {
+    if (turn.member == &own()) {
+      take_in_own(turn);
+      continue;
+    }
+    const auto teammate = fleet_->teammates.find(turn.member->id);
+    if (teammate == fleet_->teammates.end() || !turn.member->known) continue;
+    move(teammate->second->filter, turn.packet);
+    scan(teammate->second->filter, radar_, turn.packet.landmarks, {}, false);
+  }
+}
 
 }  // namespace cairn
