@@ -39,6 +39,18 @@ need_packages() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends \
     -o Acquire::Retries=3 -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "${missing[@]}" </dev/null ||
     fail "apt-get could not install: ${missing[*]}"
+  if [[ " ${missing[*]} " == *' mosquitto '* ]]; then rest_broker "${as_root[@]}"; fi
+}
+
+# rest_broker [sudo]: Debian starts a broker as soon as it is installed, and with the machine. It is here for an example,
+# which starts one of its own: the system's was not asked for. In a container there is none to stop.
+rest_broker() {
+  if [[ -d /run/systemd/system ]]; then
+    "$@" systemctl --quiet disable --now mosquitto.service || say "The broker mosquitto may be running: see above"
+  elif [[ -x /etc/init.d/mosquitto ]]; then
+    "$@" env PATH="$PATH:/usr/sbin:/sbin" sh -c 'update-rc.d mosquitto disable; service mosquitto stop' \
+      </dev/null >/dev/null 2>&1 || true
+  fi
 }
 
 # configure FOLDER CMAKE_OPTION...: configures the project in a folder that belongs to the calling script.
