@@ -62,7 +62,7 @@ def read(folder, until):
 
 
 def window_errors(robot, window, delay=0.0):
-    """Truth minus odometry over windows: path along the robot's axis, turned angle, sideways."""
+    """Truth minus odometry over windows: path along the robot's axis, turned angle, sideways; and the odometry's path."""
     time = np.arange(robot.odometry[0, 0] + 1, robot.odometry[-1, 0] - 1, GRID)
     pose, (path, turn, _, _) = robot.pose(time), robot.reckoned(delay)
     step, heading = np.diff(pose[:, :2], axis=0), 0.5 * (pose[1:, 2] + pose[:-1, 2])
@@ -71,7 +71,8 @@ def window_errors(robot, window, delay=0.0):
     count = int(round(window / GRID))
     begin = np.arange(0, len(time) - count, max(1, count // 3))
     end = begin + count
-    return np.stack([total[end] - total[begin] for total in (ahead - path(time), pose[:, 2] - turn(time), aside)], 1)
+    return np.stack([total[end] - total[begin] for total in (ahead - path(time), pose[:, 2] - turn(time), aside,
+                                                                    path(time))], 1)
 
 
 def odometry(robots):
@@ -81,12 +82,13 @@ def odometry(robots):
     for window in WINDOWS:
         error = np.concatenate([window_errors(robot, window) for robot in robots.values()])
         later = np.concatenate([window_errors(robot, window, 0.2) for robot in robots.values()])
-        density[window] = [rms(column) / np.sqrt(window) for column in error.T]
+        density[window] = [rms(column) / np.sqrt(window) for column in error.T[:3]]
         print(f"{window:6g} | {rms(error[:, 0]):.4f}  {density[window][0]:.4f} | {rms(error[:, 1]):.4f}  "
               f"{density[window][1]:.4f}  {rms(later[:, 1]) / np.sqrt(window):.4f} | {density[window][2]:.4f}")
     for robot in robots.values():
-        print(f"   robot {robot.number}: {rms(window_errors(robot, 10)[:, 0]) / np.sqrt(10):.4f} m/sqrt(s) at 10 s, "
-              f"{rms(window_errors(robot, 0.3)[:, 1]) / np.sqrt(0.3):.4f} rad/sqrt(s) at 0.3 s")
+        slow, quick = window_errors(robot, 10), window_errors(robot, 0.3)
+        print(f"   robot {robot.number}: {rms(slow[:, 0]) / np.sqrt(10):.4f} m/sqrt(s) at 10 s, "
+              f"{rms(quick[:, 1]) / np.sqrt(0.3):.4f} rad/sqrt(s) at 0.3 s; path {slow[:, 0].sum() / slow[:, 3].sum():+.1%}")
     return density[PATH_WINDOW][0], max(density[window][1] for window in WINDOWS if window <= TURN_WINDOW)
 
 
@@ -126,8 +128,9 @@ def persistence(error, rows, name):
         np.add.at(pairs, bin_of[near], 1)
     variance = np.mean(error**2)
     factor = 1 + 2 * total.sum() / len(error) / variance
-    told = ", ".join(f"{a:g}-{b:g} s {c:.2f}" for a, b, c in zip(LAGS, LAGS[1:], total / np.maximum(pairs, 1) / variance))
-    print(f"   correlation of the error of {name}: {told}; N = {factor:.1f}")
+    correlation = total / np.maximum(pairs, 1) / variance
+    told = ", ".join(f"{a:g}-{b:g} s {c:.2f}" for a, b, c in zip(LAGS, LAGS[1:], correlation))
+    print(f"   correlation of the error of {name}: {told}; integral {correlation @ np.diff(LAGS):.1f} s, N = {factor:.1f}")
     return factor
 
 
