@@ -115,6 +115,20 @@ class BrowserTest(unittest.TestCase):
         finally:
             self.browser.call("Emulation.setDeviceMetricsOverride", width=1000, **metrics)
 
+    def test_teams(self):
+        for name, options, curves, mark in (("boats", [], 7, "vehicle 2"), ("modes", ["--compare", "--runs", "2"], 6, "true")):
+            folder = os.path.join(self.room.name, name)
+            subprocess.run([os.environ["CAIRN_PROGRAM"], "simulate", "usv", "--duration", "200", "--output", folder, "--quiet",
+                            *options], check=True, stdout=subprocess.DEVNULL)
+            self.open(folder)
+            image = self.browser.screenshot(os.path.join(KEPT, name + ".png") if KEPT else None)
+            self.assertGreater(len(np.unique(image.reshape(-1, 3), axis=0)), 100)
+            self.assertEqual(self.browser.evaluate("document.querySelectorAll('.plot').length"), curves)
+            self.assertEqual(self.browser.evaluate("document.querySelectorAll('.plot .main-svg').length > 0"), True)
+            self.assertIn(mark, self.browser.evaluate("document.getElementById('curve0').data.map(t => t.name)"))
+            drawn = self.browser.evaluate("document.querySelectorAll('#curve0 .trace, #curve0 .bars .point').length")
+            self.assertGreater(drawn, 3)
+
     def test_the_papers_figures(self):
         for kind, begin in (("png", b"\x89PNG\r\n"), ("svg", b"<?xml")):
             folder = os.path.join(self.room.name, kind)

@@ -4,19 +4,20 @@
 SI units, radians. Body axes x forward, y left, z up; quaternions w x y z. Covariances of a pose are 6 x 6, of its error
 [dp; dtheta] in the map's axes. Arrays come and go as numpy; shapes are checked.
 
-Filter, Map, World, Pose and CairnError are the Python layer. `cairn.lib` has every function of the C headers and
-`cairn.ffi` is the cffi object that goes with it; constants stand there too, and here without their prefix: cairn.NEW
-is lib.CAIRN_NEW. The library is loaded when the first of these is asked for, so that cairn.report works without it.
+Filter, Map, Team, World, Fleet, Pose and CairnError are the Python layer. `cairn.lib` has every function of the C
+headers and `cairn.ffi` is the cffi object that goes with it; constants stand there too, and here without their prefix:
+cairn.NEW is lib.CAIRN_NEW. The library is loaded when the first of these is asked for, so that cairn.report works
+without it.
 """
 import importlib
 
 __version__ = "0.1.0"
-__all__ = ["CairnError", "Filter", "Map", "Pose", "World", "ffi", "lib", "pose_compose", "pose_error", "pose_inverse",
-           "quaternion_from_euler", "quaternion_to_euler", "version"]
+__all__ = ["CairnError", "Filter", "Fleet", "Map", "Pose", "Team", "World", "ffi", "lib", "planar_pose", "pose_compose",
+           "pose_error", "pose_inverse", "quaternion_from_euler", "quaternion_to_euler", "version"]
 
-_HOMES = {"CairnError": "error", "Filter": "filter", "Map": "map", "World": "world", "ffi": "_library",
-          "lib": "_library", "Pose": "pose", "pose_compose": "pose", "pose_error": "pose", "pose_inverse": "pose",
-          "quaternion_from_euler": "pose", "quaternion_to_euler": "pose"}
+_HOMES = {"CairnError": "error", "Filter": "filter", "Fleet": "fleet", "Map": "map", "Team": "team", "World": "world",
+          "ffi": "_library", "lib": "_library", "Pose": "pose", "planar_pose": "pose", "pose_compose": "pose",
+          "pose_error": "pose", "pose_inverse": "pose", "quaternion_from_euler": "pose", "quaternion_to_euler": "pose"}
 
 
 def version():

@@ -81,17 +81,18 @@ def dtype(type_name):
     return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": ffi.sizeof(type_name)})
 
 
-def constant(field, word):
-    """The value of a constant given as a word: error="standard" is CAIRN_ERROR_STANDARD."""
-    for prefix in (field, field.split("_")[0]):
+def constant(field, word, struct=""):
+    """The value of a constant given as a word: error="standard" is CAIRN_ERROR_STANDARD, and in a struct that speaks of
+    a team mode="joint" is CAIRN_TEAM_JOINT."""
+    for prefix in (field, field.split("_")[0], *struct.split("_")[1:2]):
         value = getattr(lib, f"CAIRN_{prefix}_{word}".upper(), None)
         if value is not None:
             return value
     raise ValueError(f"{field}: there is no constant CAIRN_{field.split('_')[0].upper()}_{word.upper()}")
 
 
-def set_field(struct, name, kind, value, where):
-    """Sets one field of a struct from what Python has for it."""
+def set_field(struct, name, kind, value, where, owner=""):
+    """Sets one field of a struct, whose type is `owner`, from what Python has for it."""
     where = f"{where}{name}"
     if kind.kind == "array":
         shape = shape_of_array(name, kind.length)
@@ -104,7 +105,7 @@ def set_field(struct, name, kind, value, where):
                    where + ".")
     elif kind.kind == "primitive":
         if isinstance(value, str):
-            value = constant(name, value)
+            value = constant(name, value, owner)
         try:
             setattr(struct, name, value if kind.cname == "double" else operator.index(value))
         except (TypeError, OverflowError) as error:
@@ -118,7 +119,7 @@ def set_fields(struct, kind, values, where=""):
     for name, value in values.items():
         if name not in fields:
             raise TypeError(f"there is no option '{where}{name}': {name_of(kind)} has {', '.join(fields)}")
-        set_field(struct, name, fields[name], value, where)
+        set_field(struct, name, fields[name], value, where, name_of(kind))
 
 
 def pose_fields(name, value):
@@ -159,6 +160,29 @@ def report(type_name, ask):
     struct = sized(type_name)
     check(ask(struct))
     return as_dict(struct[0])
+
+
+def observations(ids, z, covariance=None):
+    """An array of cairn_observation: n ids, n x rows values, and their noise (n x rows x rows) or None. Or, all in one,
+    an array of observations alone."""
+    layout = dtype("cairn_observation")
+    if z is None:
+        frame = np.asarray(ids)
+        if frame.dtype != layout or frame.ndim != 1 or covariance is not None:
+            raise TypeError("z is missing: only an array of observations stands alone")
+        return np.ascontiguousarray(frame)
+    ids = identifiers("ids", ids)
+    z = array("z", np.zeros((0, 3)) if len(ids) == 0 and np.size(z) == 0 else z, (len(ids), None))
+    rows = z.shape[1]
+    if not 1 <= rows <= 3:
+        raise ValueError(f"z: 1 to 3 values an observation are wanted, not {rows}")
+    frame = np.zeros(len(ids), layout)
+    frame["id"] = ids
+    frame["z"][:, :rows] = z
+    if covariance is not None:
+        packed = array("covariance", covariance, (len(ids), rows, rows)).reshape(len(ids), rows * rows)
+        frame["covariance"].reshape(len(ids), 9)[:, : rows * rows] = packed
+    return frame
 
 
 def as_dict(struct):

@@ -17,6 +17,8 @@ class Filter(Handle):
     Options are the fields of cairn_filter_options, by name: Filter(max_landmarks=500, submap_landmarks=60,
     error="standard", initial_pose=(position, quaternion), initial_covariance=six_by_six). What is not given has the
     library's default; an unknown name is a TypeError. All memory is taken now. Use it in a with statement, or close() it.
+
+    vehicle="planar" makes it a filter in the plane z = 0. Poses, covariances and Jacobians keep the shapes of space.
     """
 
     WHAT = "filter"
@@ -55,8 +57,14 @@ class Filter(Handle):
         """Adds a stereo camera: observations are (u_left, u_right, v), pixels. Fields of cairn_stereo_camera."""
         return self._add("cairn_stereo_camera", lib.cairn_filter_add_stereo_camera, description)
 
+    def add_range_bearing(self, **description):
+        """Adds a radar, lidar or sonar to a planar vehicle: observations are (range m, bearing rad, left positive).
+        Fields of cairn_range_bearing."""
+        return self._add("cairn_range_bearing", lib.cairn_filter_add_range_bearing, description)
+
     def add_cartesian(self, **description):
-        """Adds a sensor of points: observations are (x, y, z), m, in its frame. Fields of cairn_cartesian."""
+        """Adds a sensor of points: observations are (x, y, z), m, in its frame; of a planar vehicle (x, y). Fields of
+        cairn_cartesian."""
         return self._add("cairn_cartesian", lib.cairn_filter_add_cartesian, description)
 
     def add_custom(self, predict, place=None, **description):
@@ -106,38 +114,17 @@ class Filter(Handle):
     def update(self, sensor, ids, z=None, covariance=None):
         """Takes in one frame of one sensor; all of it is one batch.
 
-        ids: n landmark ids. z: n x 3 values in the sensor's units (custom: n x rows). covariance: the noise of each
-        observation, n x 3 x 3 (custom: n x rows x rows); None: the sensor's own. Or, all in one, an array of
-        observations with these three as fields, as a World hands them out.
+        ids: n landmark ids. z: n x 3 values in the sensor's units (custom: n x rows; of a planar vehicle n x 2).
+        covariance: the noise of each observation, n x 3 x 3 (custom: n x rows x rows; planar: n x 2 x 2); None: the
+        sensor's own. Or, all in one, an array of observations with these three as fields, as a World hands them out.
         Gives n decisions: an array with the fields landmark, result (cairn.MATCHED, NEW, REJECTED), reason, distance and
         threshold (squared Mahalanobis distance and its bound).
         """
-        frame = self._frame(ids, z, covariance)
+        frame = _structs.observations(ids, z, covariance)
         matches = np.zeros(len(frame), _structs.dtype("cairn_match"))
         self._call(lib.cairn_filter_update, sensor, ffi.from_buffer("cairn_observation *", frame), len(frame),
                    ffi.from_buffer("cairn_match *", matches))
         return matches
-
-    @staticmethod
-    def _frame(ids, z, covariance):
-        layout = _structs.dtype("cairn_observation")
-        if z is None:
-            frame = np.asarray(ids)
-            if frame.dtype != layout or frame.ndim != 1 or covariance is not None:
-                raise TypeError("z is missing: only an array of observations stands alone")
-            return np.ascontiguousarray(frame)
-        ids = _structs.identifiers("ids", ids)
-        z = _structs.array("z", np.zeros((0, 3)) if len(ids) == 0 and np.size(z) == 0 else z, (len(ids), None))
-        rows = z.shape[1]
-        if not 1 <= rows <= 3:
-            raise ValueError(f"z: 1 to 3 values an observation are wanted, not {rows}")
-        frame = np.zeros(len(ids), layout)
-        frame["id"] = ids
-        frame["z"][:, :rows] = z
-        if covariance is not None:
-            packed = _structs.array("covariance", covariance, (len(ids), rows, rows)).reshape(len(ids), rows * rows)
-            frame["covariance"].reshape(len(ids), 9)[:, : rows * rows] = packed
-        return frame
 
     def _update_alone(self, function, *arguments):
         match = np.zeros(1, _structs.dtype("cairn_match"))
@@ -228,7 +215,8 @@ class Filter(Handle):
         return matrix
 
     def pose_nees(self, truth):
-        """Normalised estimation error squared against a true pose (position, quaternion): about 6 on average."""
+        """Normalised estimation error squared against a true pose (position, quaternion): about 6 on average, of a planar
+        vehicle 3."""
         nees = ffi.new("double *")
         self._call(lib.cairn_filter_pose_nees, _structs.new_pose("truth", truth), nees)
         return nees[0]

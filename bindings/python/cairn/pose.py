@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Poses, and the ways in and out of Euler angles."""
+import math
 import typing
 
 import numpy as np
@@ -26,6 +27,11 @@ class Pose(typing.NamedTuple):
     def of(cls, struct):
         """Of a cairn_pose."""
         return cls(np.array(list(struct.position)), np.array(list(struct.quaternion)))
+
+
+def planar_pose(x, y, heading):
+    """Pose of a vehicle in the plane z = 0: m, m, rad."""
+    return Pose(np.array([x, y, 0.0]), np.array([math.cos(heading / 2), 0.0, 0.0, math.sin(heading / 2)]))
 
 
 def pose_compose(T_a_b, T_b_c):

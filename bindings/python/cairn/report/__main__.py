@@ -4,7 +4,7 @@ import argparse
 import os
 import sys
 
-from . import page, run
+from . import page, run, team, team_page
 
 
 def pictures_of(runs):
@@ -28,13 +28,19 @@ def main(arguments=None):
     parser.add_argument("--format", choices=("png", "svg"), default="png", help="of the figures (default: png)")
     options = parser.parse_args(arguments)
     try:
-        runs = run.read_folder(options.folder)
+        cooperation = team.read_folder(options.folder)
+        if cooperation is not None and options.figures:
+            raise run.ReportError(f"{options.folder}: --figures draws those of the Mars paper; this is a team's folder")
+        runs = run.read_folder(options.folder) if cooperation is None else ()
         if options.figures:
             from . import figures
             for path in figures.write(runs, options.figures, options.format):
                 print(path)
             return 0
-        text = page.build(options.folder, runs, pictures_of(runs) if len(runs) > 1 else ())
+        if cooperation is not None:
+            text = team_page.build(cooperation)
+        else:
+            text = page.build(options.folder, runs, pictures_of(runs) if len(runs) > 1 else ())
         path = options.output or os.path.join(options.folder, "report.html")
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)

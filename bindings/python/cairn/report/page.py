@@ -4,6 +4,7 @@ import base64
 import html
 import json
 import os
+import re
 
 from .. import __version__
 from . import curves, scene
@@ -30,7 +31,10 @@ MEANINGS = {
     "landmark_rmse_m": "landmarks' error at the end, root mean square, m",
     "pose_anees_per_dof": "squared pose error over its variance: 1 for an honest filter",
     "nis_per_dof": "squared innovation over its variance: 1 where the noise is as assumed",
-    "wrong_pairings": "observations paired with the wrong landmark"}
+    "wrong_pairings": "observations paired with the wrong landmark", "paired": "observations paired without a name",
+    "vehicles": "vehicles of the team", "recursion_ms_mean": "time of one vehicle's step, its share of the packets in it, ms",
+    "claimed_improvement": "by how much the first vehicle's covariance is smaller than by itself",
+    "true_improvement": "by how much its mean squared error is"}
 CARDS = [("pose_rmse_m", "position error, rms", "m"), ("landmark_rmse_m", "landmark error, rms", "m"),
          ("attitude_rmse_deg", "attitude error, rms", "°"), ("pose_anees_per_dof", "honesty of the pose (1 is right)", ""),
          ("step_ms_mean", "time of a step", "ms"), ("landmarks", "landmarks", ""), ("submaps", "submaps", "")]
@@ -46,6 +50,11 @@ def number(value):
     return f"{value:.4g}"
 
 
+def meaning(key):
+    vehicle = re.fullmatch(r"vehicle_(\d+)_(.*)", key)
+    return f"vehicle {vehicle[1]}: {MEANINGS.get(vehicle[2], '')}" if vehicle else MEANINGS.get(key, "")
+
+
 def table(runs):
     keys = [key for key in MEANINGS if any(key in run.summary for run in runs)]
     keys += sorted({key for run in runs for key in run.summary} - set(MEANINGS))
@@ -57,7 +66,7 @@ def table(runs):
     for key in keys:
         cells = "".join(f"<td>{number(run.summary[key]) if key in run.summary else '–'}</td>" for run in runs)
         rows.append(f'<tr><td><code>{html.escape(key)}</code></td>{cells}'
-                    f'<td class="meaning">{html.escape(MEANINGS.get(key, ""))}</td></tr>')
+                    f'<td class="meaning">{html.escape(meaning(key))}</td></tr>')
     refused = [reason for run in runs for reason in run.observations.refused]
     for reason in sorted(set(refused)):
         cells = "".join(f"<td>{number(run.observations.refused.get(reason, 0))}</td>" for run in runs)
@@ -137,11 +146,20 @@ def build(folder, runs, pictures=()):
     main = runs[-1]
     duration = main.times()[-1] - main.times()[0]
     blocks, found = sections(runs, pictures)
-    data = {"scene": scene.build(runs), "curves": [{"data": curve["data"], "layout": curve["layout"]} for curve in found]}
+    return assemble(folder, title, f"{len(main.times())} steps, {duration:.1f} s", cards(runs), blocks, table(runs), found,
+                    scene.build(runs))
+
+
+def assemble(folder, title, lead, cards_html, blocks, table_html, found, built_scene=None):
+    """The page's text of its parts; `found` are the curves that the blocks hold."""
+    data = {"scene": built_scene,
+            "curves": [{"data": curve["data"], "layout": curve["layout"], "alone": bool(curve.get("alone"))}
+                       for curve in found]}
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-    parts = {"TITLE": html.escape(title), "LEAD": f"{len(main.times())} steps, {duration:.1f} s",
-             "CARDS": cards(runs), "SECTIONS": blocks, "TABLE": table(runs), "VERSION": __version__,
-             "FOLDER": html.escape(folder), "STYLE": asset("page.css"), "SCRIPT": asset("page.js"), "DATA": text,
+    parts = {"TITLE": html.escape(title), "LEAD": html.escape(lead), "CARDS": cards_html,
+             "SCENE": asset("scene.html") if built_scene else "", "SECTIONS": blocks, "TABLE": table_html,
+             "VERSION": __version__, "FOLDER": html.escape(folder), "STYLE": asset("page.css"),
+             "SCRIPT": (asset("scene.js") if built_scene else "") + asset("page.js"), "DATA": text,
              "PLOTLY": plotly_source()}
     pieces = asset("page.html").split("@")
     return "".join(parts[piece] if i % 2 else piece for i, piece in enumerate(pieces))

@@ -8,7 +8,7 @@ import os
 import numpy as np
 
 WHOLE = {"id", "submap"}    # columns that a double would not hold exactly
-WORDS = {"reason", "result"}
+WORDS = {"mode", "reason", "result"}
 
 
 class ReportError(Exception):
@@ -54,6 +54,20 @@ def read_table(path):
         return {name: _column(name, [row[i] for row in rows]) for i, name in enumerate(header)}
     except ValueError as error:
         raise ReportError(f"{path}: it is no table of numbers: {error}") from None
+
+
+def read_figures(path):
+    """The figures of a summary.json by name; none where there is no such file."""
+    try:
+        with open(path) as file:
+            found = json.load(file)
+    except FileNotFoundError:
+        return {}
+    except (OSError, ValueError) as error:
+        raise ReportError(f"{path}: it can't be read: {error}") from None
+    if not isinstance(found, dict):
+        raise ReportError(f"{path}: it holds no figures")
+    return {key: value for key, value in found.items() if isinstance(value, (int, float, str))}
 
 
 class Observations:
@@ -129,14 +143,7 @@ class Run:
         return read_table(self._path(name + ".csv"))
 
     def _json(self, name):
-        try:
-            with open(self._path(name + ".json")) as file:
-                found = json.load(file)
-        except FileNotFoundError:
-            return {}
-        except (OSError, ValueError) as error:
-            raise ReportError(f"{self._path(name + '.json')}: it can't be read: {error}") from None
-        return {key: value for key, value in found.items() if isinstance(value, (int, float, str))}
+        return read_figures(self._path(name + ".json"))
 
     def _members(self):
         """Ids of each submap's landmarks, by submap."""

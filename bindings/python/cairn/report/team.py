@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads what a team left in its folder: one run of all its vehicles, or a comparison of the modes."""
+import os
+import types
+
+import numpy as np
+
+from . import run
+from .run import ReportError
+
+TRAJECTORY = ["step", "time", "vehicle", "x", "y", "heading", "sigma3_x", "sigma3_y", "sigma3_heading"]
+LANDMARKS = ["vehicle", "id", "x", "y", "sigma3_x", "sigma3_y"]
+COMPARISON = ["features", "mode", "claimed", "true", "anees", "band_low", "band_high", "rmse_m", "recursion_ms", "paper"]
+
+
+def _table(folder, name, columns):
+    path = os.path.join(folder, name)
+    table = run.read_table(path)
+    if table is None:
+        return None
+    for column in columns:
+        if column not in table:
+            raise ReportError(f"{path}: it has no column {column}")
+    if len(table[columns[0]]) == 0 and columns is not LANDMARKS:
+        raise ReportError(f"{path}: it has no lines")
+    return table
+
+
+class Vehicle:
+    """One vehicle's columns of a table, and the errors where there is truth."""
+
+    def __init__(self, number, columns):
+        self.number = number
+        self.columns = columns
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+    def error(self, name):
+        """Truth minus estimate of x, y or heading, NaN where there is no truth."""
+        if f"true_{name}" not in self.columns:
+            return np.full(len(self["time"]), np.nan)
+        error = self[f"true_{name}"] - self[name]
+        return (error + np.pi) % (2 * np.pi) - np.pi if name == "heading" else error
+
+
+def _by_vehicle(table):
+    return [Vehicle(int(number), {name: column[table["vehicle"] == number] for name, column in table.items()})
+            for number in np.unique(table["vehicle"])]
+
+
+class TeamRun:
+    """What 'cairn simulate usv --output' or 'cairn run' of a MRCLAM folder wrote."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.name = os.path.basename(os.path.abspath(folder))
+        self.vehicles = _by_vehicle(_table(folder, "team_trajectories.csv", TRAJECTORY))
+        landmarks = _table(folder, "team_landmarks.csv", LANDMARKS)
+        self.maps = _by_vehicle(landmarks) if landmarks is not None else []
+        self.summary = run.read_figures(os.path.join(folder, "summary.json"))
+        self.observations = types.SimpleNamespace(refused={})  # no file tells of them
+
+    def one_map(self):
+        """Whether all vehicles hold the same map, as those do that run the same filter."""
+        first = self.maps[0] if self.maps else None
+        return all(np.array_equal(one["id"], first["id"]) and np.allclose(one["x"], first["x"], rtol=0, atol=1e-6)
+                   and np.allclose(one["y"], first["y"], rtol=0, atol=1e-6) for one in self.maps)
+
+
+class TeamComparison:
+    """What 'cairn simulate usv --compare --output' wrote: rows by number of features and mode."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.name = os.path.basename(os.path.abspath(folder))
+        self.table = _table(folder, "team_compare.csv", COMPARISON)
+        self.features = sorted({int(number) for number in self.table["features"]})
+        self.modes = list(dict.fromkeys(self.table["mode"].tolist()))
+
+    def value(self, column, features, mode):
+        """One figure; NaN where the mode was not run with so many features."""
+        found = (self.table["features"] == features) & (self.table["mode"] == mode)
+        return float(self.table[column][found][0]) if found.any() else float("nan")
+
+
+def read_folder(folder):
+    """A TeamRun or a TeamComparison; None where the folder holds neither. Of a folder that was used for both, what its
+    summary.json is of."""
+    has_run, has_comparison = (os.path.isfile(os.path.join(folder, name))
+                               for name in ("team_trajectories.csv", "team_compare.csv"))
+    if has_run and has_comparison:
+        has_comparison = "vehicles" not in run.read_figures(os.path.join(folder, "summary.json"))
+    if has_comparison:
+        return TeamComparison(folder)
+    return TeamRun(folder) if has_run else None

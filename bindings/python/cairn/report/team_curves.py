@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The curves of a team's page, as plotly draws them."""
+import numpy as np
+
+from . import thin
+from .curves import MOST, band, base_layout, line
+
+PALETTE = ["#2563a8", "#c8641b", "#1d8a7a", "#7a4fb5", "#b5487e", "#5b7f1e", "#a86a12", "#55524a"]  # vehicles
+MODES = {"mono": "#8a867c", "eo_diagonal": "#b3261e", "eo_full": "#c8641b", "submaps": "#1d8a7a", "joint": "#2563a8"}
+MOST_ELLIPSES = 400  # of one map
+LEGEND = {"showlegend": True, "legend": {"orientation": "h", "x": 0, "y": 1, "yanchor": "bottom", "font": {"size": 12}}}
+ERRORS = [("x", "m", 1.0), ("y", "m", 1.0), ("heading", "deg", np.degrees(1.0))]
+
+
+def colour_of(number):
+    return PALETTE[number % len(PALETTE)]
+
+
+def pale(colour, share=0.16):
+    return "rgba({},{},{},{})".format(*(int(colour[i: i + 2], 16) for i in (1, 3, 5)), share)
+
+
+def _points(x, y, **more):
+    return {"type": "scatter", "x": thin.significant(x, 7), "y": thin.significant(y, 7), **more}
+
+
+def ellipses(marks):
+    """Outlines of three standard deviations, one after the other with a gap between: x, y. Along the map's axes where
+    the table tells nothing of how x and y are correlated."""
+    turn = np.append(np.linspace(0, 2 * np.pi, 37), np.nan)
+    x, y = [], []
+    for i in thin.evenly(len(marks["x"]), MOST_ELLIPSES):
+        a, b = marks["sigma3_x"][i], marks["sigma3_y"][i]
+        joint = 9 * marks["cov_xy"][i] if "cov_xy" in marks.columns else 0.0
+        # By a Cholesky factor of the covariance.
+        lean = joint / a if a > 0 else 0.0
+        upright = np.sqrt(max(b * b - lean * lean, 0.0))
+        x.append(marks["x"][i] + a * np.cos(turn))
+        y.append(marks["y"][i] + lean * np.cos(turn) + upright * np.sin(turn))
+    return (np.concatenate(x), np.concatenate(y)) if x else (np.zeros(0), np.zeros(0))
+
+
+def the_map(team):
+    """The plane from above: trajectories, landmarks with their 3-sigma ellipses."""
+    traces, truth = [], False
+    for at, vehicle in enumerate(team.vehicles):
+        colour = colour_of(at)
+        kept = thin.evenly(len(vehicle["x"]), MOST)
+        if np.isfinite(vehicle.error("x")).any():
+            traces.append(_points(vehicle["true_x"][kept], vehicle["true_y"][kept], mode="lines", hoverinfo="skip",
+                                  name="true trajectories", legendgroup="truth", showlegend=not truth,
+                                  line={"color": "#1c1b19", "width": 1}))
+            truth = True
+        traces.append(_points(vehicle["x"][kept], vehicle["y"][kept], mode="lines", name=f"vehicle {vehicle.number}",
+                              line={"color": colour, "width": 1.6}))
+    maps = team.maps[:1] if team.one_map() else team.maps
+    for at, marks in enumerate(maps):
+        colour = "#1c1b19" if len(maps) == 1 else colour_of(at)
+        of = "" if len(maps) == 1 else f" of vehicle {marks.number}"
+        x, y = ellipses(marks)
+        traces.append(_points(x, y, mode="lines", fill="toself", fillcolor=pale(colour, 0.14), hoverinfo="skip",
+                              name=f"3 σ{of}", line={"color": colour, "width": 0.8}))
+        traces.append(_points(marks["x"], marks["y"], mode="markers", name=f"landmarks{of}",
+                              text=[f"landmark {i}" for i in marks["id"]], hovertemplate="%{text}<br>%{x}, %{y} m<extra></extra>",
+                              marker={"size": 5, "color": colour}))
+    known = [marks for marks in maps if "true_x" in marks.columns and np.isfinite(marks["true_x"]).any()]
+    for at, marks in enumerate(known):
+        traces.append(_points(marks["true_x"], marks["true_y"], mode="markers", name="true landmarks", legendgroup="marks",
+                              showlegend=at == 0, hoverinfo="skip",
+                              marker={"size": 7, "symbol": "x-thin", "line": {"width": 1.4, "color": "#1d8a3a"}}))
+    layout = base_layout(620, "y (m)", "x (m)", **LEGEND)
+    layout["yaxis"].update(scaleanchor="x", scaleratio=1)
+    note = "" if not maps else "Ellipses: 3 σ." if "cov_xy" in maps[0].columns else "Ellipses: 3 σ along x and y."
+    if len(team.maps) > 1 and len(maps) == 1:
+        note += " All vehicles hold the same map; it is drawn once."
+    if len(maps) > 0 and len(maps[0]["x"]) > MOST_ELLIPSES:
+        note += f" They are drawn for {MOST_ELLIPSES} of {len(maps[0]['x'])} landmarks, an even pick."
+    return {"title": "From above", "note": note, "data": traces, "layout": layout, "alone": True}
+
+
+def errors(team):
+    """Errors of each vehicle's x, y and heading inside their 3-sigma bands; empty where there is no truth."""
+    figures = []
+    for at, vehicle in enumerate(team.vehicles):
+        for name, unit, scale in ERRORS:
+            error, sigma, times = vehicle.error(name), vehicle[f"sigma3_{name}"], vehicle["time"]
+            if np.isnan(error).all():
+                continue
+            judged = np.isfinite(error) & (sigma > 0)
+            note = ""
+            if judged.any():
+                note = f"{100 * np.mean(np.abs(error[judged]) <= sigma[judged]):.1f} % inside 3 σ"
+            kept = thin.envelope(sigma, MOST // 2)
+            traces = [band(times[kept], -scale * sigma[kept], scale * sigma[kept], pale(colour_of(at)), "3 σ")]
+            kept = thin.envelope(error, MOST // 2)
+            traces.append(line(times[kept], scale * error[kept], colour_of(at), "error"))
+            figures.append({"title": f"vehicle {vehicle.number}: {name}", "note": note, "data": traces,
+                            "layout": base_layout(210, unit)})
+    return figures
+
+
+def _bars(comparison, features, bounds):
+    modes = [mode for mode in comparison.modes if mode != "mono"]  # what all are compared with
+    claimed, true = ([comparison.value(column, features, mode) for mode in modes]
+                     for column in ("claimed", "true"))
+    paper = max(comparison.value("paper", features, mode) for mode in comparison.modes)
+    number = {"texttemplate": "%{y:.0f}", "textposition": "outside", "cliponaxis": False, "textfont": {"size": 11}}
+    traces = [{"type": "bar", "x": modes, "y": thin.significant(claimed), "name": "claimed",
+               "marker": {"color": "#9fc0e0"}, **number},
+              {"type": "bar", "x": modes, "y": thin.significant(true), "name": "true",
+               "marker": {"color": "#2563a8"}, **number}]
+    layout = base_layout(330, "improvement (%)", "", barmode="group", bargap=0.3, **LEGEND)
+    layout["xaxis"].update(type="category", tickangle=0, tickfont={"size": 10})
+    layout["yaxis"].update(range=bounds)
+    note = ""
+    if np.isfinite(paper):
+        layout["shapes"] = [{"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": paper, "y1": paper,
+                             "line": {"color": "#b3261e", "width": 1.4, "dash": "dash"}}]
+        note = f"dashed: the cooperative paper claims {paper:g} %"
+    return {"title": f"{features} features", "note": note, "data": traces, "layout": layout, "alone": True}
+
+
+def improvement(comparison):
+    """Claimed and true improvement on a vehicle by itself: one figure a number of features, all on one scale."""
+    shown = np.concatenate([comparison.table[name] for name in ("claimed", "true", "paper")])
+    low, high = np.nanmin(np.append(shown, 0.0)), np.nanmax(np.append(shown, 10.0))
+    room = 0.12 * (high - low)
+    return [_bars(comparison, features, [float(low - room if low < 0 else 0.0), float(high + room)])
+            for features in comparison.features]
+
+
+def _by_features(comparison, column, title, y_title, note, log=False):
+    traces = []
+    for mode in comparison.modes:
+        values = np.array([comparison.value(column, features, mode) for features in comparison.features])
+        colour = MODES.get(mode, "#55524a")
+        traces.append({"type": "scatter", "mode": "lines+markers", "x": [str(f) for f in comparison.features],
+                       "y": thin.significant(values), "name": mode, "line": {"color": colour, "width": 1.6},
+                       "marker": {"color": colour, "size": 7}})
+    layout = base_layout(330, y_title, "features", **LEGEND)
+    layout["xaxis"]["type"] = "category"
+    if log:
+        layout["yaxis"].update(type="log", dtick=1, exponentformat="none")
+    return {"title": title, "note": note, "data": traces, "layout": layout, "alone": True}
+
+
+def honesty(comparison):
+    """ANEES over its degrees of freedom, in the band that the mean of so many runs stays in."""
+    low, high = (float(comparison.table[name][0]) for name in ("band_low", "band_high"))
+    figure = _by_features(comparison, "anees", "Honesty: ANEES / 3", "ANEES / 3",
+                          f"1 is right, more is overconfident; shaded: {low:.2f} to {high:.2f}, where an honest filter's "
+                          "mean over the runs lies at 95 % of the steps")
+    figure["layout"]["shapes"] = [
+        {"type": "rect", "xref": "paper", "x0": 0, "x1": 1, "y0": low, "y1": high, "line": {"width": 0},
+         "fillcolor": "rgba(37,99,168,0.13)", "layer": "below"},
+        {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": 1, "y1": 1, "layer": "below",
+         "line": {"color": "#9a968c", "width": 1}}]
+    return figure
+
+
+def comparisons(comparison):
+    return [honesty(comparison),
+            _by_features(comparison, "rmse_m", "Position error", "m", "root mean square of vehicle 1, online"),
+            _by_features(comparison, "recursion_ms", "Time of a recursion", "ms",
+                         "one vehicle, one step, its share of the packets in it", log=True)]
+
+

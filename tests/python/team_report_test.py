@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reports of teams: what is read and drawn. The page in a browser is browser_test.py's matter."""
+import contextlib
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from unittest import mock
+
+import support
+import numpy as np
+from cairn.report import __main__ as program
+from cairn.report import page, team, team_curves
+
+COMPARISON = """features,mode,claimed,true,anees,in_band,band_low,band_high,rmse_m,landmark_rmse_m,recursion_ms,paper
+6,mono,0,0,1.07,0.93,0.85,1.17,5.4,10.1,0.008,50
+6,eo_diagonal,22,17,1.23,0.21,0.85,1.17,4.9,10.8,0.016,50
+6,joint,45,49,1.03,0.96,0.85,1.17,3.8,3.5,0.022,50
+40,mono,0,0,0.99,0.99,0.85,1.17,2.3,4.2,0.29,30
+40,eo_diagonal,12,-86,2.37,0,0.85,1.17,3.1,6.6,0.74,30
+"""
+
+
+def call(*arguments):
+    """Status and what was printed of `python -m cairn.report`."""
+    out, told = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(told), \
+            mock.patch.object(page, "plotly_source", lambda: "/* plotly */"):
+        return program.main(list(arguments)), out.getvalue(), told.getvalue()
+
+
+def data(path):
+    with open(path) as file:
+        text = file.read()
+    return text, json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S).group(1))
+
+
+class TeamReportTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.room = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.room.cleanup)
+        cls.source = os.path.join(cls.room.name, "boats")
+        subprocess.run([os.environ["CAIRN_PROGRAM"], "simulate", "usv", "--vehicles", "3", "--duration", "400", "--output",
+                        cls.source, "--quiet"], check=True, stdout=subprocess.DEVNULL)
+
+    def setUp(self):
+        self.folder = os.path.join(self.room.name, "copy")
+        shutil.rmtree(self.folder, ignore_errors=True)
+        shutil.copytree(self.source, self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+
+    def test_what_is_read(self):
+        one = team.read_folder(self.folder)
+        self.assertEqual([vehicle.number for vehicle in one.vehicles], [1, 2, 3])
+        self.assertEqual([len(vehicle["time"]) for vehicle in one.vehicles], [81] * 3)
+        first = one.vehicles[0]
+        scored = first["step"] >= 0.1 * 81  # as the program scores it
+        square = first.error("x")[scored] ** 2 + first.error("y")[scored] ** 2
+        self.assertAlmostEqual(np.sqrt(square.mean()), one.summary["vehicle_1_pose_rmse_m"], places=6)
+        self.assertLess(np.abs(first.error("heading")).max(), 0.1)
+        self.assertTrue(one.one_map())
+        self.assertEqual(len(one.maps[0]["id"]), one.summary["landmarks"])
+
+    def test_a_page(self):
+        status, out, told = call(self.folder)
+        self.assertEqual((status, told), (0, ""))
+        text, found = data(self.path("report.html"))
+        self.assertEqual(len(found["curves"]), 1 + 3 * 3)
+        self.assertEqual([curve["alone"] for curve in found["curves"]], [True] + [False] * 9)
+        self.assertIsNone(found["scene"])
+        self.assertEqual(re.findall(r"@[A-Z]+@", text), [])
+        names = [trace["name"] for trace in found["curves"][0]["data"]]
+        for name in ("vehicle 1", "vehicle 2", "vehicle 3", "true trajectories", "landmarks", "true landmarks", "3 σ"):
+            self.assertIn(name, names)
+        self.assertEqual(names.count("landmarks"), 1)
+        self.assertIn("<code>vehicle_3_pose_rmse_m</code>", text)
+        self.assertIn("3 vehicles, 81 steps, 400.0 s", text)
+        self.assertNotIn('id="slider"', text)
+
+    def test_maps_that_differ_are_drawn_each(self):
+        with open(self.path("team_landmarks.csv")) as file:
+            lines = file.read().splitlines()
+        cells = lines[1].split(",")
+        cells[2] = str(float(cells[2]) + 1.0)
+        self.write("team_landmarks.csv", "\n".join([lines[0], ",".join(cells), *lines[2:]]) + "\n")
+        names = [trace["name"] for trace in team_curves.the_map(team.read_folder(self.folder))["data"]]
+        self.assertEqual([f"landmarks of vehicle {v}" in names for v in (1, 2, 3)], [True] * 3)
+
+    def test_ellipses(self):
+        covariance = np.array([[4.0, 1.5], [1.5, 1.0]])
+        columns = {"x": np.array([5.0]), "y": np.array([-2.0]), "sigma3_x": np.array([6.0]), "sigma3_y": np.array([3.0])}
+        for more, matrix in (({"cov_xy": np.array([1.5])}, covariance), ({}, np.diag([4.0, 1.0]))):
+            x, y = team_curves.ellipses(team.Vehicle(1, {**columns, **more}))
+            off = np.stack([x[:-1] - 5.0, y[:-1] + 2.0])
+            np.testing.assert_allclose(np.einsum("ik,ij,jk->k", off, np.linalg.inv(matrix), off), 9.0)
+            self.assertTrue(np.isnan(x[-1]))
+
+    def test_without_truth_and_landmarks(self):
+        with open(self.path("team_trajectories.csv")) as file:
+            rows = [line.rstrip("\n").split(",") for line in file]
+        for row in rows[1:]:
+            row[9:12] = [""] * 3
+        self.write("team_trajectories.csv", "\n".join(map(",".join, rows)) + "\n")
+        os.remove(self.path("team_landmarks.csv"))
+        os.remove(self.path("summary.json"))
+        status, _, told = call(self.folder)
+        self.assertEqual((status, told), (0, ""))
+        self.assertEqual(len(data(self.path("report.html"))[1]["curves"]), 1)
+
+    def test_a_comparison(self):
+        folder = os.path.join(self.room.name, "<compared>")
+        os.makedirs(folder, exist_ok=True)
+        with open(os.path.join(folder, "team_compare.csv"), "w") as file:
+            file.write(COMPARISON)
+        with open(os.path.join(folder, "summary.json"), "w") as file:
+            file.write('{"mono_6": {"claimed_improvement": 0}}')
+        status, _, told = call(folder)
+        self.assertEqual((status, told), (0, ""))
+        text, found = data(os.path.join(folder, "report.html"))
+        self.assertEqual(len(found["curves"]), 2 + 3)
+        few, many = found["curves"][:2]
+        self.assertEqual(few["data"][0]["x"], ["eo_diagonal", "joint"])
+        self.assertEqual([trace["y"] for trace in few["data"]], [[22, 45], [17, 49]])
+        self.assertEqual([trace["y"] for trace in many["data"]], [[12, None], [-86, None]])
+        self.assertEqual([curve["layout"]["shapes"][0]["y0"] for curve in (few, many)], [50, 30])
+        self.assertEqual(few["layout"]["yaxis"]["range"], many["layout"]["yaxis"]["range"])
+        self.assertLess(many["layout"]["yaxis"]["range"][0], -86)
+        band = found["curves"][2]["layout"]["shapes"][0]
+        self.assertEqual((band["y0"], band["y1"]), (0.85, 1.17))
+        self.assertIn("the cooperative paper claims 50 %", text)
+        self.assertNotIn("<compared>", text)
+        self.assertIn("<td>-86.0</td>", text)
+
+    def test_a_folder_of_both_goes_by_its_summary(self):
+        self.write("team_compare.csv", COMPARISON)
+        self.assertIsInstance(team.read_folder(self.folder), team.TeamRun)
+        self.write("summary.json", "{}")
+        self.assertIsInstance(team.read_folder(self.folder), team.TeamComparison)
+
+    def refused(self, *words):
+        status, out, told = call(self.folder)
+        self.assertEqual((status, out, told.count("\n")), (2, "", 1), told)
+        for word in words:
+            self.assertIn(word, told)
+
+    def test_what_is_broken_is_told(self):
+        status, _, told = call(self.folder, "--figures", self.path("figures"))
+        self.assertEqual(status, 2)
+        self.assertIn("Mars paper", told)
+        self.write("summary.json", "[1]")
+        self.refused("summary.json")
+        self.write("summary.json", "{}")
+        self.write("team_landmarks.csv", "vehicle,id,x\n1,2,3\n")
+        self.refused("team_landmarks.csv", "column y")
+        self.write("team_trajectories.csv", "step,time\n0,1\n")
+        self.refused("team_trajectories.csv", "column vehicle")
+        self.write("team_trajectories.csv", ",".join(team.TRAJECTORY) + "\n")
+        self.refused("no lines")
+        self.write("team_trajectories.csv", ",".join(team.TRAJECTORY) + "\n0,0,one,0,0,0,0,0,0\n")
+        self.refused("team_trajectories.csv", "one")
+        os.remove(self.path("team_trajectories.csv"))
+        self.write("team_compare.csv", COMPARISON.replace("paper", "article"))
+        self.refused("team_compare.csv", "paper")
+
+
+if __name__ == "__main__":
+    unittest.main()
