@@ -88,7 +88,7 @@ CAIRN_API cairn_status cairn_team_predict_twist(cairn_team *team, double dt, con
  *  heard of up to this time, in an order that is the same at every vehicle. Where the own scan cannot be taken in the
  *  call fails, and is told to the team all the same.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also a time in the past, a name twice, CAIRN_ID_NONE, the own
- *  number), CAIRN_ERROR_CAPACITY, CAIRN_ERROR_NUMERICAL. Complexity: O(n^2 m) for n states and m rows a vehicle.
+ *  number), CAIRN_ERROR_CAPACITY, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (it left). Complexity: O(n^2 m) for n states and m rows a vehicle.
  *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_observe(cairn_team *team, double time, const cairn_observation *landmarks,
                                           size_t landmark_count, const cairn_observation *vehicles,
@@ -101,7 +101,8 @@ CAIRN_API cairn_status cairn_team_decisions(const cairn_team *team, cairn_match 
                                             size_t *needed);
 
 /** Bids the team farewell: one more packet, after which teammates do not wait for this vehicle any more.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+ *  Own steps are not taken any more; packets of teammates are.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (it left already). \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_leave(cairn_team *team);
 
 /** The next packet to be sent to all teammates: own steps, repetitions that somebody asked for, and questions for packets

@@ -71,6 +71,8 @@ const char* const kHelp =
     "  --velocity-noise, --rate-noise, --range-noise, --bearing-noise\n"
     "                          usv: standard deviations, m/s, rad/s, m, rad; MRCLAM: of the odometry a square root of\n"
     "                          Hz, of the range in proportion to it, of the bearing rad\n"
+    "                          Poses are scored online; of usv from a tenth of the drive on. A MRCLAM folder keeps the\n"
+    "                          library's gates, usv has none\n"
     "usv alone:\n"
     "  --compare               all modes for 6, 10 and 40 features beside the cooperative paper's figures\n"
     "  --vehicles N, --features N, --layout uniform|coast, --separation M, --duration S, --period S, --far-range M,\n"

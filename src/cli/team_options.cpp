@@ -17,6 +17,18 @@ void add_team_options(OptionTable& table, CommonChoices& common, TeamChoices& te
   table.push_back(choice("--mode", kModeNames, team.mode));
 }
 
+// What a team makes no use of is not taken in silence.
+void check_choices(const TeamChoices& team) {
+  const FilterChoices& o = team.filter;
+  if (o.forget_after != 0) throw UsageError("option --forget-after: a team forgets no landmark");
+  if (o.join != CAIRN_JOIN_AUTO) throw UsageError("option --join: a team joins submaps densely");
+  const bool submaps = o.submap_landmarks || o.submap_distance > 0 || o.submap_extent > 0 || o.submap_sigma > 0;
+  if (submaps && team.mode != CAIRN_TEAM_SUBMAPS)
+    throw UsageError("options of submaps go with --mode submaps alone");
+  if (team.mode == CAIRN_TEAM_SUBMAPS && o.submap_landmarks == 0u)
+    throw UsageError("option --mode submaps can't be had with --single-map");
+}
+
 // Words that are no option and no option's value, by what a table knows of each.
 std::vector<std::string> words_of(const std::vector<std::string>& arguments) {
   static const char* const flags[] = {"--help", "-h", "--quiet", "--single-map", "--compare", "--closed"};
@@ -65,6 +77,7 @@ UsvOptions parse_usv_options(const std::vector<std::string>& arguments) {
   parse(arguments, table, "simulate", [&](const std::string& word) {
     if (word != "usv") throw UsageError("one scenario at a time: '" + word + "' is a second one");
   });
+  check_choices(options.team);
   return options;
 }
 
@@ -86,6 +99,7 @@ MrclamOptions parse_mrclam_options(const std::vector<std::string>& arguments) {
     if (!options.folder.empty()) throw UsageError("one log at a time: '" + word + "' is a second one");
     options.folder = word;
   });
+  check_choices(options.team);
   return options;
 }
 

@@ -53,14 +53,14 @@ void TeamOutput::add(const TeamStep& step, const std::vector<VehicleEstimate>& e
 void TeamOutput::finish(const TeamRunner& runner, const std::vector<Figure>& figures) {
   trajectories_.close();
   OutputFile landmarks(folder_, "team_landmarks.csv");
-  landmarks.text("vehicle,id,x,y,sigma3_x,sigma3_y,observations,true_x,true_y\n");
+  landmarks.text("vehicle,id,x,y,sigma3_x,sigma3_y,cov_xy,observations,true_x,true_y\n");
   for (std::size_t v = 0; v < drive_.vehicles().size(); ++v) {
     for (const cairn_landmark& landmark : runner.map(v)) {
       landmarks.field(drive_.vehicles()[v]);
       landmarks.field(landmark.id);
       const double values[] = {landmark.position[0], landmark.position[1], 3 * std::sqrt(landmark.covariance[0]),
-                               3 * std::sqrt(landmark.covariance[4])};
-      landmarks.fields(values, 4);
+                               3 * std::sqrt(landmark.covariance[4]), landmark.covariance[1]};
+      landmarks.fields(values, 5);
       landmarks.field(landmark.observations);
       double truth[2];
       if (drive_.true_landmark(landmark.id, truth))

@@ -206,8 +206,14 @@ TeamResult TeamRunner::run(const Observer& observe) {
           std::pow(landmark.position[0] - truth[0], 2) + std::pow(landmark.position[1] - truth[1], 2);
     }
   }
-  result.report.struct_size = sizeof result.report;
-  check(cairn_team_last_report(teams_[0].get(), &result.report));
+  // Where all take everything in, one of them tells of all.
+  const bool all = choices_.mode == CAIRN_TEAM_JOINT || choices_.mode == CAIRN_TEAM_SUBMAPS;
+  for (std::size_t v = 0; v < (all ? 1 : teams_.size()); ++v) {
+    cairn_team_report report{};
+    report.struct_size = sizeof report;
+    check(cairn_team_last_report(teams_[v].get(), &report));
+    result.rejected += report.rejected;
+  }
   return result;
 }
 
@@ -227,7 +233,7 @@ std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& resul
   count("vehicles", result.vehicles.size());
   count("steps", result.recursions / result.vehicles.size());
   count("landmarks", result.vehicles[0].landmarks);
-  count("rejected", result.report.rejected);
+  count("rejected", result.rejected);
   measure("recursion_ms_mean", 1e3 * result.seconds / static_cast<double>(result.recursions));
   measure("pose_rmse_m", mean([](const VehicleScore& s) { return s.rmse(); }));
   measure("landmark_rmse_m", mean([](const VehicleScore& s) { return s.landmark_rmse(); }));

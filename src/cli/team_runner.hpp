@@ -46,7 +46,7 @@ struct TeamResult {
   std::vector<double> nees_by_step;  // of the first vehicle; NaN where it was not scored
   double seconds = 0;                // in the library
   std::size_t recursions = 0;        // steps of one vehicle
-  cairn_team_report report{};        // of the first vehicle
+  std::size_t rejected = 0;          // of what all vehicles saw
 };
 
 class TeamRunner {

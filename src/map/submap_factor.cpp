@@ -201,8 +201,8 @@ Matrix SubmapFactor<Pose>::hessian(const Values& values, const std::vector<Rotat
   const PointSquare B = D.block<kDim, kDim>(0, kDof);
   auto poses = D.leftCols<2 * kDof>();
   const auto turn = [&](Index first, const auto& R) {
-    constexpr int n = std::decay_t<decltype(R)>::ColsAtCompileTime;
-    poses.template middleCols<n>(first) = (poses.template middleCols<n>(first) * R).eval();
+    constexpr int width = std::decay_t<decltype(R)>::ColsAtCompileTime;
+    poses.template middleCols<width>(first) = (poses.template middleCols<width>(first) * R).eval();
   };
   for (Index pose = 0; pose < 2; ++pose) {
     turn(kDof * pose, axes[pose].matrix());

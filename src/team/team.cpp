@@ -149,6 +149,7 @@ void Team::send(const Packet& packet) {
 }
 
 void Team::observe(double time, std::vector<Observation> landmarks, std::vector<Observation> vehicles) {
+  if (left_) throw Error(ErrorCode::state, "team: the vehicle has left it; create another one to come back");
   Member& self = own();
   const bool first = !self.started && self.waiting.empty();
   if (!first && !(time > self.heard))
@@ -184,6 +185,7 @@ void Team::observe(double time, std::vector<Observation> landmarks, std::vector<
 }
 
 void Team::leave() {
+  if (left_) throw Error(ErrorCode::state, "team: the vehicle has left it already");
   Packet packet;
   packet.kind = PacketKind::leave;
   packet.vehicle = own().id;
@@ -292,7 +294,11 @@ Arrival Team::store(Packet&& packet, std::uint32_t checksum) {
     const double before = std::prev(after)->second.packet.time;
     ordered = ordered && (data ? packet.time > before : packet.time >= before);
   }
-  if (after != member.waiting.end()) ordered = ordered && packet.time <= after->second.packet.time;
+  if (after != member.waiting.end()) {
+    const bool farewell = after->second.packet.kind == PacketKind::leave;
+    const double later = after->second.packet.time;
+    ordered = ordered && (farewell ? packet.time <= later : packet.time < later);
+  }
   if (!ordered) {
     ++counts_.past;
     return Arrival::past;

@@ -68,11 +68,13 @@ void Team::take_in(std::vector<Turn>& turns) {
   if (self != turns.end()) {
     decisions_.clear();
     if (baseline_) {
+      const std::uint64_t failed = counts_.failed;  // those of the team alone
       move(baseline_->filter, self->packet);
       attempt(false, [&] {
         std::copy(self->packet.landmarks.begin(), self->packet.landmarks.end(), baseline_->filter.staging());
         baseline_->filter.update(0, static_cast<Index>(self->packet.landmarks.size()));
       });
+      counts_.failed = failed;
     }
   }
   switch (options_.mode) {
