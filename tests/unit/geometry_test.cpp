@@ -117,6 +117,22 @@ TEST_CASE_TEMPLATE("rotations: left Jacobian and its inverse, turn", Pose, SE2, 
   CHECK((Rotation::turn(x) - test::jacobian_at_zero<n>(turned)).norm() < kDifference);
 }
 
+TEST_CASE_TEMPLATE("rotations: what turns do to points and forces, and how long they are", Pose, SE2, SE3) {
+  using Rotation = typename Pose::Rotation;
+  test::Random random(41);
+  for (const typename Rotation::Tangent& theta : test::awkward_turns<Pose::kTurn>(42)) {
+    const Rotation R = Rotation::exp(theta);
+    CHECK(R.chord() == doctest::Approx(2 * std::sin(theta.norm() / 2)).epsilon(1e-13).scale(1e-15));
+    const typename Rotation::Tangent other = random.normal_vector<Pose::kTurn>();
+    CHECK((R.adjoint(other) - R.adjoint() * other).norm() <= kRounding);
+    const typename Pose::Point x = random.normal_vector<Pose::kDim>(), f = random.normal_vector<Pose::kDim>();
+    const typename Rotation::Turn T = Rotation::turn(x);
+    CHECK((Rotation::swing(other, x) - T * other).norm() <= kRounding);
+    CHECK((Rotation::moment(x, f) - T.transpose() * f).norm() <= kRounding);
+    CHECK((Rotation::inertia(x) - T.transpose() * T).norm() <= 10 * kRounding);
+  }
+}
+
 TEST_CASE("SE3: exp is the matrix exponential") {
   for (const Vector6& tau : tangents<SE3>(7)) {
     Eigen::Matrix4d A = Eigen::Matrix4d::Zero();

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <memory>
 
+#include "map/dense_map.hpp"
+#include "map/sparse_map.hpp"
 #include "numerical.hpp"
 #include "slam/filter.hpp"
 
@@ -129,4 +131,39 @@ TEST_CASE_TEMPLATE("dense joining: equal to a single map on a linear-Gaussian pr
 TEST_CASE_TEMPLATE("sparse joining: equal to a single map on a linear-Gaussian problem", Pose, SE3, SE2) {
   SUBCASE("invariant") { compare<Pose>(ErrorKind::invariant, JoinKind::sparse, 1e-8); }
   SUBCASE("standard") { compare<Pose>(ErrorKind::standard, JoinKind::sparse, 1e-8); }
+}
+
+TEST_CASE_TEMPLATE("joining: a single landmark's gate is that of so many coordinates", Pose, SE3, SE2) {
+  constexpr double kSigma = 0.05;
+  const auto submap_of = [](const Vector3& landmark) {
+    Submap<Pose> submap;
+    submap.ids = {1};
+    submap.counts = {1};
+    submap.landmarks = {Embedding<Pose>::down(landmark)};
+    const Eigen::Index n = Pose::kDof + Pose::kDim;
+    submap.covariance = 1e-10 * Eigen::MatrixXd::Identity(n, n);
+    submap.covariance.diagonal().template tail<Pose::kDim>().setConstant(kSigma * kSigma);
+    return submap;
+  };
+  for (const ErrorKind error : {ErrorKind::invariant, ErrorKind::standard})
+    for (const bool sparse : {false, true})
+      for (const double squared_distance : {8.5, 10.3, 12.0}) {  // bounds: 11.3, in the plane 9.2
+        CAPTURE(squared_distance);
+        MapOptions<Pose> options;
+        options.error = error;
+        options.initial_covariance = 1e-8 * Pose::Square::Identity();
+        std::unique_ptr<GlobalMap<Pose>> map;
+        if (sparse)
+          map = std::make_unique<SparseMap<Pose>>(options);
+        else
+          map = std::make_unique<DenseMap<Pose>>(options);
+        Submap<Pose> first = submap_of(Vector3(5, 0, 0));
+        first.error = error;
+        map->join(first);
+        Submap<Pose> second = submap_of(Vector3(5, kSigma * std::sqrt(2 * squared_distance), 0));
+        second.error = error;
+        const JoinReport report = map->join(second);
+        CHECK(report.refused == (squared_distance < (Pose::kDim == 3 ? 11.3 : 9.2) ? 0 : 1));
+        CHECK(report.fused == 1 - report.refused);
+      }
 }

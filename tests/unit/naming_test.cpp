@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -87,6 +88,23 @@ TEST_CASE_TEMPLATE("naming: known ones get the map's names, new ones keep theirs
     CHECK(joined.fused == 2);
     CHECK(joined.fresh == 1);
     CHECK(map.size() == 6);
+  });
+}
+
+TEST_CASE_TEMPLATE("naming: the bounds are those of so many coordinates", Pose, SE3, SE2) {
+  for_each_map<Pose>([](GlobalMap<Pose>& map, ErrorKind error) {
+    map.join(submap_of<Pose>(error, {1, 2, 3, 4, 5}, kPlaces));
+    const auto name = [&](double squared_distance) {
+      const Vector3 apart(0, kSigma * std::sqrt(2 * squared_distance), 0);
+      Submap<Pose> submap = submap_of<Pose>(error, {100}, {kPlaces[1] + apart});
+      return name_landmarks(map, NamingOptions(), submap);
+    };
+    CHECK(name(8.5).named == 1);
+    CHECK(name(10.3).named == (Pose::kDim == 3 ? 1 : 0));  // between 9.2 and 11.3
+    CHECK(name(12.0).named == 0);
+    CHECK(name(17.5).ambiguous == 1);
+    CHECK(name(19.7).ambiguous == (Pose::kDim == 3 ? 1 : 0));  // between 18.4 and 21.1
+    CHECK(name(22.0).ambiguous == 0);
   });
 }
 
