@@ -36,7 +36,9 @@ static cairn_observation seen(uint64_t id, double first, double second) {
 
 /* --- the same vehicle in the plane and in space --- */
 
-static bool in_plane(int i) { return i == 0 || i == 1 || i == 5; }
+static bool in_plane(int i) {
+  return i == 0 || i == 1 || i == 5;
+}
 
 static void compare_filters(const cairn_filter* plane, const cairn_filter* space, double tolerance) {
   cairn_pose pa, pb;
@@ -192,7 +194,8 @@ static void polar(const cairn_pose* sensor, const double point[3], double* range
   *range = hypot(body[0], body[1]), *bearing = atan2(body[1], body[0]);
 }
 
-/* From a place known exactly, without noise in what is seen: landmarks where they are, with the noise that is stated. */
+/* From a place known exactly, without noise in what is seen: landmarks where they are, with the noise that is stated.
+ */
 static void range_and_bearing_place_landmarks(void** state) {
   cairn_filter_options options = plane_options(CAIRN_VEHICLE_PLANAR, CAIRN_ERROR_INVARIANT);
   cairn_range_bearing radar;
@@ -354,8 +357,7 @@ static void sensors_of_the_other_kind(void** state) {
                                pose_at(0, 0, 0, PI, 0, 0)};
   for (size_t i = 0; i < LENGTH(tilted); ++i) {
     radar.T_body_sensor = points.T_body_sensor = tilted[i];
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "T_body_sensor",
-                   cairn_filter_add_range_bearing(plane, &radar, &sensor));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "T_body_sensor", cairn_filter_add_range_bearing(plane, &radar, &sensor));
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "T_body_sensor", cairn_filter_add_cartesian(plane, &points, &sensor));
   }
   assert_int_equal(sensor, -77);
@@ -381,8 +383,9 @@ static void sensors_of_the_other_kind(void** state) {
 
 static void poses_out_of_the_plane(void** state) {
   cairn_filter_options options = plane_options(CAIRN_VEHICLE_PLANAR, CAIRN_ERROR_INVARIANT);
-  const cairn_pose outside[] = {pose_at(1, 0, 1e-6, 0, 0, 0), pose_at(1, 0, 0, 1e-6, 0, 0), pose_at(1, 0, 0, 0, 1e-6, 1),
-                                pose_at(1, 0, 0, PI, 0, 0), pose_at(1, 0, 0, 0, PI / 2, 0)};
+  const cairn_pose outside[] = {pose_at(1, 0, 1e-6, 0, 0, 0), pose_at(1, 0, 0, 1e-6, 0, 0),
+                                pose_at(1, 0, 0, 0, 1e-6, 1), pose_at(1, 0, 0, PI, 0, 0),
+                                pose_at(1, 0, 0, 0, PI / 2, 0)};
   const cairn_pose inside = pose_at(1, 0, 1e-10, 1e-10, 0, 3);
   cairn_filter *f = create(&options), *other = NULL;
   snapshot before = {0, NULL}, after = {0, NULL};
@@ -453,8 +456,8 @@ static void wheels_drive_an_arc(void** state) {
   assert_ok(cairn_filter_set_wheels(f, &wheels));
   assert_ok(cairn_filter_predict_wheels(f, 2.0, 3.0, 4.0));
   const double v = 0.25 * 3.5, rate = 0.25 / 0.8 * 1.0, turn = 2 * rate, r = v / rate, yaw = 0.1;
-  const cairn_pose expected = pose_at(0.3 + r * (sin(yaw + turn) - sin(yaw)), -0.2 - r * (cos(yaw + turn) - cos(yaw)), 0,
-                                      0, 0, yaw + turn);
+  const cairn_pose expected =
+      pose_at(0.3 + r * (sin(yaw + turn) - sin(yaw)), -0.2 - r * (cos(yaw + turn) - cos(yaw)), 0, 0, 0, yaw + turn);
   assert_ok(cairn_filter_pose(f, &pose, NULL));
   assert_ok(cairn_pose_error(&pose, &expected, error));
   for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 1e-12);
@@ -530,8 +533,8 @@ static void its_covariance_is_honest(void** state) {
     for (int step = 1; step <= LOOKS * STEPS; ++step) {
       const double d[3] = {0.5, 0, 0.1}, sigma[3] = {0.05, 0.02, 0.01};
       const cairn_pose told = pose_at(d[0], d[1], 0, 0, 0, d[2]);
-      const cairn_pose moved = pose_at(d[0] + random_normal(&random, sigma[0]), d[1] + random_normal(&random, sigma[1]), 0,
-                                       0, 0, d[2] + random_normal(&random, sigma[2]));
+      const cairn_pose moved = pose_at(d[0] + random_normal(&random, sigma[0]), d[1] + random_normal(&random, sigma[1]),
+                                       0, 0, 0, d[2] + random_normal(&random, sigma[2]));
       cairn_observation o[POINTS];
       double c[36], nees = 0;
       size_t count = 0;
