@@ -419,6 +419,35 @@ static void extended_observations_wait_for_the_own_scan(void** state) {
   }
 }
 
+/* Without names all vehicles number the same landmarks alike, for they take in the same in one order. */
+static void names_are_not_needed(void** state) {
+  static const int32_t ways[] = {CAIRN_ASSOCIATION_NEAREST, CAIRN_ASSOCIATION_JOINT};
+  const weather fair = {0, 0, 0, false}, bad = {3, 0.3, 0.3, true};
+  (void)state;
+  for (size_t n = 0; n < LENGTH(ways); ++n) {
+    crew c;
+    size_t size = 0;
+    voyage_record(&c.v, 2, 5);
+    c.boats = 2;
+    for (size_t b = 0; b < 2; ++b) {
+      cairn_team_options options = team_options(CAIRN_TEAM_JOINT, b + 1);
+      cairn_filter_options filter = planar_options(&c.v.boats[b][0].truth);
+      const cairn_range_bearing radar = fleet_radar();
+      options.max_lag = 1e9, filter.association = ways[n];
+      c.teams[b] = NULL;
+      assert_ok(cairn_team_create(&options, &filter, &radar, &c.teams[b]));
+      boat_add(c.teams[b], &c.v, 2 - b);
+      for (size_t k = 0; k < STEPS; ++k)
+        for (size_t i = 0; i < c.v.boats[b][k].feature_count; ++i) c.v.boats[b][k].features[i].id = CAIRN_ID_NONE;
+    }
+    crew_sail(&c, n == 0 ? &fair : &bad, 3);
+    assert_replicas_agree(&c, 1e-6);
+    assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &size));
+    assert_true(size >= 6 && size <= FEATURES);
+    crew_close(&c);
+  }
+}
+
 /* Teammates by packets cannot make worse what a filter of a vehicle alone has: what each mode claims. */
 static void whoever_is_told_more_claims_more(void** state) {
   static const int32_t modes[] = {CAIRN_TEAM_MONO, CAIRN_TEAM_EO_FULL, CAIRN_TEAM_JOINT};
@@ -443,6 +472,48 @@ static void whoever_is_told_more_claims_more(void** state) {
 }
 
 /* --- who is known, and who is waited for --- */
+
+/* A teammate that never says a word is waited for once, not anew at every step. */
+static void whoever_is_never_heard_of_is_given_up(void** state) {
+  crew c;
+  (void)state;
+  crew_open(&c, 2, 7, 12.0, CAIRN_TEAM_JOINT);
+  for (size_t k = 0; k < 10; ++k) {
+    boat_step(c.teams[0], &c.v, 1, k);
+    assert_int_equal(report_of(c.teams[0]).unsettled, c.v.time[k] > 12 ? 0 : k + 1);
+  }
+  crew_close(&c);
+}
+
+/* The own scan does not fit, and the caller hears of it, though a teammate's later packet shows a gap. */
+static void an_own_scan_that_fails_is_told(void** state) {
+  (void)state;
+  for (int gap = 0; gap < 2; ++gap) {
+    crew c;
+    crew_open(&c, 2, 7, 1e9, CAIRN_TEAM_JOINT);
+    cairn_team_destroy(c.teams[0]);
+    const cairn_team_options options = team_options(CAIRN_TEAM_JOINT, 1);
+    cairn_filter_options filter = planar_options(&c.v.boats[0][0].truth);
+    const cairn_range_bearing radar = fleet_radar();
+    const log_entry* e = &c.v.boats[0][0];
+    filter.max_landmarks = 1;
+    c.teams[0] = NULL;
+    assert_ok(cairn_team_create(&options, &filter, &radar, &c.teams[0]));
+    boat_add(c.teams[0], &c.v, 2);
+    post p = {NULL, 0, 0};
+    for (size_t k = 0; k < 3; ++k) boat_step(c.teams[1], &c.v, 2, k);
+    (void)post_collect(&p, c.teams[1], 0);
+    for (size_t i = 0; i < p.count; ++i)
+      if (kind_of(&p.letters[i]) == DATA && (number_of(&p.letters[i]) == 0 || (gap && number_of(&p.letters[i]) == 2)))
+        (void)hand_over(c.teams[0], &p.letters[i]);
+    assert_true(e->feature_count > 1);
+    assert_status(cairn_team_observe(c.teams[0], c.v.time[0], e->features, e->feature_count, NULL, 0),
+                  CAIRN_ERROR_CAPACITY);
+    assert_true(report_of(c.teams[0]).failed > 0 && report_of(c.teams[0]).sent == 1); /* and told to the team */
+    post_free(&p);
+    crew_close(&c);
+  }
+}
 
 /* One packet of boat 2 never comes, nor does any repetition. */
 static void what_is_lost_for_good_is_given_up(void** state) {
@@ -516,7 +587,9 @@ static void a_teammate_is_found_where_both_see_it(void** state) {
   assert_ok(cairn_team_create(&two, &options, &radar, &b));
   assert_ok(cairn_team_add(a, 2, NULL, NULL));
   assert_status(cairn_team_pose(a, 2, &pose, covariance), CAIRN_ERROR_NOT_FOUND);
-  const cairn_observation there = sight(2, r + 1.5, theta, s_r, s_t), here = sight(1, r - 0.5, back, b_r, b_t);
+  const double s_rt = 0.3 * s_r * s_t, b_rt = -0.4 * b_r * b_t; /* ranges and bearings err together */
+  cairn_observation there = sight(2, r + 1.5, theta, s_r, s_t), here = sight(1, r - 0.5, back, b_r, b_t);
+  there.covariance[1] = there.covariance[2] = s_rt, here.covariance[1] = here.covariance[2] = b_rt;
   assert_ok(cairn_team_observe(a, 3.0, NULL, 0, &there, 1));
   assert_ok(cairn_team_observe(b, 3.0, NULL, 0, &here, 1));
   letter l = take_one(b);
@@ -538,6 +611,8 @@ static void a_teammate_is_found_where_both_see_it(void** state) {
   for (int i = 0; i < 9; ++i) {
     expected[i] = 0;
     for (int k = 0; k < 7; ++k) expected[i] += J[i / 3][k] * variances[k] * J[i % 3][k];
+    expected[i] += s_rt * (J[i / 3][3] * J[i % 3][4] + J[i / 3][4] * J[i % 3][3]);
+    expected[i] += b_rt * (J[i / 3][5] * J[i % 3][6] + J[i / 3][6] * J[i % 3][5]);
   }
   static const int axes[3] = {0, 1, 5};
   for (int i = 0; i < 9; ++i) assert_near(covariance[6 * axes[i / 3] + axes[i % 3]], expected[i], 1e-8);
@@ -936,7 +1011,10 @@ int main(void) {
       cmocka_unit_test(the_post_does_not_matter),
       cmocka_unit_test(a_packet_that_comes_before_the_own_scan_waits_for_it),
       cmocka_unit_test(extended_observations_wait_for_the_own_scan),
+      cmocka_unit_test(names_are_not_needed),
       cmocka_unit_test(whoever_is_told_more_claims_more),
+      cmocka_unit_test(whoever_is_never_heard_of_is_given_up),
+      cmocka_unit_test(an_own_scan_that_fails_is_told),
       cmocka_unit_test(what_is_lost_for_good_is_given_up),
       cmocka_unit_test(a_teammate_is_found_where_both_see_it),
       cmocka_unit_test(unknown_starts_are_found),
