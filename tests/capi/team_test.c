@@ -197,6 +197,14 @@ static void the_own_pose_is_as_of_now(void** state) {
   cairn_filter_destroy(filter);
 }
 
+static cairn_observation sight(uint64_t id, double range, double bearing, double sigma_range, double sigma_bearing) {
+  cairn_observation o;
+  memset(&o, 0, sizeof o);
+  o.id = id, o.z[0] = range, o.z[1] = bearing;
+  o.covariance[0] = sigma_range * sigma_range, o.covariance[3] = sigma_bearing * sigma_bearing;
+  return o;
+}
+
 /* --- boats that tell each other --- */
 
 typedef struct crew {
@@ -448,6 +456,41 @@ static void names_are_not_needed(void** state) {
   }
 }
 
+/* Of two that see a new landmark the nearer one places it, whoever is the first by number. */
+static void the_nearest_places_a_landmark(void** state) {
+  const cairn_pose starts[2] = {pose_at(0, 0, 0, 0, 0, 0), pose_at(900, 0, 0, 0, 0, 0)};
+  const cairn_observation looks[2][2] = {{sight(11, 1000, 0, 30, 0.005), sight(12, 200, 0, 30, 0.005)},
+                                         {sight(11, 100, 0, 30, 0.005), sight(12, 700, PI, 30, 0.005)}};
+  const cairn_range_bearing radar = fleet_radar();
+  cairn_team* teams[2];
+  letter letters[2];
+  (void)state;
+  for (size_t b = 0; b < 2; ++b) {
+    const cairn_team_options options = team_options(CAIRN_TEAM_JOINT, b + 1);
+    const cairn_filter_options filter = planar_options(&starts[b]);
+    teams[b] = NULL;
+    assert_ok(cairn_team_create(&options, &filter, &radar, &teams[b]));
+    assert_ok(cairn_team_add(teams[b], 2 - b, &starts[1 - b], NULL));
+    assert_ok(cairn_team_observe(teams[b], 0, looks[b], 2, NULL, 0));
+    letters[b] = take_one(teams[b]);
+  }
+  for (size_t b = 0; b < 2; ++b) {
+    cairn_match m[2];
+    size_t count = 0;
+    assert_int_equal(hand_over(teams[b], &letters[1 - b]), CAIRN_PACKET_TAKEN);
+    assert_ok(cairn_team_decisions(teams[b], m, 2, &count));
+    assert_int_equal(count, 2);
+    for (size_t i = 0; i < 2; ++i) { /* 12 lies near boat 1, 11 near boat 2 */
+      const bool near = m[i].landmark == (b == 0 ? 12 : 11);
+      assert_int_equal(m[i].result, near ? CAIRN_NEW : CAIRN_MATCHED);
+    }
+  }
+  for (size_t b = 0; b < 2; ++b) {
+    free(letters[b].bytes);
+    cairn_team_destroy(teams[b]);
+  }
+}
+
 /* Teammates by packets cannot make worse what a filter of a vehicle alone has: what each mode claims. */
 static void whoever_is_told_more_claims_more(void** state) {
   static const int32_t modes[] = {CAIRN_TEAM_MONO, CAIRN_TEAM_EO_FULL, CAIRN_TEAM_JOINT};
@@ -558,14 +601,6 @@ static void what_is_lost_for_good_is_given_up(void** state) {
     for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 4 * sqrt(covariance[7 * i]));
   }
   crew_close(&c);
-}
-
-static cairn_observation sight(uint64_t id, double range, double bearing, double sigma_range, double sigma_bearing) {
-  cairn_observation o;
-  memset(&o, 0, sizeof o);
-  o.id = id, o.z[0] = range, o.z[1] = bearing;
-  o.covariance[0] = sigma_range * sigma_range, o.covariance[3] = sigma_bearing * sigma_bearing;
-  return o;
 }
 
 /* p_b = p + r u(phi + theta), phi_b = phi + theta - theta' + pi: pose and covariance by hand, the own pose uncertain.
@@ -1012,6 +1047,7 @@ int main(void) {
       cmocka_unit_test(a_packet_that_comes_before_the_own_scan_waits_for_it),
       cmocka_unit_test(extended_observations_wait_for_the_own_scan),
       cmocka_unit_test(names_are_not_needed),
+      cmocka_unit_test(the_nearest_places_a_landmark),
       cmocka_unit_test(whoever_is_told_more_claims_more),
       cmocka_unit_test(whoever_is_never_heard_of_is_given_up),
       cmocka_unit_test(an_own_scan_that_fails_is_told),
