@@ -1,0 +1,538 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Poses of other vehicles beside the filter's own, against a filter that knows nothing of slots, companions, motion
+// held back or the invariant error: all poses and landmarks in one dense covariance of ordinary errors, each step by
+// its full matrix.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "ekf/ekf.hpp"
+#include "numerical.hpp"
+
+using namespace cairn;
+using namespace cairn::test;
+
+namespace {
+
+using Dynamic = Eigen::MatrixXd;
+
+// State [poses; landmarks], by ordinary errors.
+template <class Pose>
+struct Dense {
+  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  using Point = typename Pose::Point;
+  using Square = typename Pose::Square;
+
+  std::vector<Pose> poses;
+  std::vector<Point> points;
+  Dynamic P;
+
+  Index pose_at(std::size_t n) const { return kDof * static_cast<Index>(n); }
+  Index point_at(std::size_t n) const { return kDof * static_cast<Index>(poses.size()) + kDim * static_cast<Index>(n); }
+
+  void propagate(std::size_t n, const Increment<Pose>& increment) {
+    const typename Pose::Rotation::Matrix R = poses[n].rotation().matrix();
+    Dynamic F = Dynamic::Identity(P.rows(), P.rows());
+    F.block(pose_at(n), pose_at(n) + kDim, kDim, kTurn) =
+        Pose::Rotation::turn(R * increment.T_before_after.translation());
+    Square B = Square::Zero();
+    B.template topLeftCorner<kDim, kDim>() = R;
+    B.template bottomRightCorner<kTurn, kTurn>() = poses[n].rotation().adjoint();
+    P = (F * P * F.transpose()).eval();
+    P.template block<kDof, kDof>(pose_at(n), pose_at(n)) += B * increment.covariance * B.transpose();
+    poses[n] = poses[n] * increment.T_before_after;
+  }
+
+  // Rows of a new state before row `at`, which is J times that of pose n and noise of its own.
+  void insert(Index at, std::size_t n, const Dynamic& J, const Dynamic& noise) {
+    const Index size = P.rows(), more = J.rows();
+    Dynamic T = Dynamic::Zero(size + more, size);
+    T.topLeftCorner(at, at).setIdentity();
+    T.bottomRightCorner(size - at, size - at).setIdentity();
+    T.block(at, pose_at(n), more, kDof) = J;
+    P = (T * P * T.transpose()).eval();
+    P.block(at, at, more, more) += noise;
+  }
+  void add_pose(const Pose& pose, std::size_t n, const Square& J, const Square& noise) {
+    insert(pose_at(poses.size()), n, J, noise);
+    poses.push_back(pose);
+  }
+  void add_point(const Point& point, std::size_t n, const Dynamic& J, const Dynamic& noise) {
+    insert(P.rows(), n, J, noise);
+    points.push_back(point);
+  }
+  void erase(Index at, Index count) {
+    const Index size = P.rows();
+    Dynamic T = Dynamic::Zero(size - count, size);
+    T.topLeftCorner(at, at).setIdentity();
+    T.bottomRightCorner(size - count - at, size - count - at).setIdentity();
+    P = (T * P * T.transpose()).eval();
+  }
+  void remove_pose(std::size_t n) {
+    erase(pose_at(n), kDof);
+    poses.erase(poses.begin() + static_cast<Index>(n));
+  }
+  void remove_point(std::size_t n) {
+    erase(point_at(n), kDim);
+    points.erase(points.begin() + static_cast<Index>(n));
+  }
+
+  void update(const Dynamic& H, const Eigen::VectorXd& residual, const Dynamic& noise) {
+    const Dynamic S = H * P * H.transpose() + noise;
+    const Dynamic K = P * H.transpose() * S.inverse();
+    const Dynamic A = Dynamic::Identity(P.rows(), P.rows()) - K * H;
+    P = (A * P * A.transpose() + K * noise * K.transpose()).eval();
+    const Eigen::VectorXd error = K * residual;
+    for (std::size_t n = 0; n < poses.size(); ++n) {
+      const typename Pose::Tangent e = error.segment<kDof>(pose_at(n));
+      poses[n] = retract(poses[n], e);
+    }
+    for (std::size_t n = 0; n < points.size(); ++n) points[n] += error.segment<kDim>(point_at(n));
+  }
+};
+
+template <int N>
+Eigen::Matrix<double, N, N> random_covariance(Random& random, double sigma) {
+  Eigen::Matrix<double, N, N> A = Eigen::Matrix<double, N, N>::Identity();
+  for (int i = 0; i < N; ++i) A.col(i) += 0.4 * random.normal_vector<N>();
+  return sigma * sigma * A * A.transpose();
+}
+
+// The filter and the reference, and who is who: the active vehicle, companions and landmarks by slot.
+template <class Pose>
+struct Both {
+  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  using Point = typename Pose::Point;
+  using Square = typename Pose::Square;
+  using PointByPose = Eigen::Matrix<double, kDim, kDof>;
+
+  static typename Ekf<Pose>::Capacity capacity() {
+    typename Ekf<Pose>::Capacity c;
+    c.landmarks = 14, c.observations = 5, c.companions = 4;
+    return c;
+  }
+  static std::size_t bytes() {
+    Arena measure;
+    const Ekf<Pose> unused(measure, ErrorKind::standard, capacity());
+    return measure.used();
+  }
+
+  // `noise` scales all that is uncertain, and all residuals.
+  Both(ErrorKind error, unsigned seed, double noise_scale)
+      : random(seed), scale(noise_scale), arena(bytes()), ekf(arena, error, capacity()) {
+    const Pose start = random_pose();
+    const Square P = random_covariance<kDof>(random, 0.05 * scale);
+    ekf.start(start, P);
+    dense.poses.push_back(start);
+    dense.P = P;
+  }
+
+  Pose random_pose() {
+    return Pose(Pose::Rotation::exp(random.normal_vector<kTurn>()), Point(10 * random.normal_vector<kDim>()));
+  }
+  std::size_t any(std::size_t count) {
+    return std::min(count - 1, static_cast<std::size_t>(random.uniform(0, static_cast<double>(count))));
+  }
+
+  void propagate() {
+    Increment<Pose> increment;
+    increment.T_before_after =
+        Pose(Pose::Rotation::exp(0.2 * random.normal_vector<kTurn>()), Point(random.normal_vector<kDim>()));
+    increment.covariance = random_covariance<kDof>(random, 0.02 * scale);
+    REQUIRE(ekf.propagate(increment));
+    dense.propagate(active, increment);
+  }
+  void activate() {
+    if (companions.empty()) return;
+    const std::size_t k = any(companions.size());
+    ekf.activate(static_cast<Index>(k));
+    std::swap(active, companions[k]);
+  }
+  void add_companion() {
+    if (static_cast<Index>(companions.size()) == capacity().companions || ekf.size() == capacity().landmarks) return;
+    const Pose pose = random_pose();
+    Square J = Square::Zero();
+    if (random.uniform(0, 1) < 0.7)
+      for (int i = 0; i < kDof; ++i) J.col(i) = random.template normal_vector<kDof>();
+    const Square noise = random_covariance<kDof>(random, 0.05 * scale);
+    REQUIRE(ekf.add_companion(pose, J, noise));
+    dense.add_pose(pose, active, J, noise);
+    companions.push_back(dense.poses.size() - 1);
+    if (!landmarks.empty()) {  // the first one moves behind the last
+      landmarks.push_back(landmarks.front());
+      landmarks.erase(landmarks.begin());
+    }
+  }
+  void remove_companion() {
+    if (companions.empty()) return;
+    const std::size_t k = any(companions.size()), gone = companions[k];
+    ekf.remove_companion(static_cast<Index>(k));
+    companions[k] = companions.back();
+    companions.pop_back();
+    if (!landmarks.empty()) {
+      landmarks.insert(landmarks.begin(), landmarks.back());
+      landmarks.pop_back();
+    }
+    dense.remove_pose(gone);
+    for (std::size_t& c : companions) c -= c > gone;
+    active -= active > gone;
+  }
+  void augment() {
+    if (ekf.size() == capacity().landmarks) return;
+    const Point body = 5 * random.template normal_vector<kDim>(), arm = dense.poses[active].rotation() * body;
+    const bool relative = random.uniform(0, 1) < 0.5;
+    PointByPose J;
+    J.template leftCols<kDim>().setIdentity();
+    J.template rightCols<kTurn>() = Pose::Rotation::turn(arm);
+    if (!relative)
+      for (int i = 0; i < kDof; ++i) J.col(i) += 0.3 * random.template normal_vector<kDim>();
+    const Point point = dense.poses[active].translation() + arm;
+    const auto noise = random_covariance<kDim>(random, 0.1 * scale);
+    REQUIRE(ekf.augment(point, J, nullptr, noise, relative));
+    dense.add_point(point, active, J, noise);
+    landmarks.push_back(dense.points.size() - 1);
+  }
+  void remove_landmark() {
+    if (landmarks.empty()) return;
+    const std::size_t k = any(landmarks.size()), gone = landmarks[k];
+    ekf.remove(static_cast<Index>(companions.size() + k));
+    landmarks[k] = landmarks.back();
+    landmarks.pop_back();
+    dense.remove_point(gone);
+    for (std::size_t& l : landmarks) l -= l > gone;
+  }
+  // Sightings of some slots, companions' or landmarks', by any Jacobian.
+  void update() {
+    const auto all = static_cast<std::size_t>(ekf.size());
+    if (all == 0) return;
+    std::vector<Index> slots;
+    for (std::size_t s = any(all); s < all && slots.size() < 5; s += 1 + any(2)) slots.push_back(static_cast<Index>(s));
+    const auto rows = static_cast<Index>(kDim * slots.size());
+    Dynamic H = Dynamic::Zero(rows, dense.P.rows()), noise = Dynamic::Zero(rows, rows);
+    Eigen::VectorXd residual(rows);
+    ekf.open(slots.data(), static_cast<Index>(slots.size()), nullptr);
+    for (std::size_t a = 0; a < slots.size(); ++a) {
+      PointByPose J_pose;
+      for (int i = 0; i < kDof; ++i) J_pose.col(i) = random.template normal_vector<kDim>();
+      Eigen::Matrix<double, kDim, kDim> J_point;
+      for (int i = 0; i < kDim; ++i) J_point.col(i) = random.template normal_vector<kDim>();
+      const auto R = random_covariance<kDim>(random, 0.1 * scale);
+      const Point r = 0.1 * scale * random.template normal_vector<kDim>();
+      const Index row = ekf.batch().add_rows(kDim), slot = slots[a];
+      const auto pose = ekf.add_pose_block(row, kDim, J_pose, false);
+      ekf.add_landmark_block(row, kDim, J_point, static_cast<Index>(a), pose);
+      Eigen::Map<Eigen::Matrix<double, kDim, kDim>>(ekf.batch().add_noise(row, kDim)) = R;
+      Eigen::Map<Point>(ekf.batch().residual() + row) = r;
+      const bool companion = slot < ekf.companions();
+      const Index column = companion ? dense.pose_at(companions[static_cast<std::size_t>(slot)])
+                                     : dense.point_at(landmarks[static_cast<std::size_t>(slot - ekf.companions())]);
+      H.block(row, dense.pose_at(active), kDim, kDof) += J_pose;
+      H.block(row, column, kDim, kDim) += J_point;
+      noise.block(row, row, kDim, kDim) = R;
+      residual.segment(row, kDim) = r;
+    }
+    ekf.compute_innovation();
+    REQUIRE(ekf.factor());
+    ekf.solve();
+    REQUIRE(ekf.commit());
+    dense.update(H, residual, noise);
+  }
+
+  void any_step(bool updates) {
+    const double what = random.uniform(0, updates ? 9 : 7);
+    if (what < 2) return propagate();
+    if (what < 3.5) return activate();
+    if (what < 4.3) return add_companion();
+    if (what < 4.7) return remove_companion();
+    if (what < 6.6) return augment();
+    if (what < 7) return remove_landmark();
+    update();
+  }
+
+  // The reference's rows of the active pose and then of every slot's position.
+  std::vector<Index> rows() const {
+    std::vector<Index> out;
+    for (Index i = 0; i < kDof; ++i) out.push_back(dense.pose_at(active) + i);
+    for (std::size_t c : companions)
+      for (Index i = 0; i < kDim; ++i) out.push_back(dense.pose_at(c) + i);
+    for (std::size_t l : landmarks)
+      for (Index i = 0; i < kDim; ++i) out.push_back(dense.point_at(l) + i);
+    return out;
+  }
+
+  Dynamic ordinary() const {
+    std::vector<Index> slots;
+    for (Index s = 0; s < ekf.size(); ++s) slots.push_back(s);
+    const Index n = kDof + kDim * ekf.size();
+    Dynamic out(n, n);
+    ekf.gather_ordinary(slots.data(), ekf.size(), out.data(), n);
+    return out;
+  }
+
+  // Largest differences: of a state in its own size or standard deviations of `scale`, of a covariance's entry in those
+  // of its two states.
+  double worst_state() const {
+    double worst = 0;
+    const auto of_pose = [&](const Pose& a, const Pose& b) {
+      worst = std::max(worst, pose_error(a, b).norm() / (1 + b.translation().norm()));
+    };
+    REQUIRE(ekf.companions() == static_cast<Index>(companions.size()));
+    REQUIRE(ekf.size() == static_cast<Index>(companions.size() + landmarks.size()));
+    of_pose(ekf.pose(), dense.poses[active]);
+    for (std::size_t k = 0; k < companions.size(); ++k)
+      of_pose(ekf.companion(static_cast<Index>(k)), dense.poses[companions[k]]);
+    for (std::size_t l = 0; l < landmarks.size(); ++l) {
+      const Point& x = dense.points[landmarks[l]];
+      worst = std::max(worst, (ekf.landmark(ekf.companions() + static_cast<Index>(l)) - x).norm() / (1 + x.norm()));
+    }
+    return worst / scale;
+  }
+  static double relative(const Dynamic& a, const Dynamic& b) {
+    const Eigen::VectorXd sigma = b.diagonal().cwiseSqrt().cwiseInverse();
+    return (sigma.asDiagonal() * (a - b) * sigma.asDiagonal()).cwiseAbs().maxCoeff();
+  }
+  double worst_covariance() const {
+    const std::vector<Index> all = rows();
+    double worst = relative(ordinary(), dense.P(all, all));
+    for (std::size_t k = 0; k < companions.size(); ++k) {
+      const Index at = dense.pose_at(companions[k]);
+      worst =
+          std::max(worst, relative(ekf.companion_covariance(static_cast<Index>(k)), dense.P.block(at, at, kDof, kDof)));
+    }
+    return worst;
+  }
+
+  Random random;
+  double scale;
+  Arena arena;
+  Ekf<Pose> ekf;
+  Dense<Pose> dense;
+  std::size_t active = 0;
+  std::vector<std::size_t> companions, landmarks;  // in the reference, by slot
+};
+
+constexpr ErrorKind kBothErrors[] = {ErrorKind::invariant, ErrorKind::standard};
+
+template <class Pose>
+void standard_error_is_the_dense_filter() {
+  std::size_t most = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    CAPTURE(seed);
+    Both<Pose> both(ErrorKind::standard, seed, 1.0);
+    for (int step = 0; step < 80; ++step) {
+      CAPTURE(step);
+      both.any_step(true);
+      CHECK(both.worst_state() < 1e-9);
+      CHECK(both.worst_covariance() < 1e-9);
+      most = std::max(most, both.companions.size());
+    }
+    CHECK(both.ekf.smallest_pivot() > 0);
+  }
+  CHECK(most == 4);
+}
+
+// What is no update is linear in either error, at the same estimates.
+template <class Pose>
+void invariant_error_without_updates_is_the_dense_filter() {
+  for (unsigned seed = 31; seed <= 42; ++seed) {
+    CAPTURE(seed);
+    Both<Pose> both(ErrorKind::invariant, seed, 1.0);
+    for (int step = 0; step < 60; ++step) {
+      CAPTURE(step);
+      both.any_step(false);
+      CHECK(both.worst_state() < 1e-12);
+      CHECK(both.worst_covariance() < 1e-9);
+    }
+    CHECK(both.ekf.smallest_pivot() > 0);
+  }
+}
+
+// An update moves the two apart by a product of two errors: nothing but that where noise is small.
+template <class Pose>
+void invariant_error_agrees_where_noise_is_small() {
+  for (const double scale : {1e-3, 1e-5}) {
+    double state = 0, covariance = 0;
+    for (unsigned seed = 61; seed <= 66; ++seed) {
+      CAPTURE(seed);
+      Both<Pose> both(ErrorKind::invariant, seed, scale);
+      for (int step = 0; step < 60; ++step) {
+        both.any_step(true);
+        state = std::max(state, both.worst_state());
+        covariance = std::max(covariance, both.worst_covariance());
+      }
+      CHECK(both.ekf.smallest_pivot() > 0);
+    }
+    CAPTURE(scale);
+    CHECK(state < 30 * scale);
+    CHECK(covariance < 100 * scale);
+  }
+}
+
+template <class Pose>
+void looking_from_another_changes_no_ordinary_covariance() {
+  for (ErrorKind error : kBothErrors)
+    for (unsigned seed = 81; seed <= 86; ++seed) {
+      CAPTURE(static_cast<int>(error));
+      CAPTURE(seed);
+      Both<Pose> both(error, seed, 1.0);
+      both.add_companion();
+      for (int step = 0; step < 40; ++step) both.any_step(true);
+      if (both.companions.empty()) both.add_companion();
+      if (seed % 2 == 0) both.propagate();  // motion held back
+      Ekf<Pose>& ekf = both.ekf;
+      const Index k = ekf.companions() - 1;
+      const Dynamic before = both.ordinary();
+      const typename Pose::Square own = ekf.pose_covariance(), other = ekf.companion_covariance(k);
+      const Pose own_pose = ekf.pose(), other_pose = ekf.companion(k);
+      ekf.activate(k);
+      CHECK(Both<Pose>::relative(ekf.pose_covariance(), other) < 1e-8);
+      CHECK(Both<Pose>::relative(ekf.companion_covariance(k), own) < 1e-8);
+      CHECK(pose_error(ekf.pose(), other_pose).norm() < 1e-12);
+      CHECK(pose_error(ekf.companion(k), own_pose).norm() < 1e-12);
+      // The landmarks among themselves.
+      const Index from = Pose::kDof + Pose::kDim * ekf.companions(), n = before.rows() - from;
+      if (n > 0)
+        CHECK(Both<Pose>::relative(both.ordinary().bottomRightCorner(n, n), before.bottomRightCorner(n, n)) < 1e-8);
+      CHECK(ekf.smallest_pivot() > 0);
+      ekf.activate(k);
+      CHECK(Both<Pose>::relative(both.ordinary(), before) < 1e-8);
+      CHECK(Both<Pose>::relative(ekf.companion_covariance(k), other) < 1e-8);
+      CHECK(ekf.smallest_pivot() > 0);
+    }
+}
+
+// A companion seen from the own vehicle, then driven: by hand, without the reference.
+template <class Pose>
+void a_companion_that_was_seen() {
+  constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  using Square = typename Pose::Square;
+  for (ErrorKind error : kBothErrors) {
+    Random random(7);
+    Arena arena(Both<Pose>::bytes());
+    Ekf<Pose> ekf(arena, error, Both<Pose>::capacity());
+    const Pose start(Pose::Rotation::exp(random.normal_vector<kTurn>()),
+                     typename Pose::Point(3 * random.normal_vector<kDim>()));
+    const Square P = random_covariance<kDof>(random, 0.1), Q = random_covariance<kDof>(random, 0.05),
+                 N = random_covariance<kDof>(random, 0.2);
+    ekf.start(start, P);
+    Increment<Pose> step{Pose(Pose::Rotation::exp(0.3 * random.normal_vector<kTurn>()),
+                              typename Pose::Point(random.normal_vector<kDim>())),
+                         Q};
+    REQUIRE(ekf.propagate(step));  // held back when the companion comes
+    const Pose after = start * step.T_before_after;
+    Square F = Square::Identity(), B = Square::Zero();
+    F.template topRightCorner<kDim, kTurn>() = Pose::Rotation::turn(after.translation() - start.translation());
+    B.template topLeftCorner<kDim, kDim>() = start.rotation().matrix();
+    B.template bottomRightCorner<kTurn, kTurn>() = start.rotation().adjoint();
+    const Square moved = F * P * F.transpose() + B * Q * B.transpose();
+
+    // It stands at T d: e_p' = e_p + G(R d) e_R, e_R' = e_R.
+    const Pose d(Pose::Rotation::exp(random.normal_vector<kTurn>()),
+                 typename Pose::Point(5 * random.normal_vector<kDim>()));
+    const Pose there = after * d;
+    Square J = Square::Identity();
+    J.template topRightCorner<kDim, kTurn>() = Pose::Rotation::turn(there.translation() - after.translation());
+    REQUIRE(ekf.add_companion(there, J, N));
+    CHECK(Both<Pose>::relative(ekf.pose_covariance(), moved) < 1e-12);
+    CHECK(Both<Pose>::relative(ekf.companion_covariance(0), J * moved * J.transpose() + N) < 1e-12);
+    Index slot = 0;
+    Eigen::Matrix<double, kDof + kDim, kDof + kDim> joint;
+    ekf.gather_ordinary(&slot, 1, joint.data(), kDof + kDim);
+    CHECK((joint.template bottomLeftCorner<kDim, kDof>() - (J * moved).template topRows<kDim>()).norm() <
+          1e-12 * moved.norm() * J.norm());
+
+    // The own vehicle goes on: the companion's pose does not change, nor its covariance.
+    const Square seen = ekf.companion_covariance(0);
+    REQUIRE(ekf.propagate(step));
+    CHECK(Both<Pose>::relative(ekf.companion_covariance(0), seen) < 1e-12);
+    CHECK(pose_error(ekf.companion(0), there).norm() < 1e-13);
+    // Now the companion does, with the own one's motion taken in at the change.
+    const Pose own = ekf.pose();
+    const Square own_covariance = ekf.pose_covariance();
+    ekf.activate(0);
+    REQUIRE(ekf.propagate(step));
+    CHECK(Both<Pose>::relative(ekf.companion_covariance(0), own_covariance) < 1e-12);
+    CHECK(pose_error(ekf.companion(0), own).norm() < 1e-13);
+    Square F_there = Square::Identity(), B_there = Square::Zero();
+    F_there.template topRightCorner<kDim, kTurn>() =
+        Pose::Rotation::turn(there.rotation() * step.T_before_after.translation());
+    B_there.template topLeftCorner<kDim, kDim>() = there.rotation().matrix();
+    B_there.template bottomRightCorner<kTurn, kTurn>() = there.rotation().adjoint();
+    CHECK(Both<Pose>::relative(ekf.pose_covariance(),
+                               F_there * seen * F_there.transpose() + B_there * Q * B_there.transpose()) < 1e-12);
+  }
+}
+
+// A vehicle that is told where it stands, exactly, while the own heading is not known: it can be looked from, and what
+// it sees is taken in.
+template <class Pose>
+void a_companion_that_is_known_exactly() {
+  constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  for (ErrorKind error : kBothErrors)
+    for (unsigned seed = 1; seed <= 30; ++seed) {
+      CAPTURE(static_cast<int>(error));
+      CAPTURE(seed);
+      Both<Pose> both(error, seed, 1.0);
+      Ekf<Pose>& ekf = both.ekf;
+      for (int i = 0; i < 6; ++i) both.augment(), both.propagate();
+      const Pose pose = both.random_pose();
+      REQUIRE(ekf.add_companion(pose, Pose::Square::Zero(), Pose::Square::Zero()));
+      both.landmarks.push_back(both.landmarks.front());
+      both.landmarks.erase(both.landmarks.begin());
+      both.dense.add_pose(pose, 0, Pose::Square::Zero(), Pose::Square::Zero());
+      both.companions.push_back(1);
+      ekf.activate(0);
+      std::swap(both.active, both.companions[0]);
+      CHECK(ekf.pose_covariance().norm() < 1e-9);
+      const Index slot = 2;
+      Eigen::Matrix<double, kDim, kDof> J_pose;
+      J_pose << -Eigen::Matrix<double, kDim, kDim>::Identity(),
+          -Pose::Rotation::turn(ekf.landmark(slot) - pose.translation());
+      ekf.open(&slot, 1, nullptr);
+      const Index row = ekf.batch().add_rows(kDim);
+      const auto block = ekf.add_pose_block(row, kDim, J_pose, false);
+      ekf.add_landmark_block(row, kDim, Eigen::Matrix<double, kDim, kDim>::Identity(), 0, block);
+      Eigen::Map<Eigen::Matrix<double, kDim, kDim>>(ekf.batch().add_noise(row, kDim)).setIdentity();
+      Eigen::Map<typename Pose::Point>(ekf.batch().residual()).setConstant(0.1);
+      ekf.compute_innovation();
+      REQUIRE(ekf.factor());
+      ekf.solve();
+      CHECK(ekf.commit());
+      CHECK(ekf.pose_covariance().norm() < 1e-9);
+      CHECK((ekf.pose().translation() - pose.translation()).norm() < 1e-9);
+    }
+  (void)kTurn;
+}
+
+}  // namespace
+
+TEST_CASE("companions: the standard error is the dense filter's") {
+  standard_error_is_the_dense_filter<SE2>();
+  standard_error_is_the_dense_filter<SE3>();
+}
+
+TEST_CASE("companions: motion, new and removed states by the invariant error") {
+  invariant_error_without_updates_is_the_dense_filter<SE2>();
+  invariant_error_without_updates_is_the_dense_filter<SE3>();
+}
+
+TEST_CASE("companions: both errors agree where noise is small") {
+  invariant_error_agrees_where_noise_is_small<SE2>();
+  invariant_error_agrees_where_noise_is_small<SE3>();
+}
+
+TEST_CASE("companions: looking from another vehicle changes no ordinary covariance, and back is where it was") {
+  looking_from_another_changes_no_ordinary_covariance<SE2>();
+  looking_from_another_changes_no_ordinary_covariance<SE3>();
+}
+
+TEST_CASE("companions: one that was seen, by hand") {
+  a_companion_that_was_seen<SE2>();
+  a_companion_that_was_seen<SE3>();
+}
+
+TEST_CASE("companions: one that is known exactly") {
+  a_companion_that_is_known_exactly<SE2>();
+  a_companion_that_is_known_exactly<SE3>();
+}
