@@ -222,6 +222,10 @@ cairn_status cairn_team_observe(cairn_team* team, double time, const cairn_obser
     Team& t = read_team(team);
     check_finite(time, "time");
     const bool named = t.options().filter.association == AssociationKind::known;
+    const std::size_t most = static_cast<std::size_t>(t.options().filter.max_observations);
+    if (landmark_count > most || vehicle_count > most - landmark_count)
+      throw Error(ErrorCode::capacity, "count: %zu and %zu observations, and max_observations is %zu", landmark_count,
+                  vehicle_count, most);
     t.observe(time, read_observations(landmarks, landmark_count, named, "landmarks"),
               read_observations(vehicles, vehicle_count, true, "vehicles"));
   });

@@ -152,7 +152,14 @@ void Ekf<Pose>::activate(Index k) {
     add_point(0, pose_.translation());
     for (Index slot = 0; slot < size_; ++slot) add_point(state(slot), local(slot));
     const TriangleTerm terms[] = {{left, ld_, right, ld_, kTurn, 1.0}, {right, ld_, left, ld_, kTurn, 1.0}};
+    Point before, rest;
+    for (Index d = 0; d < kDim; ++d) before[d] = P(state(k) + d, state(k) + d);
     update_triangle(P_, ld_, n, terms, 2, scratch_);
+    // Of a vehicle that stands where it was told exactly nothing is left but rounding.
+    for (Index d = 0; d < kDim; ++d) rest[d] = P(state(k) + d, state(k) + d);
+    if (rest.cwiseAbs().maxCoeff() <= 1e-13 * before.maxCoeff())
+      for (Index d = 0; d < kDim; ++d)
+        for (Index i = 0; i < n; ++i) (i >= state(k) + d ? P(i, state(k) + d) : P(state(k) + d, i)) = 0.0;
   }
   for (Index d = 0; d < kDim; ++d) exchange(d, state(k) + d);
   for (Index t = 0; t < kTurn; ++t) exchange(kDim + t, heading(k) + t);

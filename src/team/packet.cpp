@@ -103,20 +103,17 @@ Observation read_sight(Reader& from) {
 
 // Positive definite by its pivots, or (`semi`) semidefinite but for rounding.
 bool is_covariance(Matrix3 C, int n, bool semi) {
-  const double floor = semi ? -1e-9 : 0.0;
-  for (int k = 0; k < n; ++k) {
-    const double scale = std::max(C(k, k), 0.0);
+  for (int k = 0; k < n; ++k) {  // what has no variance varies with nothing
     if (semi ? !(C(k, k) >= 0.0) : !(C(k, k) > 0.0)) return false;
-    for (int i = k + 1; i < n; ++i) {
-      if (scale == 0.0) {
-        if (C(i, k) != 0.0) return false;
-        continue;
-      }
-      const double before = C(i, i);
+    for (int i = 0; i < n; ++i)
+      if (C(k, k) == 0.0 && C(i, k) != 0.0) return false;
+  }
+  if (semi) C.diagonal() *= 1.0 + 1e-9;  // rounding
+  for (int k = 0; k < n; ++k) {
+    if (semi && C(k, k) == 0.0) continue;
+    if (!(C(k, k) > 0.0)) return false;
+    for (int i = k + 1; i < n; ++i)
       for (int j = i; j < n; ++j) C(j, i) -= C(j, k) * C(i, k) / C(k, k);
-      if (!(C(i, i) >= floor * before)) return false;
-      C(i, i) = semi ? std::max(C(i, i), 0.0) : C(i, i);
-    }
   }
   return true;
 }

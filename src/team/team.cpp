@@ -11,6 +11,15 @@ namespace {
 
 constexpr std::size_t kChecksumsKept = 256, kMostResent = 64;
 
+// What the filter that runs beside cannot take is its own affair.
+template <class Function>
+void quietly(Function&& function) {
+  try {
+    function();
+  } catch (const Error&) {
+  }
+}
+
 FilterOptions<SE2> filter_options(const TeamOptions& options) {
   FilterOptions<SE2> filter = options.filter;
   if (options.mode == TeamMode::joint) filter.max_companions = options.max_vehicles - 1;
@@ -82,8 +91,11 @@ Team::Member& Team::add_member(std::uint64_t vehicle) {
     throw Error(ErrorCode::argument, "vehicle: %llu is of the team already", static_cast<unsigned long long>(vehicle));
   if (static_cast<Index>(members_.size()) == options_.max_vehicles)
     throw Error(ErrorCode::capacity, "vehicle: the team has max_vehicles = %td already", options_.max_vehicles);
-  members_.emplace_back();
+  const auto former = former_.find(vehicle);
+  members_.emplace_back(former != former_.end() ? former->second : Member());
   members_.back().id = vehicle;
+  members_.back().left = members_.back().known = false;
+  if (former != former_.end()) former_.erase(former);
   return members_.back();
 }
 
@@ -115,6 +127,8 @@ void Team::remove(std::uint64_t vehicle) {
     throw Error(ErrorCode::not_found, "vehicle: %llu is not of the team", static_cast<unsigned long long>(vehicle));
   if (vehicle == options_.vehicle) throw Error(ErrorCode::argument, "vehicle: the own one cannot be removed");
   lose_sight(*member);
+  member->waiting.clear();
+  former_[vehicle] = *member;
   members_.erase(std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.id == vehicle; }));
   settle();  // nobody waits for it any more
 }
@@ -137,6 +151,7 @@ void Team::propagate(const Increment<SE2>& increment) {
     throw Error(ErrorCode::capacity, "prediction: %zu motions since the last observation; tell of one in between",
                 pending_.size());
   pending_.push_back(increment);
+  if (baseline_) quietly([&] { baseline_->filter.propagate(increment); });
 }
 
 void Team::send(const Packet& packet) {
@@ -177,10 +192,17 @@ void Team::observe(double time, std::vector<Observation> landmarks, std::vector<
   const std::uint64_t number = packet.number;
   self.waiting[number] = {std::move(packet), 0};
   own_error_.reset();
+  if (baseline_)
+    quietly([&] {
+      const std::vector<Observation>& scan = self.waiting[number].packet.landmarks;
+      std::copy(scan.begin(), scan.end(), baseline_->filter.staging());
+      baseline_->filter.update(0, static_cast<Index>(scan.size()));
+    });
   settle();
-  for (const Member& member : members_)
-    if (&member != &self && !member.waiting.empty() && member.waiting.begin()->first > member.next) return ask();
-  if (self.waiting.size() > 1) ask();
+  const bool gap = std::any_of(members_.begin(), members_.end(), [&](const Member& member) {
+    return &member != &self && !member.waiting.empty() && member.waiting.begin()->first > member.next;
+  });
+  if (gap || self.waiting.size() > 1) ask();
   if (own_error_) throw Error(*own_error_);
 }
 
@@ -238,6 +260,13 @@ Arrival Team::receive(const std::uint8_t* bytes, std::size_t size, PacketFault& 
     ++counts_.faulty[static_cast<int>(fault)];
     return Arrival::refused;
   }
+  const bool named = options_.filter.association == AssociationKind::known;
+  if (named && std::any_of(packet.landmarks.begin(), packet.landmarks.end(),
+                           [](const Observation& o) { return o.id == kNoId; })) {
+    fault = PacketFault::content;
+    ++counts_.faulty[static_cast<int>(fault)];
+    return Arrival::refused;
+  }
   if (packet.kind == PacketKind::request) {
     if (packet.subject != options_.vehicle || find(packet.vehicle) == nullptr) {
       ++counts_.ignored;
@@ -246,10 +275,10 @@ Arrival Team::receive(const std::uint8_t* bytes, std::size_t size, PacketFault& 
     resend(packet);
     return Arrival::request;
   }
-  const std::uint32_t checksum = crc32(bytes, size);
+  const std::uint32_t checksum = crc32(bytes, size - 4);  // with its own the remainder is that of any packet
   if (packet.vehicle == options_.vehicle) {  // a transport's echo, or another vehicle by the own name
     const auto sent = history_.find(packet.number);
-    const bool echo = sent != history_.end() && crc32(sent->second.data(), sent->second.size()) == checksum;
+    const bool echo = sent != history_.end() && crc32(sent->second.data(), sent->second.size() - 4) == checksum;
     ++(echo ? counts_.own : counts_.conflict);
     return echo ? Arrival::own : Arrival::conflict;
   }
@@ -341,7 +370,8 @@ bool Team::next_turns(std::vector<Turn>& turns) {
         // Silent: waited for, but not for ever.
         const Member& self = own();
         if (self.waiting.empty()) continue;
-        const double since = member.started ? member.time : self.waiting.begin()->second.packet.time;
+        if (!member.waited_from) member.waited_from = self.waiting.begin()->second.packet.time;
+        const double since = member.started ? member.time : *member.waited_from;
         if (!(newest - since > options_.max_lag)) return false;
         continue;
       }
@@ -351,8 +381,8 @@ bool Team::next_turns(std::vector<Turn>& turns) {
   if (earliest == std::numeric_limits<double>::infinity()) return false;
   // A teammate that is ahead waits for the own step, as that one's waits for it at every other vehicle: without, each
   // would take things in in an order of its own.
-  const Member& self = own();
-  if (self.waiting.empty() && !left_ && !(self.started && earliest <= self.heard)) return false;
+  const bool looked = own().started || !own().waiting.empty();
+  if (uses_teammates() && !left_ && !(looked && earliest <= newest + options_.time_tolerance)) return false;
   for (Member& member : members_) {
     const auto packet = head(member);
     if (packet == member.waiting.end() || packet->second.packet.time > earliest + options_.time_tolerance) continue;
@@ -379,7 +409,10 @@ void Team::settle() {
                 turns.end());
     take_in(turns);
     for (Member& member : members_)
-      if (member.left) lose_sight(member);
+      if (member.left) {
+        lose_sight(member);
+        former_[member.id] = member;
+      }
     members_.erase(std::remove_if(members_.begin(), members_.end(), [](const Member& m) { return m.left; }),
                    members_.end());
   }

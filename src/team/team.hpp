@@ -97,6 +97,7 @@ class Team {
     std::uint64_t next = 0;  // number of the packet to be taken in next
     double time = 0.0;       // of the last one that was
     bool started = false;
+    std::optional<double> waited_from;         // where nothing ever came: since that own step
     double heard = 0.0;                        // time of the newest one that came
     std::map<std::uint64_t, Waiting> waiting;  // by number
     std::deque<std::uint32_t> checksums;       // of the last ones taken in, to tell repetition from contradiction
@@ -129,8 +130,18 @@ class Team {
   bool scan(Filter<SE2>& filter, int sensor, const std::vector<Observation>& landmarks,
             const std::vector<Observation>& vehicles, bool own);
   Matrix2 noise_of(const Observation& o) const;
+  // An own failure is the caller's to hear of; a teammate's is counted.
   template <class Function>
-  bool attempt(bool own, Function&& function);
+  bool attempt(bool own, Function&& function) {
+    try {
+      function();
+      return true;
+    } catch (const Error& error) {
+      ++counts_.failed;
+      if (own) own_error_.emplace(error);
+      return false;
+    }
+  }
 
   TeamOptions options_;
   std::unique_ptr<Fleet> fleet_;   // mode submaps
@@ -138,6 +149,7 @@ class Team {
   std::unique_ptr<Box> baseline_;  // of the own vehicle alone
   int radar_ = -1, extended_ = -1;
   std::deque<Member> members_;     // the own first
+  std::map<std::uint64_t, Member> former_;  // that were removed or left: what was taken in once stays so
   std::vector<Increment<SE2>> pending_;  // own motions since the last packet
   std::map<std::uint64_t, std::vector<std::uint8_t>> history_;
   std::deque<std::vector<std::uint8_t>> outgoing_;

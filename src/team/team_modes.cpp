@@ -24,19 +24,6 @@ void forget(std::vector<Observation>& sights, std::uint64_t vehicle) {
 
 }  // namespace
 
-// An own failure is the caller's to hear of; a teammate's is counted.
-template <class Function>
-bool Team::attempt(bool own, Function&& function) {
-  try {
-    function();
-    return true;
-  } catch (const Error& error) {
-    ++counts_.failed;
-    if (own) own_error_.emplace(error);
-    return false;
-  }
-}
-
 void Team::move(Filter<SE2>& filter, const Packet& packet) {
   attempt(packet.vehicle == options_.vehicle, [&] {
     for (const Increment<SE2>& motion : packet.motions) filter.propagate(motion);
@@ -65,18 +52,7 @@ bool Team::scan(Filter<SE2>& filter, int sensor, const std::vector<Observation>&
 void Team::take_in(std::vector<Turn>& turns) {
   const auto self =
       std::find_if(turns.begin(), turns.end(), [&](const Turn& turn) { return turn.member == &own(); });
-  if (self != turns.end()) {
-    decisions_.clear();
-    if (baseline_) {
-      const std::uint64_t failed = counts_.failed;  // those of the team alone
-      move(baseline_->filter, self->packet);
-      attempt(false, [&] {
-        std::copy(self->packet.landmarks.begin(), self->packet.landmarks.end(), baseline_->filter.staging());
-        baseline_->filter.update(0, static_cast<Index>(self->packet.landmarks.size()));
-      });
-      counts_.failed = failed;
-    }
-  }
+  if (self != turns.end()) decisions_.clear();
   switch (options_.mode) {
     case TeamMode::mono:
       if (self != turns.end()) take_in_own(*self);
