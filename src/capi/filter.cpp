@@ -134,8 +134,7 @@ template <>
 SE2 read_pose_of<SE2>(const cairn_pose* pose, const char* name) {
   constexpr double kLevel = 1e-9;  // m, rad: what conversions by others leave
   const SE3 T = read_pose(pose, name);
-  if (std::abs(T.translation().z()) > kLevel ||
-      T.rotation().quaternion().vec().head<2>().norm() > 0.5 * kLevel)
+  if (std::abs(T.translation().z()) > kLevel || T.rotation().quaternion().vec().head<2>().norm() > 0.5 * kLevel)
     throw Error(ErrorCode::argument, "%s lies outside of the plane: z must be 0, and the turn about z alone", name);
   return Embedding<SE2>::down(T);
 }
@@ -172,9 +171,8 @@ cairn_status cairn_filter_create(const cairn_filter_options* options, cairn_filt
   return guard([&] {
     const auto checked = read_filter_options(options);
     check_pointer(filter, "filter");
-    std::visit(
-        [&](const auto& o) { *filter = new cairn_filter(Filter<PoseOf<decltype(o)>>::arena_bytes(o), o); },
-        checked);
+    std::visit([&](const auto& o) { *filter = new cairn_filter(Filter<PoseOf<decltype(o)>>::arena_bytes(o), o); },
+               checked);
   });
 }
 
@@ -187,21 +185,16 @@ cairn_status cairn_filter_set_log(cairn_filter* filter, cairn_log log, void* pay
 }
 
 cairn_status cairn_filter_add_stereo_head(cairn_filter* filter, const cairn_stereo_head* head, int32_t* sensor) {
-  return guard([&] {
-    with_filter(filter, [&](auto& f) { add_sensor(f, read_stereo_head(head), sensor); });
-  });
+  return guard([&] { with_filter(filter, [&](auto& f) { add_sensor(f, read_stereo_head(head), sensor); }); });
 }
 
 cairn_status cairn_filter_add_stereo_camera(cairn_filter* filter, const cairn_stereo_camera* camera, int32_t* sensor) {
-  return guard([&] {
-    with_filter(filter, [&](auto& f) { add_sensor(f, read_stereo_camera(camera), sensor); });
-  });
+  return guard([&] { with_filter(filter, [&](auto& f) { add_sensor(f, read_stereo_camera(camera), sensor); }); });
 }
 
 cairn_status cairn_filter_add_range_bearing(cairn_filter* filter, const cairn_range_bearing* radar, int32_t* sensor) {
-  return guard([&] {
-    with_filter(filter, [&](auto& f) { add_sensor(f, RangeBearing(read_range_bearing(radar)), sensor); });
-  });
+  return guard(
+      [&] { with_filter(filter, [&](auto& f) { add_sensor(f, RangeBearing(read_range_bearing(radar)), sensor); }); });
 }
 
 cairn_status cairn_filter_add_cartesian(cairn_filter* filter, const cairn_cartesian* cartesian, int32_t* sensor) {
@@ -211,9 +204,8 @@ cairn_status cairn_filter_add_cartesian(cairn_filter* filter, const cairn_cartes
 }
 
 cairn_status cairn_filter_add_custom(cairn_filter* filter, const cairn_custom* custom, int32_t* sensor) {
-  return guard([&] {
-    with_filter(filter, [&](auto& f) { add_sensor(f, read_custom<PoseOf<decltype(f)>>(custom), sensor); });
-  });
+  return guard(
+      [&] { with_filter(filter, [&](auto& f) { add_sensor(f, read_custom<PoseOf<decltype(f)>>(custom), sensor); }); });
 }
 
 cairn_status cairn_filter_point_head(cairn_filter* filter, int32_t sensor, double pan, double stick) {
@@ -234,7 +226,8 @@ cairn_status cairn_filter_set_view(cairn_filter* filter, int32_t sensor, const d
       check_pointer(upper, "upper");
       for (int i = 0; i < rows; ++i)
         if (!(lower[i] < upper[i]))
-          throw Error(ErrorCode::argument, "lower[%d] is %g, and must be below upper[%d], %g", i, lower[i], i, upper[i]);
+          throw Error(ErrorCode::argument, "lower[%d] is %g, and must be below upper[%d], %g", i, lower[i], i,
+                      upper[i]);
       f.set_view(sensor, Vector3(lower), Vector3(upper));
     });
   });

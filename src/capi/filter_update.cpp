@@ -87,7 +87,7 @@ cairn_status cairn_filter_update(cairn_filter* filter, int32_t sensor, const cai
       if (count > most)
         throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu", count, most);
       const bool named = f.options().association == AssociationKind::known;
-      for (std::size_t i = 0; i < count; ++i) 
+      for (std::size_t i = 0; i < count; ++i)
         read_observation(observations[i], "observations", i, rows, named, f.staging()[i]);
       f.update(sensor, static_cast<Index>(count));
       write_matches(f, count, matches);
@@ -203,8 +203,8 @@ cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_r
       out.association_nodes = static_cast<std::uint32_t>(r.association_nodes);
       out.association_exhausted = r.association_exhausted ? 1 : 0;
       out.association_seconds = r.association_seconds;
-    out.deferred = static_cast<std::uint32_t>(r.deferred);
-    out.removed = static_cast<std::uint32_t>(r.removed);
+      out.deferred = static_cast<std::uint32_t>(r.deferred);
+      out.removed = static_cast<std::uint32_t>(r.removed);
       write_report(out, report);
     });
   });

@@ -49,7 +49,8 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
     std::string table, object, rows;
     {
       Progress progress(compared_runs(options), options.common.quiet);
-      compare_modes(options, [&] { progress.advance(); }, table, object, rows);
+      compare_modes(
+          options, [&] { progress.advance(); }, table, object, rows);
     }
     if (!options.common.output.empty()) {
       OutputFile file(options.common.output, "team_compare.csv");

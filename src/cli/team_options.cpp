@@ -23,8 +23,7 @@ void check_choices(const TeamChoices& team) {
   if (o.forget_after != 0) throw UsageError("option --forget-after: a team forgets no landmark");
   if (o.join != CAIRN_JOIN_AUTO) throw UsageError("option --join: a team joins submaps densely");
   const bool submaps = o.submap_landmarks || o.submap_distance > 0 || o.submap_extent > 0 || o.submap_sigma > 0;
-  if (submaps && team.mode != CAIRN_TEAM_SUBMAPS)
-    throw UsageError("options of submaps go with --mode submaps alone");
+  if (submaps && team.mode != CAIRN_TEAM_SUBMAPS) throw UsageError("options of submaps go with --mode submaps alone");
   if (team.mode == CAIRN_TEAM_SUBMAPS && o.submap_landmarks == 0u)
     throw UsageError("option --mode submaps can't be had with --single-map");
 }

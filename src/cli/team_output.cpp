@@ -20,8 +20,7 @@ const std::string& made(const std::string& folder) {
 
 TeamOutput::TeamOutput(const TeamDrive& drive, const std::string& folder)
     : drive_(drive), folder_(made(folder)), trajectories_(folder, "team_trajectories.csv") {
-  trajectories_.text(
-      "step,time,vehicle,x,y,heading,sigma3_x,sigma3_y,sigma3_heading,true_x,true_y,true_heading\n");
+  trajectories_.text("step,time,vehicle,x,y,heading,sigma3_x,sigma3_y,sigma3_heading,true_x,true_y,true_heading\n");
 }
 
 void TeamOutput::add(const TeamStep& step, const std::vector<VehicleEstimate>& estimates) {

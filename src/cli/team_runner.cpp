@@ -155,8 +155,8 @@ double TeamRunner::score(std::size_t vehicle, const cairn_pose& truth, VehicleSc
   check(cairn_team_pose(team, number, &pose, P));
   ++score.steps;
   score.claimed += std::sqrt(P[0] * P[0] + 2 * P[1] * P[1] + P[7] * P[7]);
-  score.square_error += std::pow(truth.position[0] - pose.position[0], 2) +
-                        std::pow(truth.position[1] - pose.position[1], 2);
+  score.square_error +=
+      std::pow(truth.position[0] - pose.position[0], 2) + std::pow(truth.position[1] - pose.position[1], 2);
   const auto sum = [](const cairn_team_report& r) { return 3 * r.anees_per_dof * static_cast<double>(r.scored_nees); };
   if (after.scored_nees == before.scored_nees) return std::numeric_limits<double>::quiet_NaN();
   ++score.nees_steps;

@@ -24,9 +24,9 @@ extern const std::vector<const char*> kModeNames;  // by the CAIRN_TEAM_ constan
 // Of one vehicle, over all scored steps.
 struct VehicleScore {
   std::size_t steps = 0, nees_steps = 0;
-  double claimed = 0;        // sum of ||C_qq||, Frobenius, m^2
-  double square_error = 0;   // sum, m^2
-  double nees = 0;           // sum
+  double claimed = 0;       // sum of ||C_qq||, Frobenius, m^2
+  double square_error = 0;  // sum, m^2
+  double nees = 0;          // sum
   double landmark_square = 0;
   std::size_t landmarks = 0, landmarks_known = 0;  // of its map; of these, whose truth is known
   std::size_t paired = 0, paired_wrongly = 0;

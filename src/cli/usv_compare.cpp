@@ -93,8 +93,7 @@ void compare_modes(const UsvOptions& options, const std::function<void()>& advan
       const double honest = 100 * (1 - sums.score.square_error / alone.square_error);
       const double ms = 1e3 * sums.seconds / sums.recursions;
       const char* name = kModeNames[static_cast<std::size_t>(mode)];
-      const std::string paper =
-          mode == CAIRN_TEAM_EO_DIAGONAL ? print("%.0f %%", kPaper[f]) : std::string();
+      const std::string paper = mode == CAIRN_TEAM_EO_DIAGONAL ? print("%.0f %%", kPaper[f]) : std::string();
       table += print("%9u  %-12s %10.1f %% %10.1f %% %10.2f %6.0f %% %8.2f m %12.4f %7s\n", kFeatures[f], name, claimed,
                      honest, sums.score.anees(), 100 * inside, sums.score.rmse(), ms, paper.c_str());
       rows += print("%u,%s,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.0f\n", kFeatures[f], name, claimed, honest,
@@ -103,9 +102,10 @@ void compare_modes(const UsvOptions& options, const std::function<void()>& advan
       object += object.size() > 1 ? ", " : "";
       object += print("\"%s_%u\": {\"claimed_improvement\": %.6g, \"true_improvement\": %.6g, ", name, kFeatures[f],
                       claimed / 100, honest / 100);
-      object += print("\"pose_anees_per_dof\": %.6g, \"in_band\": %.6g, \"pose_rmse_m\": %.6g, \"landmark_rmse_m\": %.6g, "
-                      "\"recursion_ms_mean\": %.6g}",
-                      sums.score.anees(), inside, sums.score.rmse(), sums.score.landmark_rmse(), ms);
+      object += print(
+          "\"pose_anees_per_dof\": %.6g, \"in_band\": %.6g, \"pose_rmse_m\": %.6g, \"landmark_rmse_m\": %.6g, "
+          "\"recursion_ms_mean\": %.6g}",
+          sums.score.anees(), inside, sums.score.rmse(), sums.score.landmark_rmse(), ms);
     }
   }
   object += "}";

@@ -59,8 +59,7 @@ typename Ekf<Pose>::Square Ekf<Pose>::companion_covariance(Index k) const {
   out.template bottomLeftCorner<kTurn, kDim>() = attitude * J.transpose();
   out.template topRightCorner<kDim, kTurn>() = out.template bottomLeftCorner<kTurn, kDim>().transpose();
   for (Index c = 0; c < kTurn; ++c)
-    for (Index r = 0; r < kTurn; ++r)
-      out(kDim + r, kDim + c) = symmetric(heading(k) + r, heading(k) + c);
+    for (Index r = 0; r < kTurn; ++r) out(kDim + r, kDim + c) = symmetric(heading(k) + r, heading(k) + c);
   return 0.5 * (out + out.transpose());
 }
 
@@ -92,7 +91,9 @@ bool Ekf<Pose>::add_companion(const Pose& pose, const Square& J_pose, const Squa
   for (Index d = 0; d < kDim; ++d) rows[d] = at + d;
   for (Index t = 0; t < kTurn; ++t) rows[kDim + t] = heading(k) + t;
   const auto entry = [&](Index a, Index b) -> double& { return a >= b ? P(a, b) : P(b, a); };
-  const auto is_new = [&](Index i) { return (i >= at && i < at + kDim) || (i >= heading(k) && i < heading(k) + kTurn); };
+  const auto is_new = [&](Index i) {
+    return (i >= at && i < at + kDim) || (i >= heading(k) && i < heading(k) + kTurn);
+  };
   for (Index i = 0; i < states(); ++i) {
     if (is_new(i)) continue;
     for (Index r = 0; r < kDof; ++r) {
@@ -134,13 +135,11 @@ void Ekf<Pose>::activate(Index k) {
     double *left = noise_left_, *right = noise_right_;  // G, and P h + G h^T P h / 2 with h^T e = x_a - x_b
     for (Index t = 0; t < kTurn; ++t) {
       std::fill_n(left + t * ld_, n, 0.0);
-      for (Index i = 0; i < n; ++i)
-        right[t * ld_ + i] = symmetric(i, kDim + t) - symmetric(i, heading(k) + t);
+      for (Index i = 0; i < n; ++i) right[t * ld_ + i] = symmetric(i, kDim + t) - symmetric(i, heading(k) + t);
     }
     typename Rotation::Jacobian pivot;
     for (Index c = 0; c < kTurn; ++c)
-      for (Index r = 0; r < kTurn; ++r)
-        pivot(r, c) = right[c * ld_ + kDim + r] - right[c * ld_ + heading(k) + r];
+      for (Index r = 0; r < kTurn; ++r) pivot(r, c) = right[c * ld_ + kDim + r] - right[c * ld_ + heading(k) + r];
     const auto add_point = [&](Index row, const Point& x) {
       const typename Rotation::Turn G = Rotation::turn(x), half = 0.5 * G * pivot;
       for (Index t = 0; t < kTurn; ++t)

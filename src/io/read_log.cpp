@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "io/log.hpp"
-#include "io/mrclam_log.hpp"
 
 namespace cairn::io {
 namespace {
@@ -16,10 +15,7 @@ namespace {
 std::string read_file(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) throw LogError(path + ": " + std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) {
-    throw LogError(path + (is_mrclam(path) ? ": a MRCLAM folder, the recording of several robots; a log is that of one"
-                                           : ": a folder, and no MRCLAM one: it holds no Barcodes.dat"));
-  }
+  if (S_ISDIR(status.st_mode)) throw LogError(path + ": a folder, and no MRCLAM one: it holds no Barcodes.dat");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) throw LogError(path + ": " + std::strerror(errno));
   std::string content;

@@ -19,8 +19,7 @@ AbsoluteFix<Pose> AbsoluteFix<Pose>::position(const Point& position, const Point
 }
 
 template <class Pose>
-AbsoluteFix<Pose> AbsoluteFix<Pose>::attitude(const Rotation& attitude,
-                                              const typename Rotation::Jacobian& covariance) {
+AbsoluteFix<Pose> AbsoluteFix<Pose>::attitude(const Rotation& attitude, const typename Rotation::Jacobian& covariance) {
   AbsoluteFix fix;
   fix.kind_ = Kind::attitude;
   fix.attitude_ = attitude;

@@ -10,8 +10,8 @@ StereoCamera::StereoCamera(const StereoCameraParameters& parameters)
     : parameters_(parameters),
       R_body_camera_(parameters.T_body_camera.rotation().matrix()),
       noise_(parameters.sigma.cwiseAbs2().asDiagonal()),
-      least_disparity_(std::max(parameters.min_disparity,
-                                parameters.min_disparity_sigmas * parameters.sigma.head<2>().norm())) {}
+      least_disparity_(
+          std::max(parameters.min_disparity, parameters.min_disparity_sigmas * parameters.sigma.head<2>().norm())) {}
 
 bool StereoCamera::predict(const SE3& T_map_body, const Vector3& p_map, const Vector2&, Prediction<SE3>& out) const {
   const StereoCameraParameters& c = parameters_;

@@ -38,7 +38,8 @@ Matrix2 StereoHead::mount_noise() const {
   return Vector2(parameters_.pan_sigma, parameters_.stick_sigma).cwiseAbs2().asDiagonal();
 }
 
-bool StereoHead::predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount, Prediction<SE3>& out) const {
+bool StereoHead::predict(const SE3& T_map_body, const Vector3& p_map, const Vector2& mount,
+                         Prediction<SE3>& out) const {
   const Axes axes = mount.isZero(0) ? axes_ : axes_at(pan_ + mount[0], stick_ + mount[1]);
   const Vector3 m_b = T_map_body.rotation().inverse() * (p_map - T_map_body.translation());
   // (Mars paper, eq. 4), solved for m_c, one joint at a time

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Updates of one batch that is gated as a whole: absolute position, attitude, heading, and what the caller linearised. Included by filter.cpp alone.
+// Updates of one batch that is gated as a whole: absolute position, attitude, heading, and what the caller linearised.
+// Included by filter.cpp alone.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which landmark each observation of a frame is of, where the frame brings no names (docs/association.md). Included by filter.cpp alone.
+// Which landmark each observation of a frame is of, where the frame brings no names (docs/association.md). Included by
+// filter.cpp alone.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,8 @@ Filter<Pose>::Unknowns::Unknowns(Arena& arena, const FilterOptions<Pose>& option
       details(arena.take<Pair>(static_cast<std::size_t>(most_pairs))),
       window(arena.take<Index>(static_cast<std::size_t>(most_window))),
       covariance(arena.take<double>(
-          most_landmarks == 0 ? 0 : static_cast<std::size_t>((kDof + kDim * most_window) * (kDof + kDim * most_window)))),
+          most_landmarks == 0 ? 0
+                              : static_cast<std::size_t>((kDof + kDim * most_window) * (kDof + kDim * most_window)))),
       nearest(arena.take<Match>(static_cast<std::size_t>(most_observations))) {}
 
 // Of the pairs that were found.
@@ -35,13 +37,12 @@ class Filter<Pose>::PairInnovations final : public Innovations {
       : filter_(filter),
         unknowns_(filter.unknowns_),
         rows_(sensor.rows()),
-        common_mount_(sensor.mount_noise_mode() == MountNoise::per_frame ? sensor.mount_noise()
-                                                                         : MountSquare<Pose>(MountSquare<Pose>::Zero())) {}
+        common_mount_(sensor.mount_noise_mode() == MountNoise::per_frame
+                          ? sensor.mount_noise()
+                          : MountSquare<Pose>(MountSquare<Pose>::Zero())) {}
 
   Index rows() const override { return rows_; }
-  double threshold(Index rows) const override {
-    return filter_.batch_threshold(rows);
-  }
+  double threshold(Index rows) const override { return filter_.batch_threshold(rows); }
   void innovation(Index a, double* nu) const override { std::copy_n(unknowns_.details[a].residual.data(), rows_, nu); }
   // J_a P J_b^T, and the noise of the mount's angles where all of a frame have it in common.
   void covariance(Index a, Index b, double* block) const override {

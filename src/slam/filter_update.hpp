@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Observations: sorted into known and new, gated, taken in as one batch, and the new ones placed. Included by filter.cpp alone.
+// Observations: sorted into known and new, gated, taken in as one batch, and the new ones placed. Included by
+// filter.cpp alone.
 #pragma once
 
 #include <algorithm>
@@ -82,7 +83,8 @@ void Filter<Pose>::sort_out(const Sensor<Pose>& sensor, Index count, Index compa
 }
 
 template <class Pose>
-void Filter<Pose>::add_candidate(const Sensor<Pose>& sensor, Index observation, Index slot, const Prediction<Pose>& prediction) {
+void Filter<Pose>::add_candidate(const Sensor<Pose>& sensor, Index observation, Index slot,
+                                 const Prediction<Pose>& prediction) {
   candidates_[candidate_count_] = {observation, slot, noise_of(sensor, observations_[observation]), prediction,
                                    candidate_count_};
   ++candidate_count_;

@@ -9,8 +9,7 @@
 namespace cairn {
 
 struct Team::Box {
-  explicit Box(const FilterOptions<SE2>& options)
-      : arena(Filter<SE2>::arena_bytes(options)), filter(arena, options) {}
+  explicit Box(const FilterOptions<SE2>& options) : arena(Filter<SE2>::arena_bytes(options)), filter(arena, options) {}
 
   Arena arena;
   Filter<SE2> filter;

@@ -211,8 +211,7 @@ PacketFault decode(const std::uint8_t* bytes, std::size_t size, Packet& packet) 
     const std::size_t motions = from.number<std::uint32_t>(), landmarks = from.number<std::uint32_t>(),
                       vehicles = from.number<std::uint32_t>();
     if (std::max({motions, landmarks, vehicles}) > kMostOfPacket) return PacketFault::content;
-    if (from.left() != motions * kMotion + (landmarks + vehicles) * kSight)
-      return PacketFault::content;
+    if (from.left() != motions * kMotion + (landmarks + vehicles) * kSight) return PacketFault::content;
     for (std::size_t i = 0; i < motions; ++i) read.motions.push_back(read_motion(from));
     for (std::size_t i = 0; i < landmarks; ++i) read.landmarks.push_back(read_sight(from));
     for (std::size_t i = 0; i < vehicles; ++i) read.vehicles.push_back(read_sight(from));

@@ -176,8 +176,8 @@ void Team::observe(double time, std::vector<Observation> landmarks, std::vector<
   check_names(landmarks, options_.filter.association == AssociationKind::known, "observations");
   check_names(vehicles, true, "vehicles");
   for (const Observation& o : vehicles)
-    if (o.id == options_.vehicle) throw Error(ErrorCode::argument, "vehicles: number %llu is the own one",
-                                              static_cast<unsigned long long>(o.id));
+    if (o.id == options_.vehicle)
+      throw Error(ErrorCode::argument, "vehicles: number %llu is the own one", static_cast<unsigned long long>(o.id));
   Packet packet;
   packet.vehicle = self.id;
   packet.number = self.next + self.waiting.size();
@@ -276,7 +276,7 @@ Arrival Team::receive(const std::uint8_t* bytes, std::size_t size, PacketFault& 
     return Arrival::request;
   }
   const std::uint32_t checksum = crc32(bytes, size - 4);  // with its own the remainder is that of any packet
-  if (packet.vehicle == options_.vehicle) {  // a transport's echo, or another vehicle by the own name
+  if (packet.vehicle == options_.vehicle) {               // a transport's echo, or another vehicle by the own name
     const auto sent = history_.find(packet.number);
     const bool echo = sent != history_.end() && crc32(sent->second.data(), sent->second.size() - 4) == checksum;
     ++(echo ? counts_.own : counts_.conflict);

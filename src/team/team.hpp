@@ -148,9 +148,9 @@ class Team {
   std::unique_ptr<Box> box_;       // of the team; mode submaps: of the own vehicle
   std::unique_ptr<Box> baseline_;  // of the own vehicle alone
   int radar_ = -1, extended_ = -1;
-  std::deque<Member> members_;     // the own first
+  std::deque<Member> members_;              // the own first
   std::map<std::uint64_t, Member> former_;  // that were removed or left: what was taken in once stays so
-  std::vector<Increment<SE2>> pending_;  // own motions since the last packet
+  std::vector<Increment<SE2>> pending_;     // own motions since the last packet
   std::map<std::uint64_t, std::vector<std::uint8_t>> history_;
   std::deque<std::vector<std::uint8_t>> outgoing_;
   std::vector<Match> decisions_;

@@ -17,9 +17,8 @@ const Observation* sight_of(const std::vector<Observation>& sights, std::uint64_
 }
 
 void forget(std::vector<Observation>& sights, std::uint64_t vehicle) {
-  sights.erase(
-      std::remove_if(sights.begin(), sights.end(), [&](const Observation& o) { return o.id == vehicle; }),
-      sights.end());
+  sights.erase(std::remove_if(sights.begin(), sights.end(), [&](const Observation& o) { return o.id == vehicle; }),
+               sights.end());
 }
 
 }  // namespace
@@ -50,8 +49,7 @@ bool Team::scan(Filter<SE2>& filter, int sensor, const std::vector<Observation>&
 }
 
 void Team::take_in(std::vector<Turn>& turns) {
-  const auto self =
-      std::find_if(turns.begin(), turns.end(), [&](const Turn& turn) { return turn.member == &own(); });
+  const auto self = std::find_if(turns.begin(), turns.end(), [&](const Turn& turn) { return turn.member == &own(); });
   if (self != turns.end()) decisions_.clear();
   switch (options_.mode) {
     case TeamMode::mono:
@@ -84,8 +82,8 @@ void Team::take_in_joint(std::vector<Turn>& turns) {
   turns.erase(std::remove_if(turns.begin(), turns.end(), [](const Turn& turn) { return !turn.member->known; }),
               turns.end());
 
-  // A new landmark that several see is placed by the nearest of them: from afar its bearing's arc is the longer, and the
-  // first linearisation the worse.
+  // A new landmark that several see is placed by the nearest of them: from afar its bearing's arc is the longer, and
+  // the first linearisation the worse.
   const bool named = options_.filter.association == AssociationKind::known;
   std::unordered_map<std::uint64_t, std::pair<double, std::uint64_t>> nearest;  // range, vehicle
   std::size_t unused = 0;
@@ -205,8 +203,7 @@ void Team::lose_sight(Member& member) {
 // The teammate's scan, seen through the mutual sighting, is taken in as the own vehicle's (cooperative paper, section
 // 2.1). The teammate is no state: the sighting and the scan are all that is used of it.
 void Team::take_in_extended(std::vector<Turn>& turns) {
-  const auto self =
-      std::find_if(turns.begin(), turns.end(), [&](const Turn& turn) { return turn.member == &own(); });
+  const auto self = std::find_if(turns.begin(), turns.end(), [&](const Turn& turn) { return turn.member == &own(); });
   if (self == turns.end()) return;
   take_in_own(*self);
   for (const Turn& turn : turns) {
@@ -224,8 +221,9 @@ void Team::take_in_extended(std::vector<Turn>& turns) {
   }
 }
 
-// Submaps are of one vehicle each and share nothing: what closes joins the map of all, over the landmarks that it has in
-// common with it. Sightings of each other would tie submaps together, and are left out (cooperative paper, section 1).
+// Submaps are of one vehicle each and share nothing: what closes joins the map of all, over the landmarks that it has
+// in common with it. Sightings of each other would tie submaps together, and are left out (cooperative paper, section
+// 1).
 void Team::take_in_submaps(std::vector<Turn>& turns) {
   for (Turn& turn : turns) {
     if (turn.member == &own()) {

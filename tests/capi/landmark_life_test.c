@@ -107,7 +107,7 @@ static void a_deferred_landmark_that_is_not_seen_again_goes(void **state) {
   look(&s, names, places, 1, NULL);
   look(&s, names + 1, places + 1, 1, NULL);
   uint32_t removed = 0;
-  for (int frame = 0; frame < 6; ++frame) {
+  for (int k = 0; k < 6; ++k) {
     look(&s, names + 1, places + 1, 1, NULL);
     removed += report_of(&s).removed;
   }
@@ -129,7 +129,7 @@ static void what_is_in_view_and_missed_goes(void **state) {
   cairn_match matches[4];
   look(&s, names, places, 4, NULL);
   look(&s, names, places, 4, NULL);
-  for (int frame = 0; frame < 3; ++frame) look(&s, names, places, 1, NULL); /* no view is told: nobody is missed */
+  for (int k = 0; k < 3; ++k) look(&s, names, places, 1, NULL); /* no view is told: nobody is missed */
   assert_int_equal(map_size(&s), 4);
   assert_ok(cairn_filter_set_view(s.filter, s.sensor, lower, upper));
   look(&s, names, places, 1, NULL);
@@ -142,7 +142,7 @@ static void what_is_in_view_and_missed_goes(void **state) {
   assert_near(landmark(&s, names[3]).position[0], places[3][0], 1e-9);
   /* An outlier tells that something is there: no miss. */
   const double astray[1][2] = {{1, 3}};
-  for (int frame = 0; frame < 4; ++frame) {
+  for (int k = 0; k < 4; ++k) {
     look(&s, names + 1, astray, 1, matches);
     assert_int_equal(matches[0].reason, CAIRN_REASON_GATE);
   }
@@ -207,7 +207,7 @@ static void a_split_landmark_is_two(void **state) {
   assert_near(joint[3], old.covariance[0], 1e-15); /* all that the old one's error is, the new one's is too */
   const double apart[2][2] = {{2.4, 0}, {2, 0}};
   cairn_match matches[2];
-  for (int frame = 0; frame < 30; ++frame) look(&s, both, apart, 2, matches);
+  for (int k = 0; k < 30; ++k) look(&s, both, apart, 2, matches);
   assert_int_equal(matches[0].result, CAIRN_MATCHED);
   assert_near(landmark(&s, 77).position[0] - landmark(&s, 11).position[0], 0.4, 0.01);
   covariance[0] = -1;

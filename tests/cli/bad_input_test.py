@@ -80,7 +80,7 @@ class BadTextLogs(ProgramTest):
         self.assert_refused(call("run", self.path("absent")), "absent: No such file or directory")
         self.assert_refused(call("run", self.folder), self.folder + ": a folder", "no Barcodes.dat")
         self.write("Barcodes.dat", b"1 5\n")
-        self.assert_refused(call("run", self.folder), self.folder + ": a MRCLAM folder")
+        self.assert_refused(call("run", self.folder), self.folder + ": no robot's files")
 
 
 class BadStarsLogs(ProgramTest):

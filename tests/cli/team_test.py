@@ -46,7 +46,7 @@ class Usv(ProgramTest):
         for options in (["--features=20"], ["--vehicles", "3"], ["--layout", "coast"], ["--separation=800"],
                         ["--duration=800"], ["--period=10"], ["--far-range=3000"], ["--range-noise=10"],
                         ["--bearing-noise=0.01"], ["--velocity-noise=0.1"], ["--rate-noise=0.003"], ["--mode=mono"],
-                        ["--error=standard"], ["--iterations=1"], ["--gate=0.9"]):
+                        ["--error=standard"], ["--gate=0.9"]):
             self.assertNotEqual(self.usv(*options)["vehicle_1_pose_rmse_m"], plain, options)
 
     def test_every_vehicle_ends_with_the_same_map(self):
