@@ -54,9 +54,9 @@ class Association {
   void joint_compatibility(const PairCandidate* candidates, Index count, Index observations,
                            const Innovations& innovations, Index nodes);
 
-  // Pairs that could be chance, by doubtful(observation, candidate), are taken together or not at all: at the first sight
-  // of a known place one of them fits easily, and would bend the map; several fit by chance together hardly ever. Those
-  // of the last call are given up where they are fewer than `support`.
+  // Pairs that could be chance, by doubtful(observation, candidate), are taken together or not at all: at the first
+  // sight of a known place one of them fits easily, and would bend the map; several fit by chance together hardly ever.
+  // Those of the last call are given up where they are fewer than `support`.
   template <class Doubtful>
   void demand_support(Index support, Doubtful&& doubtful) {
     Index count = 0;

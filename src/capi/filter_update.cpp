@@ -151,8 +151,7 @@ cairn_status cairn_filter_update_attitude(cairn_filter* filter, const double qua
       check_pointer(covariance, "covariance");
       if constexpr (PoseOf<decltype(f)>::kDim == 2) {
         check_positive(covariance[8], "covariance of the yaw");
-        const Vector3 forward = attitude * Vector3::UnitX();
-        if (!(forward.head<2>().norm() >= 0.0871557427476582))  // sin of 5 degrees, as for a heading
+        if (!AbsoluteFix<SE3>::heading(0.0, 1.0).defined(SE3(attitude, Vector3::Zero())))
           throw Error(ErrorCode::argument, "quaternion: its x axis stands upright, which is no heading of the plane");
         f.update_attitude(Embedding<SE2>::down(SE3(attitude, Vector3::Zero())).rotation(), Vector1(covariance[8]));
       } else {

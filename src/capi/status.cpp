@@ -8,21 +8,6 @@
 
 namespace cairn {
 namespace capi {
-namespace {
-
-// Lower Cholesky of a matrix scaled to unit diagonal; `slack` is added to that diagonal.
-bool definite(const double* matrix, std::size_t size, double slack, double* L) {
-  const Index n = static_cast<Index>(size);
-  for (Index c = 0; c < n; ++c)
-    for (Index r = c; r < n; ++r) {
-      const double scale = std::sqrt(matrix[c * n + c]) * std::sqrt(matrix[r * n + r]);
-      L[c * n + r] = scale > 0.0 ? matrix[r * n + c] / scale : 0.0;
-      if (r == c) L[c * n + r] = 1.0 + slack;
-    }
-  return cholesky(L, n, n, L + n * n);
-}
-
-}  // namespace
 
 void check_covariance(const double* matrix, std::size_t size, bool semi, const char* name, double* workspace) {
   check_finite(matrix, size * size, name);
@@ -42,9 +27,9 @@ void check_covariance(const double* matrix, std::size_t size, bool semi, const c
         throw Error(ErrorCode::argument, "%s is not positive %sdefinite: see [%zu][%zu]", name, semi ? "semi" : "", r,
                     c);
     }
-  // A semidefinite matrix may miss by rounding: 1e-9 of each variance.
   double fixed[36];
-  if (!definite(matrix, size, semi ? 1e-9 : 0.0, size <= 6 ? fixed : workspace))
+  const double slack = semi ? kDefiniteSlack : 0.0;
+  if (!positive_definite(matrix, static_cast<Index>(size), slack, size <= 6 ? fixed : workspace))
     throw Error(ErrorCode::argument, "%s is not positive %sdefinite", name, semi ? "semi" : "");
 }
 

@@ -270,7 +270,8 @@ cairn_status cairn_team_receive(cairn_team* team, const uint8_t* packet, size_t 
 cairn_status cairn_team_pose(const cairn_team* team, uint64_t vehicle, cairn_pose* pose, double covariance[36]) {
   return guard([&] {
     const Team& t = read_team(team);
-    write_estimate(t.pose(vehicle), t.covariance(vehicle), pose, covariance);
+    const Team::Estimate now = t.estimate(vehicle);
+    write_estimate(now.pose, now.covariance, pose, covariance);
   });
 }
 

@@ -20,10 +20,6 @@ std::vector<cairn_observation> observations_of(const cairn_fleet_sighting* sight
 
 }  // namespace
 
-cairn_pose planar_pose(double x, double y, double heading) {
-  return {{x, y, 0}, {std::cos(0.5 * heading), 0, 0, std::sin(0.5 * heading)}};
-}
-
 FleetDrive::FleetDrive(const cairn_fleet_options& options) : options_(options), fleet_(nullptr, &cairn_fleet_destroy) {
   cairn_fleet* fleet = nullptr;
   check_sim(cairn_fleet_create(&options, &fleet));

@@ -4,6 +4,7 @@
 
 #include <cairn/cairn.h>
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -51,6 +52,8 @@ class TeamDrive {
 };
 
 // A pose of the plane.
-cairn_pose planar_pose(double x, double y, double heading);
+inline cairn_pose planar_pose(double x, double y, double heading) {
+  return {{x, y, 0}, {std::cos(0.5 * heading), 0, 0, std::sin(0.5 * heading)}};
+}
 
 }  // namespace cairn::cli

@@ -133,6 +133,16 @@ bool cholesky(double* S, Index ld, Index m, double* workspace) {
   return true;
 }
 
+bool positive_definite(const double* matrix, Index m, double slack, double* L) {
+  for (Index c = 0; c < m; ++c)
+    for (Index r = c; r < m; ++r) {
+      const double scale = std::sqrt(matrix[c * m + c]) * std::sqrt(matrix[r * m + r]);
+      L[c * m + r] = scale > 0.0 ? matrix[c * m + r] / scale : 0.0;
+      if (r == c) L[c * m + r] = 1.0 + slack;
+    }
+  return cholesky(L, m, m, L + m * m);
+}
+
 double dot(const double* x, const double* y, Index n) {
   Four even{}, odd{};
   Index i = 0;

@@ -15,6 +15,11 @@ using Index = std::ptrdiff_t;
 bool cholesky(double* S, Index ld, Index m, double* workspace = nullptr);
 std::size_t cholesky_workspace(Index m);
 
+// Whether a matrix, scaled to unit diagonal, is positive definite with `slack` added to that diagonal; rows without
+// variance count as independent of all others. Reads the lower triangle; `L` is room for m^2 + cholesky_workspace(m).
+bool positive_definite(const double* matrix, Index m, double slack, double* L);
+constexpr double kDefiniteSlack = 1e-9;  // by which rounding may make a semidefinite matrix miss
+
 // x^T y, in several sums at once: the compiler may not reorder one.
 double dot(const double* x, const double* y, Index n);
 

@@ -93,4 +93,23 @@ typename Rigid<Rotation>::Tangent pose_error(const Rigid<Rotation>& truth, const
   return error;
 }
 
+// The ordinary error of a product T_a T_b is by_a e_a + by_b e_b: e_p = e_pa + turn(R_a p_b) e_Ra + R_a e_pb and
+// e_R = e_Ra + R_a e_Rb.
+template <class Rotation>
+struct ProductJacobians {
+  using Pose = Rigid<Rotation>;
+  ProductJacobians(const Pose& T_a, const Pose& T_b) {
+    by_a.template topRightCorner<Pose::kDim, Pose::kTurn>() = Rotation::turn(T_a.rotation() * T_b.translation());
+    by_b.template topLeftCorner<Pose::kDim, Pose::kDim>() = T_a.rotation().matrix();
+    by_b.template bottomRightCorner<Pose::kTurn, Pose::kTurn>() = T_a.rotation().adjoint();
+  }
+  // Of two errors that share nothing.
+  typename Pose::Square covariance(const typename Pose::Square& P_a, const typename Pose::Square& P_b) const {
+    const typename Pose::Square own = by_b * P_b * by_b.transpose();
+    const typename Pose::Square lower = by_a * P_a * by_a.transpose() + own;
+    return lower.template selfadjointView<Eigen::Lower>();
+  }
+  typename Pose::Square by_a = Pose::Square::Identity(), by_b = Pose::Square::Zero();
+};
+
 }  // namespace cairn

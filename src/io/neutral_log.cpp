@@ -5,14 +5,12 @@
 //   Z k id range azimuth elevation      observation of a landmark, in the body frame
 //   L id x y z                          true landmark
 // Empty lines and lines that begin with # are passed over.
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <string_view>
 #include <unordered_set>
 
 #include "io/log.hpp"
+#include "io/text_file.hpp"
 
 namespace cairn::io {
 namespace {
@@ -47,7 +45,7 @@ Increment make_increment(const double* v) {
 
 class Reader {
  public:
-  Reader(const std::string& path, const std::string& text) : path_(path), text_(text) {}
+  Reader(const std::string& path, const std::string& text) : lines_(path, text) {}
 
   Log read() {
     log_.format = "neutral text log";
@@ -56,28 +54,20 @@ class Reader {
     log_.head.range_sigma = kRangeSigma;
     log_.head.azimuth_sigma = kDirectionSigma;
     log_.head.elevation_sigma = kDirectionSigma;
-    std::size_t begin = 0;
-    while (begin < text_.size()) {
-      ++line_;
-      const std::size_t end = std::min(text_.find('\n', begin), text_.size());
-      read_line(std::string_view(text_).substr(begin, end - begin));
-      if (end == text_.size()) fail("the file is cut short: its last line has no end");
-      begin = end + 1;
-    }
+    while (lines_.next()) read_record();
     if (log_.steps.empty()) fail("no record T: the log has no steps");
     finish_step();
     return std::move(log_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& cause) const {
-    throw LogError(path_ + ":" + std::to_string(line_) + ": " + cause);
-  }
+  [[noreturn]] void fail(const std::string& cause) const { lines_.fail(cause); }
+  std::string text(std::size_t index) const { return std::string(lines_.field(index)); }
+  double number(std::size_t index, const char* name) const { return lines_.number(index, name); }
+  std::uint64_t identity(std::size_t index) const { return lines_.identity(index, "id"); }
 
-  void read_line(std::string_view line) {
-    split(line);
-    if (fields_.empty() || fields_[0][0] == '#') return;
-    const std::string_view letter = fields_[0];
+  void read_record() {
+    const std::string_view letter = lines_.field(0);
     if (letter == "T") {
       read_truth();
     } else if (letter == "O") {
@@ -87,65 +77,20 @@ class Reader {
     } else if (letter == "L") {
       read_landmark();
     } else {
-      fail("unknown record " + quoted(letter) + ", expected T, O, Z or L");
+      fail("unknown record " + TextLines::quoted(letter) + ", expected T, O, Z or L");
     }
-  }
-
-  void split(std::string_view line) {
-    fields_.clear();
-    constexpr std::string_view kBlanks = " \t\r";
-    for (std::size_t begin = line.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
-      const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
-      fields_.push_back(line.substr(begin, end - begin));
-      begin = line.find_first_not_of(kBlanks, end);
-    }
-  }
-
-  // What a file that is no log contains must not reach the terminal as it is.
-  static std::string quoted(std::string_view field) {
-    std::string out = "'";
-    for (const char c : field.substr(0, 20)) out += c >= ' ' && c <= '~' ? c : '?';
-    return out + (field.size() > 20 ? "...'" : "'");
   }
 
   void expect_fields(std::size_t count) const {
-    if (fields_.size() == count) return;
-    fail("record " + std::string(fields_[0]) + " has " + std::to_string(fields_.size()) + " fields, expected " +
-         std::to_string(count));
-  }
-
-  std::uint64_t whole(std::size_t index, const char* name) const {
-    const std::string_view field = fields_[index];
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size()) {
-      fail(std::string(name) + " " + quoted(field) + " is not a whole number of 0 or more");
-    }
-    return value;
-  }
-
-  double number(std::size_t index, const char* name) const {
-    std::string_view field = fields_[index];
-    if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);  // from_chars takes no plus
-    double value = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
-      fail(std::string(name) + " " + quoted(field) + " is not a finite number");
-    }
-    return value;
-  }
-
-  std::uint64_t identity(std::size_t index) const {
-    const std::uint64_t id = whole(index, "id");
-    if (id == CAIRN_ID_NONE) fail("id " + std::to_string(id) + " is reserved");
-    return id;
+    if (lines_.size() == count) return;
+    fail("record " + text(0) + " has " + std::to_string(lines_.size()) + " fields, expected " + std::to_string(count));
   }
 
   // Goes to the step that field 1 names: the current one, or the next.
   Step& enter_step() {
-    const std::uint64_t k = whole(1, "step");
+    const std::uint64_t k = lines_.whole(1, "step");
     if (log_.steps.empty()) {
-      if (fields_[0] != "T") fail("record " + std::string(fields_[0]) + " before any true pose (T)");
+      if (lines_.field(0) != "T") fail("record " + text(0) + " before any true pose (T)");
     } else {
       const std::uint64_t current = log_.steps.back().number;
       if (k == current) return log_.steps.back();
@@ -173,7 +118,7 @@ class Reader {
     Step& step = enter_step();
     if (step.truth) fail("second true pose of step " + std::to_string(step.number));
     step.time = number(2, "time");
-    if (step.time <= last_time_) fail("time " + std::string(fields_[2]) + " does not increase");
+    if (step.time <= last_time_) fail("time " + text(2) + " does not increase");
     last_time_ = step.time;
     static constexpr const char* kNames[6] = {"x", "y", "z", "roll", "pitch", "yaw"};
     double v[6];
@@ -202,7 +147,7 @@ class Reader {
     observation.z[0] = number(3, "range");
     observation.z[1] = number(4, "azimuth");
     observation.z[2] = number(5, "elevation");
-    if (!(observation.z[0] > 0)) fail("range " + std::string(fields_[3]) + " is not positive");
+    if (!(observation.z[0] > 0)) fail("range " + text(3) + " is not positive");
     if (!seen_.insert(observation.id).second) {
       fail("landmark " + std::to_string(observation.id) + " twice in step " + std::to_string(step.number));
     }
@@ -216,12 +161,9 @@ class Reader {
     if (!log_.landmarks.emplace(id, position).second) fail("landmark " + std::to_string(id) + " a second time");
   }
 
-  const std::string& path_;
-  const std::string& text_;
+  TextLines lines_;
   Log log_;
-  std::vector<std::string_view> fields_;
   std::unordered_set<std::uint64_t> seen_;  // ids of the current step
-  std::size_t line_ = 0;
   double last_time_ = -std::numeric_limits<double>::infinity();
 };
 

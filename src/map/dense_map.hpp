@@ -44,9 +44,7 @@ class DenseMap final : public GlobalMap<Pose> {
   std::size_t size() const override { return static_cast<std::size_t>(ekf_.size() - ekf_.companions()); }
   std::uint64_t id(std::size_t index) const override { return ids_[index]; }
   std::uint64_t observations(std::size_t index) const override { return counts_[index]; }
-  Vector3 position(std::size_t index) const override {
-    return Embedding<Pose>::up(ekf_.landmark(slot_of(index)));
-  }
+  Vector3 position(std::size_t index) const override { return Embedding<Pose>::up(ekf_.landmark(slot_of(index))); }
   Matrix3 covariance(std::size_t index) const override {
     return Embedding<Pose>::up(ekf_.landmark_covariance(slot_of(index)));
   }

@@ -47,7 +47,7 @@ struct MapOptions {
   double step_tolerance = 1e-2;         // sparse: steps below so many standard deviations are not taken
   double convergence_tolerance = 1e-2;  // sparse: and below so many are not followed by another
   double cost_tolerance = 1e-3;         // sparse: nor where the cost falls by less
-  int most_iterations = 6;  // sparse: linear solutions of a closing; more where the joint test asks for them
+  int most_iterations = 6;         // sparse: linear solutions of a closing; more where the joint test asks for them
   std::size_t max_companions = 0;  // dense: other vehicles whose submaps join it too
   Pose initial_pose;
   typename Pose::Square initial_covariance = Pose::Square::Zero();  // ordinary

@@ -11,6 +11,11 @@ namespace {
 using ByPoint = Prediction<SE2>::ByLandmark;
 using ByObservation = Placement<SE2>::ByObservation;
 
+// u(alpha)
+Vector2 direction(double bearing) {
+  return Vector2(std::cos(bearing), std::sin(bearing));
+}
+
 // Range and bearing of a point of the sensor's frame, and their Jacobian. False where it is too near.
 bool to_polar(const Vector2& y, double near_range, Vector3& z, ByPoint& J_z_y) {
   const double range = y.norm();
@@ -24,7 +29,7 @@ bool to_polar(const Vector2& y, double near_range, Vector3& z, ByPoint& J_z_y) {
 // The point of the sensor's frame that gives z, and its Jacobian. False where it is too near.
 bool from_polar(const Vector3& z, double near_range, Vector2& y, ByObservation& J_y_z) {
   if (!z.head<2>().allFinite() || z[0] < near_range) return false;
-  const Vector2 u(std::cos(z[1]), std::sin(z[1]));
+  const Vector2 u = direction(z[1]);
   y = z[0] * u;
   J_y_z << u, SO2::turn(y), Vector2::Zero();
   return true;
@@ -38,14 +43,27 @@ Matrix3 polar_noise(const RangeBearingParameters& parameters) {
   return Vector3(parameters.range_sigma, parameters.bearing_sigma, 1.0).cwiseAbs2().asDiagonal();
 }
 
-// The teammate in the own body's frame, the sighting's values being off by `error`.
-SE2 mate_at(const MutualSighting& sighting, const Vector3& error) {
-  const double bearing = sighting.bearing + error[1], back = sighting.back + error[2];
-  const Vector2 u(std::cos(bearing), std::sin(bearing));
-  return SE2(SO2::from_angle(bearing - back + kPi), (sighting.range + error[0]) * u);
+// How a point that stands `arm` from the teammate (in the own body's axes) moves with the sighting's errors: B_j of the
+// extended observation.
+Eigen::Matrix<double, 2, 3> point_by_sighting(const MutualSighting& sighting, const Vector3& error,
+                                              const Vector2& arm) {
+  const Matrix3 J = mate_jacobian(sighting, error);
+  return J.topRows<2>() + SO2::turn(arm) * J.row(2);
 }
 
 }  // namespace
+
+SE2 mate_in_body(const MutualSighting& sighting, const Vector3& error) {
+  const double bearing = sighting.bearing + error[1], back = sighting.back + error[2];
+  return SE2(SO2::from_angle(bearing - back + kPi), (sighting.range + error[0]) * direction(bearing));
+}
+
+Matrix3 mate_jacobian(const MutualSighting& sighting, const Vector3& error) {
+  const Vector2 u = direction(sighting.bearing + error[1]);
+  Matrix3 J;
+  J << u, (sighting.range + error[0]) * SO2::turn(u), Vector2::Zero(), 0.0, 1.0, -1.0;
+  return J;
+}
 
 RangeBearing::RangeBearing(const RangeBearingParameters& parameters)
     : parameters_(parameters), noise_(polar_noise(parameters)) {}
@@ -80,17 +98,14 @@ ExtendedObservation::ExtendedObservation(const RangeBearingParameters& radar, co
 
 bool ExtendedObservation::predict(const SE2& T_map_body, const Vector2& p_map, const Vector3& mount,
                                   Prediction<SE2>& out) const {
-  const SE2 T_body_mate = mate_at(sighting_, mount);
+  const SE2 T_body_mate = mate_in_body(sighting_, mount);
   const Matrix2 R_mate_body = T_body_mate.rotation().inverse().matrix();
   const Vector2 y = T_body_mate.inverse() * (T_map_body.inverse() * p_map);
   ByPoint J_z_y;
   if (!to_polar(y, radar_.near_range, out.z, J_z_y)) return false;
   map_jacobians(T_map_body, p_map, (J_z_y * R_mate_body).eval(), out);
-  const Vector2 mate = T_body_mate.translation();
-  const Vector2 by_turn = -SO2::turn(y);  // d(R(delta)^T v) / ddelta, delta = theta_0 - theta_0' + pi
-  out.J_z_mount.col(0) = -J_z_y * R_mate_body * mate.normalized();
-  out.J_z_mount.col(1) = J_z_y * (by_turn - R_mate_body * SO2::turn(mate));
-  out.J_z_mount.col(2) = -J_z_y * by_turn;
+  // y = R(delta)^T (y_body - p_mate) falls behind by as much as a point fixed to the teammate goes ahead.
+  out.J_z_mount = -J_z_y * R_mate_body * point_by_sighting(sighting_, mount, T_body_mate.rotation() * y);
   return true;
 }
 
@@ -99,15 +114,11 @@ bool ExtendedObservation::place(const SE2& T_map_body, const Vector3& z, const V
   Vector2 y;
   ByObservation J_y_z;
   if (!from_polar(z, radar_.near_range, y, J_y_z)) return false;
-  const SE2 T_body_mate = mate_at(sighting_, mount);
+  const SE2 T_body_mate = mate_in_body(sighting_, mount);
   const ByObservation J_body_z = T_body_mate.rotation().matrix() * J_y_z;
   place_body_point(T_map_body, Vector2(T_body_mate * y), J_body_z, out);
-  // (theory of the extended observation: B_j, by columns)
-  const Matrix2 R = T_map_body.rotation().matrix();
-  const Vector2 mate = T_body_mate.translation(), by_turn = SO2::turn(T_body_mate.rotation() * y);
-  out.J_landmark_mount.col(0) = R * mate.normalized();
-  out.J_landmark_mount.col(1) = R * (SO2::turn(mate) + by_turn);
-  out.J_landmark_mount.col(2) = -R * by_turn;
+  out.J_landmark_mount =
+      T_map_body.rotation().matrix() * point_by_sighting(sighting_, mount, T_body_mate.rotation() * y);
   return out.landmark.allFinite();
 }
 

@@ -7,9 +7,9 @@ namespace cairn {
 
 struct RangeBearingParameters {
   SE2 T_body_sensor;
-  double range_sigma = 0.1;      // m
-  double bearing_sigma = 0.01;   // rad
-  double near_range = 0.01;      // m, > 0: nearer there is hardly a bearing
+  double range_sigma = 0.1;     // m
+  double bearing_sigma = 0.01;  // rad
+  double near_range = 0.01;     // m, > 0: nearer there is hardly a bearing
 };
 
 // Radar, lidar, sonar in the plane: z = (range, bearing) of the landmark in the sensor's frame, left positive.
@@ -35,19 +35,23 @@ struct MutualSighting {
   Matrix3 covariance = Matrix3::Zero();
 };
 
+// The teammate in the own body's frame, the sighting's values being off by `error` (zero, but for an iterate): it
+// stands at r_0 u(theta_0) and is turned by delta = theta_0 - theta_0' + pi.
+SE2 mate_in_body(const MutualSighting& sighting, const Vector3& error = Vector3::Zero());
+// Of its [dp; dtheta], in the own body's axes, by (r_0, theta_0, theta_0').
+Matrix3 mate_jacobian(const MutualSighting& sighting, const Vector3& error = Vector3::Zero());
+
 // Extended observation: what a teammate's radar sees of the landmarks, told to the own vehicle through the sighting of
-// both (cooperative paper, section 2.2; docs/team.md). The teammate is the sensor's mount: it stands at r_0 u(theta_0)
-// and is turned by delta = theta_0 - theta_0' + pi, and what the sighting has of errors all observations of the frame
-// have in common. With `shared` unset they count as each observation's own, which is what the paper's diagonal R^e does.
+// both (cooperative paper, section 2.2; docs/team.md). The teammate is the sensor's mount, and what the sighting has of
+// errors all observations of the frame have in common. With `shared` unset they count as each observation's own, which
+// is what the paper's diagonal R^e does.
 class ExtendedObservation final : public Sensor<SE2> {
  public:
   ExtendedObservation(const RangeBearingParameters& radar, const MutualSighting& sighting, bool shared);
 
   void set(const MutualSighting& sighting) { sighting_ = sighting; }
   const Matrix3& noise() const override { return noise_; }
-  MountNoise mount_noise_mode() const override {
-    return shared_ ? MountNoise::per_frame : MountNoise::per_observation;
-  }
+  MountNoise mount_noise_mode() const override { return shared_ ? MountNoise::per_frame : MountNoise::per_observation; }
   MountSquare<SE2> mount_noise() const override { return sighting_.covariance; }
   bool predict(const SE2& T_map_body, const Vector2& p_map, const Vector3& mount, Prediction<SE2>& out) const override;
   bool place(const SE2& T_map_body, const Vector3& z, const Vector3& mount, Placement<SE2>& out) const override;

@@ -14,8 +14,8 @@ struct StereoCameraParameters {
   Vector3 sigma = Vector3::Ones();  // of u_left, u_right, v, pixels
   double near_depth = 0.1;          // m, > 0
   double min_disparity = 1;         // pixels, > 0
-  // Of the disparity's standard deviation, >= 0: at 2.5 a landmark is placed where its depth is known to 40 %. What lies
-  // farther has a depth whose error is far from Gaussian, and waits until it is nearer.
+  // Of the disparity's standard deviation, >= 0: at 2.5 a landmark is placed where its depth is known to 40 %. What
+  // lies farther has a depth whose error is far from Gaussian, and waits until it is nearer.
   double min_disparity_sigmas = 2.5;
 };
 

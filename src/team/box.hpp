@@ -8,8 +8,15 @@
 
 namespace cairn {
 
+// Sensors of a team's filter.
+constexpr int kRadar = 0, kExtended = 1;
+
 struct Team::Box {
-  explicit Box(const FilterOptions<SE2>& options) : arena(Filter<SE2>::arena_bytes(options)), filter(arena, options) {}
+  Box(const FilterOptions<SE2>& options, std::uint64_t vehicle, const RangeBearingParameters& radar)
+      : arena(Filter<SE2>::arena_bytes(options)), filter(arena, options) {
+    filter.name_vehicle(vehicle);
+    filter.add(RangeBearing(radar));  // kRadar
+  }
 
   Arena arena;
   Filter<SE2> filter;
@@ -21,10 +28,8 @@ struct Team::Fleet {
 
   // A filter whose submaps join the map as those of `vehicle`.
   std::unique_ptr<Box> join(std::uint64_t vehicle, const TeamOptions& options) {
-    auto box = std::make_unique<Box>(options.filter);
+    auto box = std::make_unique<Box>(options.filter, vehicle, options.radar);
     box->filter.use_map(std::make_unique<SharedMap>(map, vehicle));
-    box->filter.name_vehicle(vehicle);
-    box->filter.add(RangeBearing(options.radar));
     return box;
   }
 

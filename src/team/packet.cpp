@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "ekf/small_algebra.hpp"
+
 namespace cairn {
 namespace {
 
@@ -101,41 +103,31 @@ Observation read_sight(Reader& from) {
   return o;
 }
 
-// Positive definite by its pivots, or (`semi`) semidefinite but for rounding.
-bool is_covariance(Matrix3 C, int n, bool semi) {
-  for (int k = 0; k < n; ++k) {  // what has no variance varies with nothing
-    if (semi ? !(C(k, k) >= 0.0) : !(C(k, k) > 0.0)) return false;
-    for (int i = 0; i < n; ++i)
-      if (C(k, k) == 0.0 && C(i, k) != 0.0) return false;
-  }
-  if (semi) C.diagonal() *= 1.0 + 1e-9;  // rounding
+// The test that the C interface puts to what callers bring, or (`semi`) one that what passed there passes.
+template <int n>
+bool is_covariance(const Eigen::Matrix<double, n, n>& C, bool semi) {
   for (int k = 0; k < n; ++k) {
-    if (semi && C(k, k) == 0.0) continue;
-    if (!(C(k, k) > 0.0)) return false;
-    for (int i = k + 1; i < n; ++i)
-      for (int j = i; j < n; ++j) C(j, i) -= C(j, k) * C(i, k) / C(k, k);
+    if (semi ? !(C(k, k) >= 0.0) : !(C(k, k) > 0.0)) return false;
+    if (C(k, k) == 0.0 && !C.col(k).isZero(0.0)) return false;  // what has no variance varies with nothing
   }
-  return true;
+  double L[n * n];
+  return positive_definite(C.data(), n, semi ? kDefiniteSlack : 0.0, L);
 }
 
 bool is_sensible(const std::vector<Observation>& sights) {
-  std::vector<std::uint64_t> ids;
   for (const Observation& o : sights) {
     if (!(o.z[0] >= 0.0)) return false;
-    const bool given = o.covariance[0] != 0.0 || o.covariance[1] != 0.0 || o.covariance[3] != 0.0;
-    Matrix3 C = Matrix3::Identity();
-    C.topLeftCorner<2, 2>() << o.covariance[0], o.covariance[1], o.covariance[2], o.covariance[3];
-    if (given && !is_covariance(C, 2, false)) return false;
-    if (o.id != kNoId) ids.push_back(o.id);
+    const Matrix2 C = Eigen::Map<const Matrix2>(o.covariance);
+    if (!C.isZero(0.0) && !is_covariance<2>(C, false)) return false;
   }
-  std::sort(ids.begin(), ids.end());
-  return std::adjacent_find(ids.begin(), ids.end()) == ids.end();
+  std::uint64_t unused = 0;
+  return !named_twice(sights, unused);
 }
 
 bool is_sensible(const Packet& packet) {
   for (const Increment<SE2>& motion : packet.motions) {
     const double turned = motion.T_before_after.rotation().matrix().col(0).squaredNorm();
-    if (!(std::abs(turned - 1.0) < 1e-9) || !is_covariance(motion.covariance, 3, true)) return false;
+    if (!(std::abs(turned - 1.0) < 1e-9) || !is_covariance<3>(motion.covariance, true)) return false;
   }
   for (const Observation& o : packet.vehicles)
     if (o.id == packet.vehicle || o.id == kNoId) return false;
@@ -143,6 +135,16 @@ bool is_sensible(const Packet& packet) {
 }
 
 }  // namespace
+
+bool named_twice(const std::vector<Observation>& observations, std::uint64_t& name) {
+  std::vector<std::uint64_t> ids;
+  for (const Observation& o : observations)
+    if (o.id != kNoId) ids.push_back(o.id);
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end()) name = *twice;
+  return twice != ids.end();
+}
 
 std::uint32_t crc32(const std::uint8_t* bytes, std::size_t size) {
   static const std::array<std::uint32_t, 256> table = [] {
@@ -194,11 +196,12 @@ PacketFault decode(const std::uint8_t* bytes, std::size_t size, Packet& packet) 
   const auto kind = header.number<std::uint16_t>();
   if (header.number<std::uint32_t>() != size || size < kHeader + kChecksum) return PacketFault::short_cut;
   Reader checksum(bytes + size - kChecksum, kChecksum);
-  if (crc32(bytes, size - kChecksum) != checksum.number<std::uint32_t>()) return PacketFault::checksum;
+  Packet read;
+  read.checksum = checksum.number<std::uint32_t>();
+  if (crc32(bytes, size - kChecksum) != read.checksum) return PacketFault::checksum;
   if (kind < 1 || kind > 3) return PacketFault::content;
 
   Reader from(bytes + kHeader, size - kHeader - kChecksum);
-  Packet read;
   read.kind = static_cast<PacketKind>(kind);
   read.vehicle = from.number<std::uint64_t>();
   read.number = from.number<std::uint64_t>();

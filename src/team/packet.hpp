@@ -26,6 +26,7 @@ struct Packet {
   std::vector<Observation> landmarks;  // range and bearing, raw
   std::vector<Observation> vehicles;   // the same of other vehicles
   std::uint64_t subject = 0, first = 0, count = 0;
+  std::uint32_t checksum = 0;  // that it came with
 };
 
 enum class PacketFault {
@@ -43,6 +44,9 @@ constexpr std::size_t kMostOfPacket = 65535;  // motions, landmarks, vehicles
 std::vector<std::uint8_t> encode(const Packet& packet);
 // `packet` is written where the answer is none.
 PacketFault decode(const std::uint8_t* bytes, std::size_t size, Packet& packet);
+
+// Whether two of them have one name, and which; those without a name do not count.
+bool named_twice(const std::vector<Observation>& observations, std::uint64_t& name);
 
 // CRC-32 as in ISO 3309 (reflected, polynomial 0xEDB88320).
 std::uint32_t crc32(const std::uint8_t* bytes, std::size_t size);

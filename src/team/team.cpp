@@ -20,21 +20,11 @@ void quietly(Function&& function) {
   }
 }
 
-FilterOptions<SE2> filter_options(const TeamOptions& options) {
-  FilterOptions<SE2> filter = options.filter;
-  if (options.mode == TeamMode::joint) filter.max_companions = options.max_vehicles - 1;
-  return filter;
-}
-
-void check_names(const std::vector<Observation>& observations, bool named, const char* what) {
-  std::vector<std::uint64_t> ids;
-  for (const Observation& o : observations)
-    if (named) ids.push_back(o.id);
-  std::sort(ids.begin(), ids.end());
-  const auto twice = std::adjacent_find(ids.begin(), ids.end());
-  if (twice != ids.end())
+void check_names(const std::vector<Observation>& observations, const char* what) {
+  std::uint64_t name = 0;
+  if (named_twice(observations, name))
     throw Error(ErrorCode::argument, "%s: number %llu comes twice in one frame", what,
-                static_cast<unsigned long long>(*twice));
+                static_cast<unsigned long long>(name));
 }
 
 }  // namespace
@@ -50,19 +40,17 @@ Team::Team(const TeamOptions& options) : options_(options) {
     fleet_ = std::make_unique<Fleet>(map);
     fleet_->map.name_vehicle(options.vehicle);
     box_ = fleet_->join(options.vehicle, options);
-    radar_ = 0;
   } else {
-    box_ = std::make_unique<Box>(filter_options(options));
-    radar_ = box_->filter.add(RangeBearing(options.radar));
-    box_->filter.name_vehicle(options.vehicle);
+    FilterOptions<SE2> filter = options.filter;
+    if (options.mode == TeamMode::joint) filter.max_companions = options.max_vehicles - 1;
+    box_ = std::make_unique<Box>(filter, options.vehicle, options.radar);
+    if (options.mode == TeamMode::eo_diagonal || options.mode == TeamMode::eo_full)  // kExtended
+      box_->filter.add(ExtendedObservation(options.radar, {}, options.mode == TeamMode::eo_full));
   }
-  if (options.mode == TeamMode::eo_diagonal || options.mode == TeamMode::eo_full)
-    extended_ = box_->filter.add(ExtendedObservation(options.radar, {}, options.mode == TeamMode::eo_full));
   if (options.baseline) {
     FilterOptions<SE2> alone = options.filter;
     alone.submap_landmarks = 0;
-    baseline_ = std::make_unique<Box>(alone);
-    baseline_->filter.add(RangeBearing(options.radar));
+    baseline_ = std::make_unique<Box>(alone, options.vehicle, options.radar);
   }
   add_member(options.vehicle).known = true;
 }
@@ -80,9 +68,6 @@ Team::Member* Team::find(std::uint64_t vehicle) {
   for (Member& member : members_)
     if (member.id == vehicle) return &member;
   return nullptr;
-}
-const Team::Member* Team::find(std::uint64_t vehicle) const {
-  return const_cast<Team*>(this)->find(vehicle);
 }
 
 Team::Member& Team::add_member(std::uint64_t vehicle) {
@@ -173,8 +158,8 @@ void Team::observe(double time, std::vector<Observation> landmarks, std::vector<
   if (landmarks.size() + vehicles.size() > most)
     throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu",
                 landmarks.size() + vehicles.size(), most);
-  check_names(landmarks, options_.filter.association == AssociationKind::known, "observations");
-  check_names(vehicles, true, "vehicles");
+  check_names(landmarks, "observations");
+  check_names(vehicles, "vehicles");
   for (const Observation& o : vehicles)
     if (o.id == options_.vehicle)
       throw Error(ErrorCode::argument, "vehicles: number %llu is the own one", static_cast<unsigned long long>(o.id));
@@ -182,7 +167,7 @@ void Team::observe(double time, std::vector<Observation> landmarks, std::vector<
   packet.vehicle = self.id;
   packet.number = self.next + self.waiting.size();
   packet.time = time;
-  packet.motions = pending_;
+  packet.motions = std::move(pending_);
   packet.landmarks = std::move(landmarks);
   packet.vehicles = std::move(vehicles);
   send(packet);
@@ -190,11 +175,11 @@ void Team::observe(double time, std::vector<Observation> landmarks, std::vector<
   pending_.clear();
   self.heard = time;
   const std::uint64_t number = packet.number;
-  self.waiting[number] = {std::move(packet), 0};
+  self.waiting[number] = std::move(packet);
   own_error_.reset();
   if (baseline_)
     quietly([&] {
-      const std::vector<Observation>& scan = self.waiting[number].packet.landmarks;
+      const std::vector<Observation>& scan = self.waiting[number].landmarks;
       std::copy(scan.begin(), scan.end(), baseline_->filter.staging());
       baseline_->filter.update(0, static_cast<Index>(scan.size()));
     });
@@ -216,13 +201,6 @@ void Team::leave() {
   send(packet);
   left_ = true;
   settle();  // no own step is waited for any more
-}
-
-bool Team::take_packet(std::vector<std::uint8_t>& bytes) {
-  if (outgoing_.empty()) return false;
-  bytes = std::move(outgoing_.front());
-  outgoing_.pop_front();
-  return true;
 }
 
 // What is between two packets that are there, and what a silent teammate may have sent since.
@@ -275,10 +253,10 @@ Arrival Team::receive(const std::uint8_t* bytes, std::size_t size, PacketFault& 
     resend(packet);
     return Arrival::request;
   }
-  const std::uint32_t checksum = crc32(bytes, size - 4);  // with its own the remainder is that of any packet
-  if (packet.vehicle == options_.vehicle) {               // a transport's echo, or another vehicle by the own name
+  if (packet.vehicle == options_.vehicle) {  // a transport's echo, or another vehicle by the own name
     const auto sent = history_.find(packet.number);
-    const bool echo = sent != history_.end() && crc32(sent->second.data(), sent->second.size() - 4) == checksum;
+    const bool echo =
+        sent != history_.end() && std::equal(sent->second.begin(), sent->second.end(), bytes, bytes + size);
     ++(echo ? counts_.own : counts_.conflict);
     return echo ? Arrival::own : Arrival::conflict;
   }
@@ -292,7 +270,7 @@ Arrival Team::receive(const std::uint8_t* bytes, std::size_t size, PacketFault& 
   }
   const std::uint64_t vehicle = packet.vehicle, number = packet.number;
   const bool leaves = packet.kind == PacketKind::leave;
-  const Arrival stored = store(std::move(packet), checksum);
+  const Arrival stored = store(std::move(packet));
   if (stored != Arrival::waiting) return stored;
   settle();
   const Member* member = find(vehicle);
@@ -302,15 +280,15 @@ Arrival Team::receive(const std::uint8_t* bytes, std::size_t size, PacketFault& 
 }
 
 // Among those that wait for their turn; or what speaks against it.
-Arrival Team::store(Packet&& packet, std::uint32_t checksum) {
+Arrival Team::store(Packet&& packet) {
   Member& member = *find(packet.vehicle);
   const auto known = member.waiting.find(packet.number);
   if (packet.number < member.next || known != member.waiting.end()) {
     bool same = true;  // of those long gone nobody can tell
     if (known != member.waiting.end()) {
-      same = known->second.checksum == checksum;
+      same = known->second.checksum == packet.checksum;
     } else if (member.next - packet.number <= member.checksums.size()) {
-      same = member.checksums[member.checksums.size() - (member.next - packet.number)] == checksum;
+      same = member.checksums[member.checksums.size() - (member.next - packet.number)] == packet.checksum;
     }
     ++(same ? counts_.repeated : counts_.conflict);
     return same ? Arrival::repeated : Arrival::conflict;
@@ -320,12 +298,12 @@ Arrival Team::store(Packet&& packet, std::uint32_t checksum) {
   const bool data = packet.kind == PacketKind::data;
   bool ordered = !member.started || (data ? packet.time > member.time : packet.time >= member.time);
   if (after != member.waiting.begin()) {
-    const double before = std::prev(after)->second.packet.time;
+    const double before = std::prev(after)->second.time;
     ordered = ordered && (data ? packet.time > before : packet.time >= before);
   }
   if (after != member.waiting.end()) {
-    const bool farewell = after->second.packet.kind == PacketKind::leave;
-    const double later = after->second.packet.time;
+    const bool farewell = after->second.kind == PacketKind::leave;
+    const double later = after->second.time;
     ordered = ordered && (farewell ? packet.time <= later : packet.time < later);
   }
   if (!ordered) {
@@ -339,7 +317,7 @@ Arrival Team::store(Packet&& packet, std::uint32_t checksum) {
   if (after != member.waiting.end()) ++counts_.reordered;
   member.heard = std::max(member.heard, packet.time);
   const std::uint64_t number = packet.number;
-  member.waiting[number] = {std::move(packet), checksum};
+  member.waiting[number] = std::move(packet);
   return Arrival::waiting;
 }
 
@@ -352,7 +330,8 @@ void Team::skip_gap(Member& member) {
   lose_sight(member);
 }
 
-// The packets of the earliest time for which all are there. False where somebody is still to be waited for.
+// The packets of the earliest time for which all are there; what is left of them in `waiting` is empty. False where
+// somebody is still to be waited for.
 bool Team::next_turns(std::vector<Turn>& turns) {
   turns.clear();
   const double newest = own().heard;
@@ -364,19 +343,19 @@ bool Team::next_turns(std::vector<Turn>& turns) {
     if (head(member) == member.waiting.end()) {
       if (!teammate) continue;
       if (!member.waiting.empty()) {
-        if (!(newest - member.waiting.begin()->second.packet.time > options_.max_lag)) return false;
+        if (!(newest - member.waiting.begin()->second.time > options_.max_lag)) return false;
         skip_gap(member);
       } else {
         // Silent: waited for, but not for ever.
         const Member& self = own();
         if (self.waiting.empty()) continue;
-        if (!member.waited_from) member.waited_from = self.waiting.begin()->second.packet.time;
+        if (!member.waited_from) member.waited_from = self.waiting.begin()->second.time;
         const double since = member.started ? member.time : *member.waited_from;
         if (!(newest - since > options_.max_lag)) return false;
         continue;
       }
     }
-    earliest = std::min(earliest, head(member)->second.packet.time);
+    earliest = std::min(earliest, head(member)->second.time);
   }
   if (earliest == std::numeric_limits<double>::infinity()) return false;
   // A teammate that is ahead waits for the own step, as that one's waits for it at every other vehicle: without, each
@@ -385,8 +364,8 @@ bool Team::next_turns(std::vector<Turn>& turns) {
   if (uses_teammates() && !left_ && !(looked && earliest <= newest + options_.time_tolerance)) return false;
   for (Member& member : members_) {
     const auto packet = head(member);
-    if (packet == member.waiting.end() || packet->second.packet.time > earliest + options_.time_tolerance) continue;
-    turns.push_back({&member, packet->second.packet});
+    if (packet == member.waiting.end() || packet->second.time > earliest + options_.time_tolerance) continue;
+    turns.push_back({&member, std::move(packet->second)});
   }
   std::sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.member->id < b.member->id; });
   return true;
@@ -397,7 +376,7 @@ void Team::settle() {
   while (next_turns(turns)) {
     for (Turn& turn : turns) {  // consumed, whatever becomes of it
       Member& member = *turn.member;
-      member.checksums.push_back(member.waiting.begin()->second.checksum);
+      member.checksums.push_back(turn.packet.checksum);
       if (member.checksums.size() > kChecksumsKept) member.checksums.pop_front();
       member.waiting.erase(member.next++);
       member.time = turn.packet.time;
@@ -424,43 +403,27 @@ const Filter<SE2>& Team::filter_of(std::uint64_t vehicle) const {
   return teammate != fleet_->teammates.end() ? teammate->second->filter : box_->filter;
 }
 
-SE2 Team::pose(std::uint64_t vehicle) const {
-  SE2 T = filter_of(vehicle).vehicle_pose(vehicle);
-  if (vehicle != options_.vehicle) return T;
-  for (const auto& entry : members_.front().waiting)
-    for (const Increment<SE2>& motion : entry.second.packet.motions) T = T * motion.T_before_after;
-  for (const Increment<SE2>& motion : pending_) T = T * motion.T_before_after;
-  return T;
-}
-
-Matrix3 Team::covariance(std::uint64_t vehicle) const {
-  Matrix3 P = filter_of(vehicle).vehicle_covariance(vehicle);
-  if (vehicle != options_.vehicle) return P;
-  SE2 T = filter_of(vehicle).vehicle_pose(vehicle);
+Team::Estimate Team::estimate(std::uint64_t vehicle) const {
+  const Filter<SE2>& filter = filter_of(vehicle);
+  Estimate now{filter.vehicle_pose(vehicle), filter.vehicle_covariance(vehicle)};
+  if (vehicle != options_.vehicle) return now;
   const auto move = [&](const Increment<SE2>& motion) {
-    // e_p += G(R d) e_R + R dp, e_R += dtheta
-    const Matrix2 R = T.rotation().matrix();
-    Matrix3 J = Matrix3::Identity(), B = Matrix3::Identity();
-    J.topRightCorner<2, 1>() = SO2::turn(R * motion.T_before_after.translation());
-    B.topLeftCorner<2, 2>() = R;
-    const Matrix3 moved = J * P * J.transpose() + B * motion.covariance * B.transpose();
-    P = 0.5 * (moved + moved.transpose());
-    T = T * motion.T_before_after;
+    now.covariance = ProductJacobians(now.pose, motion.T_before_after).covariance(now.covariance, motion.covariance);
+    now.pose = now.pose * motion.T_before_after;
   };
   for (const auto& entry : members_.front().waiting)
-    for (const Increment<SE2>& motion : entry.second.packet.motions) move(motion);
-  for (const Increment<SE2>& motion : pending_) move(motion);
-  return P;
+    std::for_each(entry.second.motions.begin(), entry.second.motions.end(), move);
+  std::for_each(pending_.begin(), pending_.end(), move);
+  return now;
 }
 
 void Team::score(const SE2& truth) {
-  const SE2 estimate = pose(options_.vehicle);
-  const Matrix3 P = covariance(options_.vehicle);
+  const Estimate now = estimate(options_.vehicle);
   ++score_.steps;
-  score_.claimed += P.topLeftCorner<2, 2>().norm();
-  score_.squared_error += (truth.translation() - estimate.translation()).squaredNorm();
-  const double nees =
-      Ekf<SE2>::nees(options_.filter.error, options_.filter.initial_pose.translation(), truth, estimate, P);
+  score_.claimed += now.covariance.topLeftCorner<2, 2>().norm();
+  score_.squared_error += (truth.translation() - now.pose.translation()).squaredNorm();
+  const double nees = Ekf<SE2>::nees(options_.filter.error, options_.filter.initial_pose.translation(), truth, now.pose,
+                                     now.covariance);
   if (nees >= 0.0) {
     ++score_.nees_steps;
     score_.nees += nees;

@@ -66,12 +66,15 @@ class Team {
   void observe(double time, std::vector<Observation> landmarks, std::vector<Observation> vehicles);
   void leave();
   const std::vector<Match>& decisions() const { return decisions_; }  // on the own scan that was taken in last
+  struct Estimate {
+    SE2 pose;
+    Matrix3 covariance;
+  };
   // Where the vehicle is now: what was taken in, and the own motion since.
-  SE2 pose(std::uint64_t vehicle) const;
-  Matrix3 covariance(std::uint64_t vehicle) const;
+  Estimate estimate(std::uint64_t vehicle) const;
 
   // --- packets ---
-  bool take_packet(std::vector<std::uint8_t>& bytes);  // the next to be sent; false where there is none
+  // The next to be sent; null where there is none.
   const std::vector<std::uint8_t>* next_packet() const { return outgoing_.empty() ? nullptr : &outgoing_.front(); }
   void drop_packet() { outgoing_.pop_front(); }
   Arrival receive(const std::uint8_t* bytes, std::size_t size, PacketFault& fault);
@@ -86,10 +89,6 @@ class Team {
  private:
   struct Box;
   struct Fleet;
-  struct Waiting {
-    Packet packet;
-    std::uint32_t checksum;
-  };
   struct Member {
     std::uint64_t id = 0;
     bool known = false;  // the filter knows where it is
@@ -97,10 +96,10 @@ class Team {
     std::uint64_t next = 0;  // number of the packet to be taken in next
     double time = 0.0;       // of the last one that was
     bool started = false;
-    std::optional<double> waited_from;         // where nothing ever came: since that own step
-    double heard = 0.0;                        // time of the newest one that came
-    std::map<std::uint64_t, Waiting> waiting;  // by number
-    std::deque<std::uint32_t> checksums;       // of the last ones taken in, to tell repetition from contradiction
+    std::optional<double> waited_from;        // where nothing ever came: since that own step
+    double heard = 0.0;                       // time of the newest one that came
+    std::map<std::uint64_t, Packet> waiting;  // by number
+    std::deque<std::uint32_t> checksums;      // of the last ones taken in, to tell repetition from contradiction
   };
   struct Turn {
     Member* member;
@@ -108,11 +107,10 @@ class Team {
   };
 
   Member* find(std::uint64_t vehicle);
-  const Member* find(std::uint64_t vehicle) const;
   Member& own() { return members_.front(); }
   Member& add_member(std::uint64_t vehicle);
   bool uses_teammates() const { return options_.mode != TeamMode::mono; }
-  Arrival store(Packet&& packet, std::uint32_t checksum);
+  Arrival store(Packet&& packet);
   void resend(const Packet& request);
   void send(const Packet& packet);
   void settle();
@@ -126,7 +124,8 @@ class Team {
   void take_in_own(Turn& turn);
   const Filter<SE2>& filter_of(std::uint64_t vehicle) const;
   void move(Filter<SE2>& filter, const Packet& packet);
-  void find_members(const std::vector<Turn>& turns);
+  void find_members(std::vector<Turn>& turns);
+  bool find_member(Turn& lost, Turn& from);
   bool scan(Filter<SE2>& filter, int sensor, const std::vector<Observation>& landmarks,
             const std::vector<Observation>& vehicles, bool own);
   Matrix2 noise_of(const Observation& o) const;
@@ -144,10 +143,9 @@ class Team {
   }
 
   TeamOptions options_;
-  std::unique_ptr<Fleet> fleet_;   // mode submaps
-  std::unique_ptr<Box> box_;       // of the team; mode submaps: of the own vehicle
-  std::unique_ptr<Box> baseline_;  // of the own vehicle alone
-  int radar_ = -1, extended_ = -1;
+  std::unique_ptr<Fleet> fleet_;            // mode submaps
+  std::unique_ptr<Box> box_;                // of the team; mode submaps: of the own vehicle
+  std::unique_ptr<Box> baseline_;           // of the own vehicle alone
   std::deque<Member> members_;              // the own first
   std::map<std::uint64_t, Member> former_;  // that were removed or left: what was taken in once stays so
   std::vector<Increment<SE2>> pending_;     // own motions since the last packet

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "geometry/angle.hpp"
 #include "team/box.hpp"
+#include "team/sighting.hpp"
 #include "team/team.hpp"
 
 namespace cairn {
@@ -67,7 +67,7 @@ void Team::take_in(std::vector<Turn>& turns) {
 
 void Team::take_in_own(Turn& turn) {
   move(box_->filter, turn.packet);
-  scan(box_->filter, radar_, turn.packet.landmarks, {}, true);
+  scan(box_->filter, kRadar, turn.packet.landmarks, {}, true);
 }
 
 // Every vehicle runs the same filter over all poses and landmarks: what two of them saw is in it once.
@@ -118,12 +118,12 @@ void Team::take_in_joint(std::vector<Turn>& turns) {
     }
     if (packet.landmarks.empty() && known.empty()) continue;
     filter.look_from(vehicle);
-    scan(filter, radar_, packet.landmarks, known, vehicle == options_.vehicle);
+    scan(filter, kRadar, packet.landmarks, known, vehicle == options_.vehicle);
   }
   for (std::size_t t = 0; t < turns.size(); ++t) {
     if (later[t].empty()) continue;
     filter.look_from(turns[t].member->id);
-    scan(filter, radar_, later[t], {}, turns[t].member->id == options_.vehicle);
+    scan(filter, kRadar, later[t], {}, turns[t].member->id == options_.vehicle);
   }
 }
 
@@ -134,61 +134,30 @@ Matrix2 Team::noise_of(const Observation& o) const {
   return Vector2(options_.radar.range_sigma, options_.radar.bearing_sigma).cwiseAbs2().asDiagonal();
 }
 
-// Both saw each other at one time: together the two sightings tell where the other stands and whereto it heads. Of both
-// ranges the mean, weighted by their variances.
-static MutualSighting mutual(const Observation& there, const Matrix2& noise, const Observation& back,
-                             const Matrix2& noise_back, bool both_ranges) {
-  MutualSighting sighting;
-  const double weight = both_ranges ? noise_back(0, 0) / (noise(0, 0) + noise_back(0, 0)) : 1.0;
-  sighting.range = weight * there.z[0] + (1.0 - weight) * back.z[0];
-  sighting.bearing = there.z[1];
-  sighting.back = back.z[1];
-  Eigen::Matrix<double, 3, 4> J = Eigen::Matrix<double, 3, 4>::Zero();  // by (range, bearing) there and back
-  J(0, 0) = weight, J(0, 2) = 1.0 - weight, J(1, 1) = 1.0, J(2, 3) = 1.0;
-  sighting.covariance = J.leftCols<2>() * noise * J.leftCols<2>().transpose() +
-                        J.rightCols<2>() * noise_back * J.rightCols<2>().transpose();
-  return sighting;
-}
-
 // Teammates whose start is not known, from the mutual sightings with those whose is.
-void Team::find_members(const std::vector<Turn>& turns) {
-  Filter<SE2>& filter = box_->filter;
+void Team::find_members(std::vector<Turn>& turns) {
   const auto find_one = [&] {
-    for (const Turn& lost : turns) {
-      if (lost.member->known) continue;
-      for (const Turn& from : turns) {
-        if (!from.member->known) continue;
-        auto& sights = const_cast<Packet&>(from.packet).vehicles;
-        auto& sights_back = const_cast<Packet&>(lost.packet).vehicles;
-        const Observation* there = sight_of(sights, lost.member->id);
-        const Observation* back = sight_of(sights_back, from.member->id);
-        if (there == nullptr || back == nullptr) continue;
-        const MutualSighting seen = mutual(*there, noise_of(*there), *back, noise_of(*back), true);
-        forget(sights, lost.member->id);  // consumed
-        forget(sights_back, from.member->id);
-        filter.look_from(from.member->id);
-        const SE2 T = filter.pose();
-        const Matrix2 R = T.rotation().matrix();
-        const Vector2 u(std::cos(seen.bearing), std::sin(seen.bearing)), arm = R * (seen.range * u);
-        Matrix3 J_pose = Matrix3::Identity(), J_seen = Matrix3::Zero();
-        J_pose.topRightCorner<2, 1>() = SO2::turn(arm);
-        J_seen.topLeftCorner<2, 1>() = R * u;
-        J_seen.block<2, 1>(0, 1) = SO2::turn(arm);
-        J_seen.row(2) << 0.0, 1.0, -1.0;
-        const SE2 there_pose(T.rotation() * SO2::from_angle(seen.bearing - seen.back + kPi), T.translation() + arm);
-        if (attempt(false, [&] {
-              filter.add_vehicle(lost.member->id, there_pose, J_pose, J_seen * seen.covariance * J_seen.transpose());
-            })) {
-          lost.member->known = true;
-          ++counts_.vehicles_found;
-        }
-        return lost.member->known;
-      }
-    }
+    for (Turn& lost : turns)
+      for (Turn& from : turns)
+        if (!lost.member->known && from.member->known && find_member(lost, from)) return true;
     return false;
   };
   while (find_one()) {
   }
+}
+
+// The sightings of each other are consumed, whatever becomes of them.
+bool Team::find_member(Turn& lost, Turn& from) {
+  const Observation* there = sight_of(from.packet.vehicles, lost.member->id);
+  const Observation* back = sight_of(lost.packet.vehicles, from.member->id);
+  if (there == nullptr || back == nullptr) return false;
+  const MutualSighting seen = mutual_sighting(*there, noise_of(*there), *back, noise_of(*back), true);
+  forget(from.packet.vehicles, lost.member->id);
+  forget(lost.packet.vehicles, from.member->id);
+  box_->filter.look_from(from.member->id);
+  lost.member->known = attempt(false, [&] { add_by_sighting(box_->filter, lost.member->id, seen); });
+  if (lost.member->known) ++counts_.vehicles_found;
+  return lost.member->known;
 }
 
 // Where it is is known no more: until it is found again.
@@ -215,8 +184,9 @@ void Team::take_in_extended(std::vector<Turn>& turns) {
       continue;
     }
     const bool full = options_.mode == TeamMode::eo_full;
-    box_->filter.set_sighting(extended_, mutual(*there, noise_of(*there), *back, noise_of(*back), full));
-    scan(box_->filter, extended_, turn.packet.landmarks, {}, false);
+    MutualSighting seen = mutual_sighting(*there, noise_of(*there), *back, noise_of(*back), full);
+    box_->filter.set_sighting(kExtended, seen);
+    scan(box_->filter, kExtended, turn.packet.landmarks, {}, false);
     counts_.sightings_used += 2;
   }
 }
@@ -233,7 +203,7 @@ void Team::take_in_submaps(std::vector<Turn>& turns) {
     const auto teammate = fleet_->teammates.find(turn.member->id);
     if (teammate == fleet_->teammates.end() || !turn.member->known) continue;
     move(teammate->second->filter, turn.packet);
-    scan(teammate->second->filter, radar_, turn.packet.landmarks, {}, false);
+    scan(teammate->second->filter, kRadar, turn.packet.landmarks, {}, false);
   }
 }
 

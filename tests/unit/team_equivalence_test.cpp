@@ -11,6 +11,7 @@
 #include "geometry/angle.hpp"
 #include "numerical.hpp"
 #include "slam/filter.hpp"
+#include "team/sighting.hpp"
 
 using namespace cairn;
 using namespace cairn::test;
@@ -40,20 +41,6 @@ Observation look(const SE2& from, const Vector2& at, std::uint64_t id, Random& r
 void take(Filter<SE2>& filter, int sensor, const std::vector<Observation>& scan) {
   std::copy(scan.begin(), scan.end(), filter.staging());
   filter.update(sensor, static_cast<Index>(scan.size()));
-}
-
-// The teammate's pose by a mutual sighting, and how it depends on the own one and on the sighting.
-void add_by_sighting(Filter<SE2>& filter, std::uint64_t id, const MutualSighting& seen) {
-  const SE2 T = filter.pose();
-  const Matrix2 R = T.rotation().matrix();
-  const Vector2 u(std::cos(seen.bearing), std::sin(seen.bearing)), arm = R * (seen.range * u);
-  Matrix3 J_pose = Matrix3::Identity(), J_seen = Matrix3::Zero();
-  J_pose.topRightCorner<2, 1>() = SO2::turn(arm);
-  J_seen.topLeftCorner<2, 1>() = R * u;
-  J_seen.block<2, 1>(0, 1) = SO2::turn(arm);
-  J_seen.row(2) << 0, 1, -1;
-  const SE2 there(T.rotation() * SO2::from_angle(seen.bearing - seen.back + kPi), T.translation() + arm);
-  filter.add_vehicle(id, there, J_pose, J_seen * seen.covariance * J_seen.transpose());
 }
 
 struct Claims {
