@@ -93,6 +93,9 @@ typedef struct cairn_filter_options {
   uint32_t missed_frames;        /**< a landmark that lay in a sensor's view (\ref cairn_filter_set_view) and was not seen in
                                       so many of that sensor's frames in a row is dropped; 0, the default: never */
   uint32_t reserved;             /**< 0 */
+  double error_persistence;      /**< so many sightings of a landmark in a row have one error between them, 1 to 1000000: an
+                                      update takes an observation's noise times this, association and placing take it as
+                                      it is; default 1 */
 } cairn_filter_options;
 
 /** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */

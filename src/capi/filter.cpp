@@ -33,6 +33,7 @@ cairn_filter_options default_options() {
   options.missed_frames = static_cast<std::uint32_t>(d.missed_frames);
   options.association_nodes = static_cast<std::uint32_t>(d.association_nodes);
   options.new_probability = d.new_probability;
+  options.error_persistence = d.error_persistence;
   return options;
 }
 
@@ -72,6 +73,9 @@ void check_filter_options(const cairn_filter_options& o) {
   check_range(o.deferred_sightings, 1, 1000, "options.deferred_sightings");
   check_range(o.deferred_frames, 1, 1000000, "options.deferred_frames");
   check_range(o.missed_frames, 0, 1000000, "options.missed_frames");
+  if (!(o.error_persistence >= 1.0 && o.error_persistence <= 1e6))
+    throw Error(ErrorCode::argument, "options.error_persistence is %g, and must be from 1 to 1000000",
+                o.error_persistence);
   check_probability(o.new_probability, "options.new_probability");
   if (o.new_probability == 1.0)
     throw Error(ErrorCode::argument, "options.new_probability is 1: no observation would ever place a landmark");
@@ -107,6 +111,7 @@ FilterOptions<Pose> options_of(const cairn_filter_options& o) {
   options.deferred_sightings = o.deferred_sightings;
   options.deferred_frames = o.deferred_frames;
   options.missed_frames = o.missed_frames;
+  options.error_persistence = o.error_persistence;
   return options;
 }
 

@@ -23,12 +23,19 @@ struct FilterChoices {
   std::int32_t association_distance = CAIRN_DISTANCE_MAHALANOBIS;
   std::optional<std::uint32_t> deferred_sightings, deferred_frames;
   std::uint64_t forget_after = 0;  // frames; 0: never
+  std::optional<double> error_persistence;
   std::optional<double> gate;
   std::optional<double> batch_gate;
   std::optional<std::uint32_t> iterations;
   std::optional<std::uint32_t> max_landmarks;
 
-  void apply_association(cairn_filter_options& options) const {
+  // But for what the drive has a say in: capacities and submaps.
+  void apply(cairn_filter_options& options) const {
+    options.error = error;
+    options.iterations = iterations.value_or(options.iterations);
+    options.gate_probability = gate.value_or(options.gate_probability);
+    options.batch_gate_probability = batch_gate.value_or(options.batch_gate_probability);
+    options.error_persistence = error_persistence.value_or(options.error_persistence);
     options.association = association;
     options.association_distance = association_distance;
     options.deferred_sightings = deferred_sightings.value_or(options.deferred_sightings);

@@ -34,6 +34,8 @@ const char* const kHelp =
     "  --association-distance D  nearest by: mahalanobis (default) or likelihood\n"
     "  --deferred-sightings N  a landmark counts once it was observed N times (default 1) ...\n"
     "  --deferred-frames N     ... and goes if it was not within N frames (default 20)\n"
+    "  --error-persistence N   so many sightings of a landmark in a row have one error between them: updates take the\n"
+    "                          noise times N, association takes it as it is (default 1; MRCLAM without ids: 18)\n"
     "  --error KIND            error of the state: invariant (default) or standard\n"
     "  --forget-after N        remove landmarks not observed for N frames; 0: never (default)\n"
     "  --gate P                chi-square gate of one observation, a probability; 1: none (default of simulate)\n"

@@ -112,6 +112,10 @@ void add_filter_options(OptionTable& table, FilterChoices& o) {
   table.push_back({"--forget-after", true, [&o](const std::string& v) {
                      o.forget_after = parse_whole("--forget-after", v, 0, std::numeric_limits<std::uint64_t>::max());
                    }});
+  table.push_back({"--error-persistence", true, [&o](const std::string& v) {
+                     o.error_persistence = parse_number("--error-persistence", v, Range::kPositive);
+                     if (!(*o.error_persistence >= 1)) reject("--error-persistence", v, "a number of 1 or more");
+                   }});
   table.push_back(number("--gate", Range::kProbability, o.gate));
   table.push_back(number("--batch-gate", Range::kProbability, o.batch_gate));
   table.push_back(whole("--iterations", 1, 50, o.iterations));

@@ -29,14 +29,13 @@ void Runner::create() {
   check(cairn_filter_options_init(&options, sizeof options));
   const std::size_t needed =
       std::min(kMostLandmarks, drive_.landmarks_at_once(choices_.forget_after) + kLandmarkMargin);
-  options.error = choices_.error;
   // Without names some landmarks may be placed twice.
   const std::size_t room = std::min(kMostLandmarks, choices_.names_known() ? needed : 2 * needed);
   options.max_landmarks = choices_.max_landmarks.value_or(static_cast<std::uint32_t>(room));
   options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
   // A submap that one frame fills is not worth its closing.
   constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
-  choices_.apply_association(options);
+  choices_.apply(options);
   options.submap_landmarks = choices_.submap_landmarks.value_or(
       std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations)));
   has_submaps_ = options.submap_landmarks > 0;
@@ -44,9 +43,6 @@ void Runner::create() {
   options.submap_extent = choices_.submap_extent;
   options.submap_sigma = choices_.submap_sigma;
   options.join = choices_.join;
-  options.iterations = choices_.iterations.value_or(options.iterations);
-  options.gate_probability = choices_.gate.value_or(options.gate_probability);
-  options.batch_gate_probability = choices_.batch_gate.value_or(options.batch_gate_probability);
   options.initial_pose = drive_.start();
   cairn_filter* filter = nullptr;
   check(cairn_filter_create(&options, &filter));

@@ -9,6 +9,11 @@
 namespace cairn::cli {
 namespace {
 
+// Posts without names: the noise of a sighting by itself tells neighbours apart, and what of it lasts counts in updates
+// alone. A post counts after three sightings that are worth one each (docs/mrclam.md).
+constexpr double kSightingRange = 0.044, kSightingBearing = 0.016, kPersistence = 18;
+constexpr std::uint32_t kDeferredSightings = 54, kDeferredFrames = 2000;
+
 void add_team_options(OptionTable& table, CommonChoices& common, TeamChoices& team) {
   static_assert(CAIRN_TEAM_MONO == 0 && CAIRN_TEAM_EO_DIAGONAL == 1 && CAIRN_TEAM_EO_FULL == 2 &&
                 CAIRN_TEAM_JOINT == 3 && CAIRN_TEAM_SUBMAPS == 4);
@@ -92,12 +97,23 @@ MrclamOptions parse_mrclam_options(const std::vector<std::string>& arguments) {
   add_team_options(table, options.common, options.team);
   table.push_back(number("--velocity-noise", Range::kPositive, options.noise.speed));
   table.push_back(number("--rate-noise", Range::kPositive, options.noise.rate));
-  table.push_back(number("--range-noise", Range::kPositive, options.noise.range));
-  table.push_back(number("--bearing-noise", Range::kPositive, options.noise.bearing));
+  std::optional<double> range, bearing;
+  table.push_back(number("--range-noise", Range::kPositive, range));
+  table.push_back(number("--bearing-noise", Range::kPositive, bearing));
   parse(arguments, table, "run", [&](const std::string& word) {
     if (!options.folder.empty()) throw UsageError("one log at a time: '" + word + "' is a second one");
     options.folder = word;
   });
+  FilterChoices& filter = options.team.filter;
+  if (!filter.names_known()) {
+    options.noise.range = kSightingRange;
+    options.noise.bearing = kSightingBearing;
+    filter.error_persistence = filter.error_persistence.value_or(kPersistence);
+    filter.deferred_sightings = filter.deferred_sightings.value_or(kDeferredSightings);
+    filter.deferred_frames = filter.deferred_frames.value_or(kDeferredFrames);
+  }
+  options.noise.range = range.value_or(options.noise.range);
+  options.noise.bearing = bearing.value_or(options.noise.bearing);
   check_choices(options.team);
   return options;
 }

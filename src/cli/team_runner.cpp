@@ -57,15 +57,11 @@ TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
   cairn_filter_options filter;
   check(cairn_filter_options_init(&filter, sizeof filter));
   filter.vehicle = CAIRN_VEHICLE_PLANAR;
-  filter.error = choices.error;
   // Without names some landmarks may be placed twice.
   const std::uint32_t room = drive_.landmarks() * (choices.names_known() ? 1 : 4);
   filter.max_landmarks = choices.max_landmarks.value_or(std::max<std::uint32_t>(1, room));
   filter.max_observations = std::max<std::uint32_t>(1, drive_.largest_frame());
-  choices.apply_association(filter);
-  filter.iterations = choices.iterations.value_or(filter.iterations);
-  filter.gate_probability = choices.gate.value_or(filter.gate_probability);
-  filter.batch_gate_probability = choices.batch_gate.value_or(filter.batch_gate_probability);
+  choices.apply(filter);
   filter.initial_pose = drive_.start(vehicle);
   if (choices_.mode == CAIRN_TEAM_SUBMAPS) {
     // By the way driven: one frame may hold all landmarks that there are.

@@ -12,10 +12,10 @@
 // O(1): it is held back as P_now = F P F^T + U N U^T, where F turns the pose block alone (standard error), and N is the
 // noise of the pose, which reaches landmark i through U_i = [0, -G(x_i)] (invariant error).
 //
-// There may be companions: poses of other vehicles. A companion's position is a landmark, in one of the first slots, and
-// its attitude a state of its own between pose and landmarks: [xi_p; xi_R; theta_1; theta_2; ...; xi_1; ...], theta the
-// ordinary error of the attitude with either error. The filter looks at the world from one vehicle, and activate() makes
-// that another one.
+// There may be companions: poses of other vehicles. A companion's position is a landmark, in one of the first slots,
+// and its attitude a state of its own between pose and landmarks: [xi_p; xi_R; theta_1; theta_2; ...; xi_1; ...], theta
+// the ordinary error of the attitude with either error. The filter looks at the world from one vehicle, and activate()
+// makes that another one.
 #pragma once
 
 #include <vector>
@@ -72,6 +72,9 @@ class Ekf {
   void gather(const Index* slots, Index count, double* out, Index ld) const;
   // The same in ordinary errors.
   void gather_ordinary(const Index* slots, Index count, double* out, Index ld) const;
+  // Of the ordinary error of l - p less what turning the pose does to it, e_l - e_p - turn(l - p) e_R: all that a
+  // sensor of R^T (l - p) feels of pose and landmark. By invariant errors it is that of xi_l - xi_p.
+  PointSquare relative_covariance(Index slot) const;
   Square pose_covariance() const;  // ordinary
   PointSquare landmark_covariance(Index slot) const;
   // Normalised error squared of the pose in the filter's own coordinates; negative where its covariance is singular.
@@ -187,7 +190,7 @@ class Ekf {
   Index lead() const { return kDof + kTurn * companions_; }
   Index state(Index slot) const { return lead() + kDim * slot; }
   static Index heading(Index companion) { return kDof + kTurn * companion; }
-  void exchange(Index a, Index b);                           // two states
+  void exchange(Index a, Index b);                      // two states
   void move_states(Index from, Index count, Index by);  // along the diagonal, upwards or downwards
   // block(:, R) += J_point G(x) in invariant coordinates.
   template <class JPoint>

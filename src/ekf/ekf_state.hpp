@@ -180,6 +180,34 @@ typename Ekf<Pose>::PointSquare Ekf<Pose>::landmark_covariance(Index slot) const
   return joint.template bottomRightCorner<kDim, kDim>();
 }
 
+template <class Pose>
+typename Ekf<Pose>::PointSquare Ekf<Pose>::relative_covariance(Index slot) const {
+  const Index row = state(slot);
+  const Index dofs = error_ == ErrorKind::invariant ? kDim : kDof;  // that the error has to do with
+  Eigen::Matrix<double, kDim, kDof> J = Eigen::Matrix<double, kDim, kDof>::Zero();
+  J.template leftCols<kDim>() = -PointSquare::Identity();
+  PointByPose cross = PointByPose::Zero();
+  PointSquare own;
+  for (Index c = 0; c < dofs; ++c)
+    for (Index r = 0; r < kDim; ++r) cross(r, c) = P(row + r, c);
+  for (Index c = 0; c < kDim; ++c)
+    for (Index r = c; r < kDim; ++r) own(r, c) = own(c, r) = P(row + r, row + c);
+  PointSquare sum;
+  if (error_ == ErrorKind::invariant) {
+    const PointSquare across = cross.template leftCols<kDim>();
+    for (Index c = 0; c < kDim; ++c)
+      for (Index r = c; r < kDim; ++r) sum(r, c) = sum(c, r) = P(r, c);
+    sum += own - across - across.transpose();
+    if (!pending_) return sum;
+    J.template rightCols<kTurn>() = -Rotation::turn(local(slot));  // of the pending motion's error
+    return sum + J.lazyProduct(N_.lazyProduct(J.transpose()).eval());
+  }
+  J.template rightCols<kTurn>() = -Rotation::turn(local(slot) - pose_.translation());
+  if (pending_) cross = (cross * F_.transpose()).eval();
+  const PointSquare across = cross.lazyProduct(J.transpose());
+  return own + across + across.transpose() + J * pose_block() * J.transpose();
+}
+
 // error^T covariance^-1 error, negative where the covariance is singular.
 template <class Pose>
 double Ekf<Pose>::normalised(Square covariance, Tangent error) {

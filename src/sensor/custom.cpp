@@ -64,6 +64,13 @@ bool CustomSensor<Pose>::place(const Pose& T_map_body, const Vector3& z, const M
 }
 
 template <class Pose>
+int CustomSensor<Pose>::plain_row() const {
+  for (int r = 0; r < parameters_.rows; ++r)
+    if ((parameters_.angle_mask >> r & 1u) == 0) return r;
+  return -1;
+}
+
+template <class Pose>
 Vector3 CustomSensor<Pose>::residual(const Vector3& z, const Vector3& predicted) const {
   Vector3 r = Vector3::Zero();
   for (int i = 0; i < rows(); ++i) {

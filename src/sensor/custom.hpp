@@ -25,8 +25,8 @@ struct CustomParameters {
   Vector3 sigma = Vector3::Ones();  // of each value
 };
 
-// A sensor of the caller's own. What it returns is refused where it isn't finite. In the plane it speaks of space all the
-// same: of its Jacobians the columns of x, y and yaw count.
+// A sensor of the caller's own. What it returns is refused where it isn't finite. In the plane it speaks of space all
+// the same: of its Jacobians the columns of x, y and yaw count.
 template <class Pose>
 class CustomSensor final : public Sensor<Pose> {
  public:
@@ -37,6 +37,7 @@ class CustomSensor final : public Sensor<Pose> {
 
   int rows() const override { return parameters_.rows; }
   bool relative() const override { return parameters_.relative; }
+  int plain_row() const override;
   bool places() const { return parameters_.place != nullptr; }
   const Matrix3& noise() const override { return noise_; }
   bool predict(const Pose& T_map_body, const Point& p_map, const Mount& mount, Prediction<Pose>& out) const override;

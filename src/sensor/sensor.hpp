@@ -62,6 +62,8 @@ class Sensor {
   virtual int rows() const { return Pose::kDim; }
   // Pose and landmark enter as the body point y = R^T (l - p) alone.
   virtual bool relative() const { return true; }
+  // A value of which residual() is the plain difference; negative where there is none. Association sorts by it.
+  virtual int plain_row() const { return 0; }
   // Default noise of an observation; the upper left rows() x rows() block counts.
   virtual const Matrix3& noise() const = 0;
   virtual MountNoise mount_noise_mode() const { return MountNoise::none; }

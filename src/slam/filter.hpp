@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "association/association.hpp"
+#include "association/frame_index.hpp"
 #include "core/arena.hpp"
 #include "core/error.hpp"
 #include "core/id_table.hpp"
@@ -41,6 +42,8 @@ struct FilterOptions {
   double iteration_tolerance = 0.1;
   double gate_probability = 0.99;
   double batch_gate_probability = 0.9999;
+  double error_persistence = 1.0;  // so many sightings of a landmark in a row have one error between them: updates take
+                                   // noise times it, association and placing as it is
   Pose initial_pose;
   typename Pose::Square initial_covariance = Pose::Square::Zero();
   Index submap_landmarks = 0;  // 0: a single map
@@ -272,6 +275,7 @@ class Filter final : public Landmarks {
   struct Expected {
     Index slot;
     Index window;  // among those of all pairs, or kUnpaired
+    bool paired;   // in the set that was chosen
     Prediction<Pose> prediction;
     Matrix3 innovation;  // covariance of the prediction
   };
@@ -287,12 +291,15 @@ class Filter final : public Landmarks {
     static constexpr Index kPairs = 8;  // of one observation, the nearest
     Index most_landmarks, most_observations, most_pairs, most_window;
     Association association;
+    FrameIndex frame;
     Expected* expected;
     PairCandidate* pairs;
     Pair* details;
     Index* window;       // slots
     double* covariance;  // of pose and window
-    Match* nearest;      // by observation
+    Match* nearest;      // by observation, as are the two below
+    Matrix3* noise;
+    Index* pairs_of;  // their number
     Index expected_count = 0, pair_count = 0, window_count = 0;
     std::uint64_t next_id = 0;
   };
@@ -330,6 +337,8 @@ class Filter final : public Landmarks {
   void take_in_merge(std::uint64_t id, std::uint64_t other);
   void review_landmarks(int sensor, Index count);
   bool in_view(const Sensor<Pose>& sensor, const View& view, Index slot) const;
+  // A landmark's image from the predicted pose, and its covariance but for the mount's part; false where it has none.
+  bool image_of(const Sensor<Pose>& sensor, Index slot, Prediction<Pose>& prediction, Matrix3& covariance) const;
   void take_in(int sensor, Index count, Index companions);
   void take_in(const Linear& linear);
   void take_in(const AbsoluteFix<Pose>& fix);
@@ -342,7 +351,10 @@ class Filter final : public Landmarks {
   void sort_by_association(const Sensor<Pose>& sensor, Index count);
   void predict_all(const Sensor<Pose>& sensor);
   void find_pairs(const Sensor<Pose>& sensor, Index count);
+  void consider_pair(const Sensor<Pose>& sensor, Index observation, Index expected);
+  void gather_pairs(Index count);
   bool confusable(const Sensor<Pose>& sensor, Index count, Index observation, const Pair& pair) const;
+  bool other_than_paired(const Sensor<Pose>& sensor, Index count, Index observation) const;
   void settle_pairs(const Sensor<Pose>& sensor, Index count);
   void add_candidate(const Sensor<Pose>& sensor, Index observation, Index slot, const Prediction<Pose>& prediction);
   void add_new_one(const Sensor<Pose>& sensor, Index observation);
@@ -368,8 +380,6 @@ class Filter final : public Landmarks {
   void close_if_full();
   void forget_local(std::int32_t slot);
   static std::unique_ptr<GlobalMap<Pose>> make_map(const FilterOptions<Pose>& options);
-  Square base_to_pose() const;
-  Square local_part() const;
   void say(const char* format, ...) const __attribute__((format(printf, 2, 3)));
 
   FilterOptions<Pose> options_;

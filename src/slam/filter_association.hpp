@@ -20,6 +20,7 @@ Filter<Pose>::Unknowns::Unknowns(Arena& arena, const FilterOptions<Pose>& option
       most_pairs(kPairs * most_observations),
       most_window(std::min(most_landmarks, 2 * most_observations)),
       association(arena, {most_observations, most_pairs, most_window}),
+      frame(arena, most_observations),
       expected(arena.take<Expected>(static_cast<std::size_t>(most_landmarks))),
       pairs(arena.take<PairCandidate>(static_cast<std::size_t>(most_pairs))),
       details(arena.take<Pair>(static_cast<std::size_t>(most_pairs))),
@@ -27,7 +28,9 @@ Filter<Pose>::Unknowns::Unknowns(Arena& arena, const FilterOptions<Pose>& option
       covariance(arena.take<double>(
           most_landmarks == 0 ? 0
                               : static_cast<std::size_t>((kDof + kDim * most_window) * (kDof + kDim * most_window)))),
-      nearest(arena.take<Match>(static_cast<std::size_t>(most_observations))) {}
+      nearest(arena.take<Match>(static_cast<std::size_t>(most_observations))),
+      noise(arena.take<Matrix3>(static_cast<std::size_t>(most_observations))),
+      pairs_of(arena.take<Index>(static_cast<std::size_t>(most_observations))) {}
 
 // Of the pairs that were found.
 template <class Pose>
@@ -68,80 +71,113 @@ class Filter<Pose>::PairInnovations final : public Innovations {
   MountSquare<Pose> common_mount_;
 };
 
+template <class Pose>
+bool Filter<Pose>::image_of(const Sensor<Pose>& sensor, Index slot, Prediction<Pose>& prediction,
+                            Matrix3& covariance) const {
+  if (!sensor.predict(ekf_.pose(), ekf_.landmark(slot), Mount::Zero(), prediction)) return false;
+  if (sensor.relative()) {
+    const auto& J = prediction.J_z_landmark;
+    covariance.noalias() = J.lazyProduct((ekf_.relative_covariance(slot).lazyProduct(J.transpose())).eval());
+    return true;
+  }
+  constexpr Index n = kDof + kDim;
+  double P[n * n];
+  ekf_.gather_ordinary(&slot, 1, P, n);
+  covariance = image_covariance(Eigen::Map<const Eigen::MatrixXd>(P, n, n), prediction, 0, prediction, 0);
+  return true;
+}
+
 // Images of all landmarks that give one, with their covariance.
 template <class Pose>
 void Filter<Pose>::predict_all(const Sensor<Pose>& sensor) {
   unknowns_.expected_count = 0;
-  const Pose pose = ekf_.pose();
   for (Index slot = ekf_.companions(); slot < ekf_.size(); ++slot) {
     Expected& next = unknowns_.expected[unknowns_.expected_count];
-    if (!sensor.predict(pose, ekf_.landmark(slot), Mount::Zero(), next.prediction)) continue;
+    if (!image_of(sensor, slot, next.prediction, next.innovation)) continue;
     ++unknowns_.expected_count;
     next.slot = slot;
     next.window = kUnpaired;
-    constexpr Index n = kDof + kDim;
-    double P[n * n];
-    ekf_.gather_ordinary(&slot, 1, P, n);
-    next.innovation =
-        image_covariance(Eigen::Map<const Eigen::MatrixXd>(P, n, n), next.prediction, 0, next.prediction, 0);
+    next.paired = false;
     if (sensor.mount_noise_mode() != MountNoise::none)
       next.innovation += next.prediction.J_z_mount * sensor.mount_noise() * next.prediction.J_z_mount.transpose();
   }
 }
 
 // Pairs that pass the gate of one, the nearest of each observation; and the nearest landmark of each whatever it
-// passes.
+// passes. No pair is within the bound whose values of one row are farther apart than that row's variance lets them be:
+// nu_r^2 <= bound S_rr.
 template <class Pose>
 void Filter<Pose>::find_pairs(const Sensor<Pose>& sensor, Index count) {
+  constexpr double kRounding = 1.0 + 1e-9;
   Unknowns& u = unknowns_;
-  const Index rows = sensor.rows();
-  const double bound = new_thresholds_[rows], gate = std::min(gate_thresholds_[rows], bound);
-  u.pair_count = u.window_count = 0;
+  const int row = sensor.plain_row();
+  const double bound = new_thresholds_[sensor.rows()];
+  double widest = 0.0;
   for (Index i = 0; i < count; ++i) {
-    const Matrix3 noise = noise_of(sensor, observations_[i]);
-    const Vector3 z(observations_[i].z);
-    Match& nearest = u.nearest[i];
-    nearest = Match();
-    nearest.distance = std::numeric_limits<double>::infinity();
-    const Index begin = u.pair_count;
-    for (Index e = 0; e < u.expected_count; ++e) {
-      const Vector3 residual = sensor.residual(z, u.expected[e].prediction.z);
-      const Matrix3 S = u.expected[e].innovation + noise;
-      const double distance = distance_within(residual, S, rows, bound);
-      if (distance > bound) continue;
-      if (distance < nearest.distance) {
-        nearest.distance = distance;
-        nearest.landmark = ids_[u.expected[e].slot];
-      }
-      if (!(distance <= gate)) continue;
-      // The likelihood of a pair also asks how wide its gate is: -2 log p = d^2 + log det S but for a constant.
-      const double cost =
-          options_.by_likelihood ? distance + std::log(S.topLeftCorner(rows, rows).determinant()) : distance;
-      Index at = u.pair_count;  // sorted by cost; the worst goes where there is no room
-      if (at - begin == Unknowns::kPairs && cost >= u.pairs[--at].distance) continue;
-      for (; at > begin && cost < u.pairs[at - 1].distance; --at) {
-        u.pairs[at] = u.pairs[at - 1];
-        u.details[at] = u.details[at - 1];
-      }
-      u.pairs[at] = {i, e, cost};
-      u.details[at] = {e, residual, S};
-      u.pair_count = std::min(u.pair_count + 1, begin + Unknowns::kPairs);
-    }
+    u.noise[i] = noise_of(sensor, observations_[i]);
+    u.pairs_of[i] = 0;
+    u.nearest[i] = Match();
+    u.nearest[i].distance = std::numeric_limits<double>::infinity();
+    if (row >= 0) widest = std::max(widest, u.noise[i](row, row));
   }
-  // The landmarks of all pairs; of more than there is room for, those of earlier observations.
-  Index kept = 0;
-  for (Index p = 0; p < u.pair_count; ++p) {
-    Expected& expected = u.expected[u.details[p].expected];
-    if (expected.window == kUnpaired) {
-      if (u.window_count == u.most_window) continue;
-      expected.window = u.window_count;
-      u.window[u.window_count++] = expected.slot;
-    }
-    u.pairs[kept] = u.pairs[p];
-    u.pairs[kept].landmark = expected.window;
-    u.details[kept++] = u.details[p];
+  u.frame.build(count, [&](Index i) { return row >= 0 ? observations_[i].z[row] : 0.0; });
+  for (Index e = 0; e < u.expected_count; ++e) {
+    const Expected& expected = u.expected[e];
+    const double centre = row >= 0 ? expected.prediction.z[row] : 0.0;
+    const double reach = row >= 0 ? std::sqrt(bound * (expected.innovation(row, row) + widest)) * kRounding
+                                  : std::numeric_limits<double>::infinity();
+    u.frame.near(centre, reach, [&](Index i) { consider_pair(sensor, i, e); });
   }
-  u.pair_count = kept;
+  gather_pairs(count);
+}
+
+template <class Pose>
+void Filter<Pose>::consider_pair(const Sensor<Pose>& sensor, Index observation, Index e) {
+  Unknowns& u = unknowns_;
+  const Index rows = sensor.rows(), begin = Unknowns::kPairs * observation;
+  const double bound = new_thresholds_[rows], gate = std::min(gate_thresholds_[rows], bound);
+  const Vector3 residual = sensor.residual(Vector3(observations_[observation].z), u.expected[e].prediction.z);
+  const Matrix3 S = u.expected[e].innovation + u.noise[observation];
+  const double distance = distance_within(residual, S, rows, bound);
+  if (distance > bound) return;
+  Match& nearest = u.nearest[observation];
+  if (distance < nearest.distance) {
+    nearest.distance = distance;
+    nearest.landmark = ids_[u.expected[e].slot];
+  }
+  if (!(distance <= gate)) return;
+  // The likelihood of a pair also asks how wide its gate is: -2 log p = d^2 + log det S but for a constant.
+  const double cost =
+      options_.by_likelihood ? distance + std::log(S.topLeftCorner(rows, rows).determinant()) : distance;
+  Index at = begin + u.pairs_of[observation];  // sorted by cost; the worst goes where there is no room
+  if (at - begin == Unknowns::kPairs && cost >= u.pairs[--at].distance) return;
+  for (; at > begin && cost < u.pairs[at - 1].distance; --at) {
+    u.pairs[at] = u.pairs[at - 1];
+    u.details[at] = u.details[at - 1];
+  }
+  u.pairs[at] = {observation, e, cost};
+  u.details[at] = {e, residual, S};
+  u.pairs_of[observation] = std::min(u.pairs_of[observation] + 1, Unknowns::kPairs);
+}
+
+// Closes the gaps that each observation's room left, and gathers the landmarks of all pairs; of more than there is room
+// for, those of earlier observations.
+template <class Pose>
+void Filter<Pose>::gather_pairs(Index count) {
+  Unknowns& u = unknowns_;
+  u.pair_count = u.window_count = 0;
+  for (Index i = 0; i < count; ++i)
+    for (Index p = Unknowns::kPairs * i; p < Unknowns::kPairs * i + u.pairs_of[i]; ++p) {
+      Expected& expected = u.expected[u.details[p].expected];
+      if (expected.window == kUnpaired) {
+        if (u.window_count == u.most_window) continue;
+        expected.window = u.window_count;
+        u.window[u.window_count++] = expected.slot;
+      }
+      u.pairs[u.pair_count] = u.pairs[p];
+      u.pairs[u.pair_count].landmark = expected.window;
+      u.details[u.pair_count++] = u.details[p];
+    }
 }
 
 template <class Pose>
@@ -159,10 +195,35 @@ bool Filter<Pose>::confusable(const Sensor<Pose>& sensor, Index count, Index obs
   return false;
 }
 
+// Whether the observation is of a landmark that the map lacks, though it lies near some: each of those was seen in this
+// frame by itself, a landmark is seen once a frame, and noise does not make one of two observations.
+template <class Pose>
+bool Filter<Pose>::other_than_paired(const Sensor<Pose>& sensor, Index count, Index observation) const {
+  const Index rows = sensor.rows();
+  const double bound = new_thresholds_[rows];
+  const Vector3 z(observations_[observation].z);
+  const Matrix3& noise = unknowns_.noise[observation];
+  for (Index e = 0; e < unknowns_.expected_count; ++e) {
+    const Expected& expected = unknowns_.expected[e];
+    if (!expected.paired &&
+        within_bound(sensor.residual(z, expected.prediction.z), expected.innovation + noise, rows, bound))
+      return false;
+  }
+  for (Index o = 0; o < count; ++o)
+    if (o != observation && within_bound(sensor.residual(z, Vector3(observations_[o].z)), noise + unknowns_.noise[o],
+                                         rows, gate_thresholds_[rows]))
+      return false;
+  return true;
+}
+
 // What was paired goes to the batch; of the rest, what is far from every landmark is new.
 template <class Pose>
 void Filter<Pose>::settle_pairs(const Sensor<Pose>& sensor, Index count) {
   const Index rows = sensor.rows();
+  for (Index i = 0; i < count; ++i) {
+    const Index chosen = unknowns_.association.chosen(i);
+    if (chosen != kUnpaired) unknowns_.expected[unknowns_.details[chosen].expected].paired = true;
+  }
   for (Index i = 0; i < count; ++i) {
     Match& match = next_matches_[i];
     const Match& nearest = unknowns_.nearest[i];
@@ -171,7 +232,7 @@ void Filter<Pose>::settle_pairs(const Sensor<Pose>& sensor, Index count) {
       const Expected& expected = unknowns_.expected[unknowns_.details[chosen].expected];
       match.landmark = ids_[expected.slot];
       add_candidate(sensor, i, expected.slot, expected.prediction);
-    } else if (nearest.distance > new_thresholds_[rows]) {
+    } else if (nearest.distance > new_thresholds_[rows] || other_than_paired(sensor, count, i)) {
       add_new_one(sensor, i);
     } else {
       match = nearest;

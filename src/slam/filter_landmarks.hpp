@@ -85,12 +85,9 @@ void Filter<Pose>::set_view(int sensor, const Vector3& lower, const Vector3& upp
 template <class Pose>
 bool Filter<Pose>::in_view(const Sensor<Pose>& sensor, const View& view, Index slot) const {
   constexpr double kOff = 3.0;
-  constexpr Index n = kDof + kDim;
   Prediction<Pose> prediction;
-  if (!sensor.predict(ekf_.pose(), ekf_.landmark(slot), Mount::Zero(), prediction)) return false;
-  double P[n * n];
-  ekf_.gather_ordinary(&slot, 1, P, n);
-  const Matrix3 S = image_covariance(Eigen::Map<const Eigen::MatrixXd>(P, n, n), prediction, 0, prediction, 0);
+  Matrix3 S;
+  if (!image_of(sensor, slot, prediction, S)) return false;
   for (int r = 0; r < sensor.rows(); ++r) {
     const double off = kOff * std::sqrt(S(r, r));
     if (!(prediction.z[r] - off >= view.lower[r] && prediction.z[r] + off <= view.upper[r])) return false;

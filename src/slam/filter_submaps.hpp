@@ -200,28 +200,11 @@ void Filter<Pose>::update_map_by_fix(const AbsoluteFix<Pose>& fix) {
   finish_report(1);
 }
 
-// e_p = e_pS + G(R_S p_L) e_RS + R_S e_pL,  e_R = e_RS + R_S e_RL: base and open submap share nothing.
-template <class Pose>
-typename Filter<Pose>::Square Filter<Pose>::base_to_pose() const {
-  Square J = Square::Identity();
-  J.template topRightCorner<kDim, kTurn>() = Rotation::turn(map_->base().rotation() * ekf_.pose().translation());
-  return J;
-}
-
-template <class Pose>
-typename Filter<Pose>::Square Filter<Pose>::local_part() const {
-  Square R = Square::Zero();
-  R.template topLeftCorner<kDim, kDim>() = map_->base().rotation().matrix();
-  R.template bottomRightCorner<kTurn, kTurn>() = map_->base().rotation().adjoint();
-  return R * ekf_.pose_covariance() * R.transpose();
-}
-
+// Base and open submap share nothing.
 template <class Pose>
 typename Filter<Pose>::Square Filter<Pose>::pose_covariance() const {
   if (map_ == nullptr) return ekf_.pose_covariance();
-  const Square J = base_to_pose();
-  const Square lower = J * map_->base_covariance() * J.transpose() + local_part();
-  return lower.template selfadjointView<Eigen::Lower>();
+  return ProductJacobians(map_->base(), ekf_.pose()).covariance(map_->base_covariance(), ekf_.pose_covariance());
 }
 
 template <class Pose>
@@ -234,10 +217,9 @@ void Filter<Pose>::pose_joint_covariance(const std::size_t* indices, std::size_t
     ekf_.gather_ordinary(slots.data(), static_cast<Index>(count), joint.data(), n);
   } else {
     map_->base_joint_covariance(indices, count, joint.data());
-    const Square J = base_to_pose();
-    const Square pose = J * joint.topLeftCorner<kDof, kDof>() * J.transpose() + local_part();
-    const Eigen::MatrixXd across = joint.bottomLeftCorner(landmarks, kDof) * J.transpose();
-    joint.topLeftCorner<kDof, kDof>() = pose.template selfadjointView<Eigen::Lower>();
+    const ProductJacobians J(map_->base(), ekf_.pose());
+    const Eigen::MatrixXd across = joint.bottomLeftCorner(landmarks, kDof) * J.by_a.transpose();
+    joint.topLeftCorner<kDof, kDof>() = J.covariance(joint.topLeftCorner<kDof, kDof>(), ekf_.pose_covariance());
     joint.bottomLeftCorner(landmarks, kDof) = across;
     joint.topRightCorner(kDof, landmarks) = across.transpose();
   }

@@ -152,7 +152,7 @@ bool Filter<Pose>::linearise(const Sensor<Pose>& sensor, double* residual_only) 
     const auto pose = ekf_.add_pose_block(row, rows, prediction.J_z_pose, sensor.relative());
     if (mode == MountNoise::per_frame) ekf_.add_mount_block(row, rows, prediction.J_z_mount);
     ekf_.add_landmark_block(row, rows, prediction.J_z_landmark, candidate.number, pose);
-    Matrix3 noise = candidate.noise;
+    Matrix3 noise = options_.error_persistence * candidate.noise;
     if (mode == MountNoise::per_observation)
       noise += prediction.J_z_mount * sensor.mount_noise() * prediction.J_z_mount.transpose();
     double* block = ekf_.batch().add_noise(row, rows);

@@ -185,6 +185,7 @@ void Team::take_in_extended(std::vector<Turn>& turns) {
     }
     const bool full = options_.mode == TeamMode::eo_full;
     MutualSighting seen = mutual_sighting(*there, noise_of(*there), *back, noise_of(*back), full);
+    seen.covariance *= options_.filter.error_persistence;
     box_->filter.set_sighting(kExtended, seen);
     scan(box_->filter, kExtended, turn.packet.landmarks, {}, false);
     counts_.sightings_used += 2;

@@ -37,14 +37,6 @@ static size_t map_size(const scene *s) {
   return size;
 }
 
-static cairn_update_report report_of(const scene *s) {
-  cairn_update_report report;
-  memset(&report, 0, sizeof report);
-  report.struct_size = sizeof report;
-  assert_ok(cairn_filter_last_update(s->filter, &report));
-  return report;
-}
-
 static cairn_landmark landmark(const scene *s, uint64_t id) {
   cairn_landmark out;
   assert_ok(cairn_map_landmark(cairn_filter_map(s->filter), id, &out));
@@ -66,13 +58,13 @@ static void a_deferred_landmark_counts_after_enough_sightings(void **state) {
   look(&s, names, places, 2, matches);
   assert_int_equal(matches[0].result, CAIRN_NEW);
   assert_int_equal(map_size(&s), 0);
-  assert_int_equal(report_of(&s).deferred, 2);
+  assert_int_equal(last_update(s.filter).deferred, 2);
   look(&s, names, places, 2, matches);
   assert_int_equal(matches[0].result, CAIRN_MATCHED);
   assert_int_equal(map_size(&s), 0);
   look(&s, names, places, 1, matches); /* the first alone: it counts now */
   assert_int_equal(map_size(&s), 1);
-  assert_int_equal(report_of(&s).deferred, 1);
+  assert_int_equal(last_update(s.filter).deferred, 1);
   look(&s, names + 2, places + 2, 2, matches); /* two more, deferred, behind those that count */
   look(&s, names + 1, places + 1, 1, matches);
   assert_int_equal(map_size(&s), 2);
@@ -109,7 +101,7 @@ static void a_deferred_landmark_that_is_not_seen_again_goes(void **state) {
   uint32_t removed = 0;
   for (int k = 0; k < 6; ++k) {
     look(&s, names + 1, places + 1, 1, NULL);
-    removed += report_of(&s).removed;
+    removed += last_update(s.filter).removed;
   }
   assert_int_equal(removed, 1);
   assert_int_equal(map_size(&s), 1);
@@ -134,9 +126,9 @@ static void what_is_in_view_and_missed_goes(void **state) {
   assert_ok(cairn_filter_set_view(s.filter, s.sensor, lower, upper));
   look(&s, names, places, 1, NULL);
   look(&s, names + 1, places + 1, 1, NULL); /* number 12 was missed once, and is seen */
-  assert_int_equal(report_of(&s).removed, 1); /* number 13, missed twice; 14 is out of view */
+  assert_int_equal(last_update(s.filter).removed, 1); /* number 13, missed twice; 14 is out of view */
   look(&s, names + 1, places + 1, 1, NULL);
-  assert_int_equal(report_of(&s).removed, 1); /* number 11, missed twice in a row */
+  assert_int_equal(last_update(s.filter).removed, 1); /* number 11, missed twice in a row */
   assert_int_equal(map_size(&s), 2);
   assert_near(landmark(&s, names[1]).position[1], places[1][1], 1e-9);
   assert_near(landmark(&s, names[3]).position[0], places[3][0], 1e-9);

@@ -565,14 +565,6 @@ static void its_covariance_is_honest(void** state) {
 
 /* --- observations without names --- */
 
-static cairn_update_report last(const cairn_filter* filter) {
-  cairn_update_report report;
-  memset(&report, 0, sizeof report);
-  report.struct_size = sizeof report;
-  assert_ok(cairn_filter_last_update(filter, &report));
-  return report;
-}
-
 static void names_are_not_asked_for(void** state) {
   static const int32_t ways[] = {CAIRN_ASSOCIATION_NEAREST, CAIRN_ASSOCIATION_JOINT};
   (void)state;
@@ -670,12 +662,12 @@ static void what_cannot_be_true_together_is_paired_once(void** state) {
   assert_int_equal(m[1 - paired].landmark, 1 - paired);
   assert_true(m[1 - paired].distance < m[1 - paired].threshold);
   assert_near(m[1 - paired].threshold, 9.21034037197618, 1e-9); /* two degrees of freedom */
-  assert_true(last(f).association_nodes >= 2 && last(f).association_exhausted == 0);
+  assert_true(last_update(f).association_nodes >= 2 && last_update(f).association_exhausted == 0);
   cairn_filter_destroy(f);
   f = open_pushed(CAIRN_ASSOCIATION_NEAREST, 2000, points, 2, 1.0);
   assert_ok(cairn_filter_update(f, 0, looked, 2, m));
   assert_true((m[0].reason == CAIRN_REASON_BATCH_GATE) != (m[1].reason == CAIRN_REASON_BATCH_GATE));
-  assert_int_equal(last(f).association_nodes, 0);
+  assert_int_equal(last_update(f).association_nodes, 0);
   cairn_filter_destroy(f);
 }
 
@@ -727,7 +719,7 @@ static void a_bound_of_tests_is_kept_and_told(void** state) {
   cairn_filter* f = open_pushed(CAIRN_ASSOCIATION_JOINT, 1, points, POINTS, 2.0);
   for (int i = 0; i < POINTS; ++i) points[i].z[0] += i % 3 == 0 ? 1.3 : i % 3 == 1 ? 0.4 : -0.7; /* no push */
   assert_ok(cairn_filter_update(f, 0, points, POINTS, m));
-  const cairn_update_report report = last(f);
+  const cairn_update_report report = last_update(f);
   assert_int_equal(report.association_exhausted, 1);
   assert_true(report.association_nodes >= 1 && report.association_nodes <= 8 * POINTS);
   assert_int_equal(report.matched + report.placed + report.rejected, POINTS);

@@ -76,6 +76,14 @@ void snapshot_free(snapshot *s) {
   s->size = 0;
 }
 
+cairn_update_report last_update(const cairn_filter *filter) {
+  cairn_update_report report;
+  memset(&report, 0, sizeof report);
+  report.struct_size = sizeof report;
+  assert_ok(cairn_filter_last_update(filter, &report));
+  return report;
+}
+
 void snapshot_take(snapshot *s, const cairn_filter *filter) {
   const cairn_map *map = cairn_filter_map(filter);
   size_t n = 0, needed = 0;

@@ -105,6 +105,9 @@ void rig_close(rig *r);
 /* Takes a step. `matches` (room for WORLD_LANDMARKS) may be NULL. Gives the first status that is not CAIRN_OK. */
 cairn_status rig_take(rig *r, const frame *f, cairn_match *matches);
 
+/* Of the update before. */
+cairn_update_report last_update(const cairn_filter *filter);
+
 /* Everything that a filter tells about its state, as bytes. */
 typedef struct snapshot {
   size_t size;

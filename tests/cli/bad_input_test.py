@@ -156,6 +156,7 @@ class BadOptions(ProgramTest):
                 ([log, "--submap-landmarks", "4097"], "from 0 to 4096"), ([log, "--submap-distance=-1"], "0 or more"),
                 ([log, "--join", "loose"], "auto, dense or sparse"),
                 ([log, "--association", "guess"], "known, nearest or joint"), ([log, "--compare"], "unknown option '--compare'"),
+                ([log, "--error-persistence", "0.5"], "1 or more"), ([log, "--error-persistence", "x"], "--error-persistence"),
                 ([log, "--min-disparity", "-3"], "above 0"), ([log, "--min-disparity-sigmas=-1"], "0 or more"), ([log, "--pixel-noise", "x"], "--pixel-noise"),
                 ([log, "--velocity-noise="], "--velocity-noise"), ([log, "--rate-noise", "inf"], "--rate-noise")]:
             self.assert_refused(call("run", *arguments), word)

@@ -167,6 +167,17 @@ class Mrclam(ProgramTest):
         alone = self.summary(folder, "--mode", "mono")
         self.assertGreater(alone["pose_rmse_m"], 2 * s["pose_rmse_m"])
 
+    @unittest.skipUnless(DATA, "CAIRN_DATA_DIR is not set")
+    def test_five_real_robots_without_ids(self):
+        folder = os.path.join(DATA, "mrclam7")
+        noise = ("--range-noise", "0.044", "--bearing-noise", "0.016", "--error-persistence", "18")
+        known = self.summary(folder, *noise)
+        s = self.summary(folder, "--association", "joint")
+        self.assertLessEqual(abs(s["landmarks"] - 15), 2)
+        self.assertLessEqual(s["pose_rmse_m"], 1.25 * known["pose_rmse_m"])
+        self.assertLessEqual(s["landmark_rmse_m"], 1.25 * known["landmark_rmse_m"])
+        self.assertLessEqual(s["pose_anees_per_dof"], 1.5)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -92,3 +92,27 @@ TEST_CASE("absolute fix: no heading within 5 degrees of the vertical") {
     CHECK(!fix.defined(T));
   }
 }
+
+TEST_CASE("absolute fix: in the plane, values and Jacobians") {
+  Random random(6);
+  const Vector2 lever(0.4, -0.2);
+  for (const SE2& T : cairn::test::awkward_poses<SE2>(7)) {
+    if (T.translation().norm() > 1e3) continue;  // differences lose their digits there
+    const double yaw = T.rotation().angle();
+    const AbsoluteFix<SE2> there = AbsoluteFix<SE2>::position(T * lever, Matrix2::Identity(), lever);
+    CHECK(there.rows() == 2);
+    CHECK(there.residual(T).norm() <= 1e-13 * (1 + T.translation().norm()));
+    const AbsoluteFix<SE2> fixes[] = {AbsoluteFix<SE2>::position(random.normal_vector<2>(), Matrix2::Identity(), lever),
+                                      AbsoluteFix<SE2>::attitude(SO2::from_angle(yaw + 0.3), Vector1(1.0)),
+                                      AbsoluteFix<SE2>::heading(yaw - 0.4, 0.1)};
+    for (const AbsoluteFix<SE2>& fix : fixes) {
+      CHECK(fix.defined(T));
+      const auto numerical = cairn::test::pose_jacobian([&](const SE2& pose) { return fix.residual(pose); }, T);
+      CHECK((fix.jacobian(T) + numerical).norm() <= 1e-7 * (1 + numerical.norm()));
+      CHECK(fix.jacobian(T).bottomRows(3 - fix.rows()).isZero(0.0));
+    }
+    CHECK(fixes[1].rows() == 1);
+    CHECK(fixes[1].residual(T)(0) == doctest::Approx(0.3).epsilon(1e-12));
+    CHECK(fixes[2].residual(T)(0) == doctest::Approx(-0.4).epsilon(1e-12));
+  }
+}

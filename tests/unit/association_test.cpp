@@ -6,8 +6,11 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
+#include "association/frame_index.hpp"
 #include "core/chi_square.hpp"
 #include "numerical.hpp"
 
@@ -277,4 +280,27 @@ TEST_CASE("association: nothing to pair, and innovations without a covariance") 
   singular.association.joint_compatibility(scene.candidates.data(), 2, 3, scene, kPlenty);
   CHECK(singular.association.pairs() == 1);
   CHECK(singular.association.chosen(0) == kUnpaired);
+}
+
+TEST_CASE("association: the index of a frame finds what a look at all of them finds") {
+  Random random(11);
+  Arena measure;
+  const FrameIndex unused(measure, 40);
+  Arena arena(measure.used());
+  FrameIndex index(arena, 40);
+  for (Index count : {0, 1, 2, 7, 40})
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      std::vector<double> values;
+      for (Index i = 0; i < count; ++i) values.push_back(std::floor(random.uniform(0, 20)));  // many of a kind
+      index.build(count, [&](Index i) { return values[static_cast<std::size_t>(i)]; });
+      const double centre = std::floor(random.uniform(-2, 22));
+      for (double reach : {0.0, 1.0, 3.5, std::numeric_limits<double>::infinity()}) {
+        std::vector<Index> found, expected;
+        index.near(centre, reach, [&](Index i) { found.push_back(i); });
+        for (Index i = 0; i < count; ++i)
+          if (std::abs(values[static_cast<std::size_t>(i)] - centre) <= reach) expected.push_back(i);
+        std::sort(found.begin(), found.end());
+        CHECK(found == expected);
+      }
+    }
 }

@@ -300,6 +300,24 @@ struct Both {
       worst =
           std::max(worst, relative(ekf.companion_covariance(static_cast<Index>(k)), dense.P.block(at, at, kDof, kDof)));
     }
+    return std::max(worst, worst_relative());
+  }
+  // What a sensor of R^T (l - p) feels, in the size of the two that make the difference.
+  double worst_relative() const {
+    double worst = 0;
+    const Index pose = dense.pose_at(active);
+    for (std::size_t l = 0; l < landmarks.size(); ++l) {
+      const Index point = dense.point_at(landmarks[l]);
+      Dynamic J = Dynamic::Zero(kDim, dense.P.rows());
+      J.block(0, pose, kDim, kDim) = -Dynamic::Identity(kDim, kDim);
+      J.block(0, pose + kDim, kDim, kTurn) =
+          -Pose::Rotation::turn(dense.points[landmarks[l]] - dense.poses[active].translation());
+      J.block(0, point, kDim, kDim).setIdentity();
+      const Dynamic parts = J.cwiseAbs() * dense.P.cwiseAbs() * J.cwiseAbs().transpose();
+      const Dynamic D = J * dense.P * J.transpose();
+      worst = std::max(worst,
+                       (ekf.relative_covariance(ekf.companions() + static_cast<Index>(l)) - D).norm() / parts.norm());
+    }
     return worst;
   }
 

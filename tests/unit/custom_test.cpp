@@ -258,3 +258,18 @@ TEST_CASE("custom: check finds a wrong Jacobian and passes a right one") {
   user.sensor = &at_origin;
   CHECK_FALSE(check_custom(CustomSensor<SE3>(wrap(user, 6)), kPose, kPose.translation(), worst));
 }
+
+TEST_CASE("custom: the first value that is no angle is a plain difference") {
+  const struct {
+    int rows;
+    std::uint32_t angles;
+    int plain;
+  } cases[] = {{3, 0, 0}, {3, 1, 1}, {3, 3, 2}, {3, 7, -1}, {1, 1, -1}, {2, 4, 0}};
+  for (const auto& c : cases) {
+    CustomParameters parameters;
+    parameters.rows = c.rows;
+    parameters.angle_mask = c.angles;
+    CHECK(CustomSensor<SE3>(parameters).plain_row() == c.plain);
+    CHECK(CustomSensor<SE2>(parameters).plain_row() == c.plain);
+  }
+}

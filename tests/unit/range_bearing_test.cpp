@@ -12,6 +12,7 @@
 
 #include "geometry/angle.hpp"
 #include "numerical.hpp"
+#include "sensor/cartesian.hpp"
 
 using namespace cairn;
 using namespace cairn::test;
@@ -19,17 +20,6 @@ using namespace cairn::test;
 namespace {
 
 const Vector3 kNone = Vector3::Zero();
-
-std::vector<SE2> awkward_planar_poses() {
-  Random random(3);
-  std::vector<SE2> poses;
-  double far = 0;
-  for (const Vector1& turn : awkward_turns<1>(4)) {
-    poses.emplace_back(SO2::exp(turn), Vector2(far * random.normal_vector<2>()));
-    far = far == 0 ? 1e-8 : far > 100 ? 0 : 100 * far;
-  }
-  return poses;
-}
 
 template <class A, class B>
 double relative(const A& analytic, const B& numerical) {
@@ -113,7 +103,7 @@ TEST_CASE("range and bearing: Jacobians") {
   mounted.near_range = 0.01;
   const RangeBearing plain, aside(mounted);
   for (const RangeBearing* radar : {&plain, &aside})
-    for (const SE2& T : awkward_planar_poses())
+    for (const SE2& T : awkward_poses<SE2>(3))
       for (double range : {0.2, 1.0, 30.0, 5000.0})
         for (double bearing : kBearings) check_sensor(*radar, T, Vector3(range, bearing, 0), kNone);
 }
@@ -169,7 +159,7 @@ TEST_CASE("range and bearing: noise") {
 TEST_CASE("extended observation: Jacobians") {
   Random random(9);
   const double ranges[] = {0.5, 20.0, 1500.0};
-  for (const SE2& T : awkward_planar_poses())
+  for (const SE2& T : awkward_poses<SE2>(3))
     for (double range : ranges)
       for (double bearing : {0.0, 0.7, kPi - 1e-9, kPi, -2.0}) {
         const double back = random.uniform(-kPi, kPi);
@@ -246,4 +236,17 @@ TEST_CASE("extended observation: near the teammate there is nothing to see") {
   CHECK_FALSE(extended.predict(SE2(), Vector2(10.1, 0), kNone, seen));
   CHECK(extended.predict(SE2(), Vector2(0.1, 0), kNone, seen));  // near the own vehicle, far from the other
   CHECK_FALSE(extended.place(SE2(), Vector3(0.1, 0, 0), kNone, placed));
+}
+
+TEST_CASE("range-bearing: a sensor of points in the plane") {
+  CartesianParameters<SE2> parameters;
+  parameters.T_body_sensor = SE2(SO2::from_angle(0.4), Vector2(0.3, -0.1));
+  parameters.sigma << 0.1, 0.2;
+  const Cartesian<SE2> sensor(parameters);
+  CHECK(sensor.rows() == 2);
+  CHECK(sensor.noise().diagonal().head<2>().isApprox(Vector2(0.01, 0.04)));
+  for (const SE2& T : awkward_poses<SE2>(3)) {
+    check_sensor(sensor, T, Vector3(3, -2, 0), kNone);
+    check_sensor(sensor, T, Vector3(1, 40, 0), kNone);
+  }
 }
