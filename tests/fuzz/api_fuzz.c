@@ -19,7 +19,7 @@
 
 typedef struct slot {
   cairn_filter *filter;
-  bool wild;
+  bool wild, planar;
   uint32_t max_landmarks, max_observations;
   int32_t sensors;
   uint32_t rows[64]; /* of an observation, by sensor */
@@ -27,19 +27,8 @@ typedef struct slot {
 
 static slot slots[3];
 static slot *now;
-static const char *operation = "";
-static unsigned long long call_number, counts[9], refused_by_audit;
-static uint64_t the_seed;
+static unsigned long long refused_by_audit;
 
-static void report_and_exit(const char *what, double value) {
-  fprintf(stderr, "api_fuzz: seed %llu, call %llu, %s: %s (%g)\n  last message: %s\n", (unsigned long long)the_seed,
-          call_number, operation, what, value, cairn_last_message());
-  exit(1);
-}
-#define HOLDS(condition, value)                                     \
-  do {                                                              \
-    if (!(condition)) report_and_exit(#condition, (double)(value)); \
-  } while (0)
 static bool loose;
 #define HOLDS_OF_NUMBERS(s, condition, value)              \
   do {                                                     \
@@ -82,14 +71,6 @@ static void check_state(const slot *s, bool whole) {
   refused_by_audit += !(pivot > 0);
 }
 
-static void check_status(cairn_status status) {
-  HOLDS(status <= 0 && status >= CAIRN_ERROR_STATE, status); /* CAIRN_ERROR_INTERNAL is a defect by its definition */
-  ++counts[-status];
-  if (status == CAIRN_OK) return;
-  const char *line = cairn_last_message();
-  HOLDS(line != NULL && line[0] != '\0' && strchr(line, '\n') == NULL, status);
-}
-
 static uint64_t id(void) { return fuzz_one_in(60) ? fuzz_id() : fuzz_below(now->max_landmarks + 3u); }
 static int32_t sensor(void) { return fuzz_one_in(40) ? fuzz_int() : (int32_t)fuzz_below((uint64_t)now->sensors + 1); }
 
@@ -102,11 +83,17 @@ static void create(slot *s) {
   cairn_filter_options o;
   cairn_filter *filter = NULL;
   size_t bytes = 0;
-  operation = "create";
+  fuzz_operation = "create";
   fuzz_wild = true;
-  check_status(cairn_filter_options_init(&o, sizeof o));
-  slot fresh = {
-      NULL, fuzz_one_in(2), 1 + (uint32_t)fuzz_below(fuzz_one_in(10) ? 120 : 25), 1 + (uint32_t)fuzz_below(12), 0, {0}};
+  fuzz_check_status(cairn_filter_options_init(&o, sizeof o));
+  slot fresh = {NULL,
+                fuzz_one_in(2),
+                fuzz_one_in(3),
+                1 + (uint32_t)fuzz_below(fuzz_one_in(10) ? 120 : 25),
+                1 + (uint32_t)fuzz_below(12),
+                0,
+                {0}};
+  o.vehicle = fuzz_one_in(60) ? fuzz_int() : fresh.planar ? CAIRN_VEHICLE_PLANAR : CAIRN_VEHICLE_SPATIAL;
   o.error = fuzz_one_in(3);
   o.max_landmarks = fresh.max_landmarks, o.max_observations = fresh.max_observations;
   o.max_sensors = 1 + (uint32_t)fuzz_below(10);
@@ -119,6 +106,10 @@ static void create(slot *s) {
   if (fuzz_one_in(3)) o.association = fuzz_one_in(20) ? fuzz_int() : (int32_t)fuzz_below(3);
   if (fuzz_one_in(6)) o.association_nodes = (uint32_t)fuzz_below(50);
   if (fuzz_one_in(6)) o.new_probability = fuzz_positive(0.5);
+  if (fuzz_one_in(6)) o.association_distance = fuzz_one_in(20) ? fuzz_int() : (int32_t)fuzz_below(2);
+  if (fuzz_one_in(4)) o.deferred_sightings = 1 + (uint32_t)fuzz_below(4), o.deferred_frames = (uint32_t)fuzz_below(9);
+  if (fuzz_one_in(4)) o.missed_frames = (uint32_t)fuzz_below(4);
+  if (fuzz_one_in(4)) o.error_persistence = fuzz_bad() ? fuzz_garbage() : fuzz_uniform(1, 30);
   if (fuzz_one_in(6)) o.submap_distance = fuzz_positive(5);
   if (fuzz_one_in(6)) o.submap_extent = fuzz_positive(10);
   if (fuzz_one_in(6)) o.submap_sigma = fuzz_positive(0.1);
@@ -136,17 +127,24 @@ static void create(slot *s) {
     memcpy(given, &o, sizeof o);
   }
   const cairn_status sized = cairn_filter_required_bytes(fuzz_maybe(given), fuzz_maybe_out(&bytes));
-  check_status(sized);
+  fuzz_check_status(sized);
   const cairn_status status = cairn_filter_create(fuzz_maybe(given), fuzz_one_in(50) ? NULL : &filter);
-  check_status(status);
+  fuzz_check_status(status);
   HOLDS((filter != NULL) == (status == CAIRN_OK), status);
   free(given);
   if (filter == NULL) return;
   cairn_filter_destroy(s->filter);
   *s = fresh;
   s->filter = filter;
-  if (fuzz_one_in(2)) check_status(cairn_filter_set_log(filter, hear, &heard));
+  if (fuzz_one_in(2)) fuzz_check_status(cairn_filter_set_log(filter, hear, &heard));
   now = s;
+}
+
+static void draw_radar(cairn_range_bearing *r) {
+  fuzz_check_status(cairn_range_bearing_init(r, sizeof *r));
+  if (fuzz_one_in(3)) r->T_body_sensor.position[fuzz_below(2)] = fuzz_number(1);
+  r->range_sigma = fuzz_positive(0.5), r->bearing_sigma = fuzz_positive(0.1);
+  if (fuzz_one_in(4)) r->near_range = fuzz_positive(0.1);
 }
 
 static void add_sensor(slot *s) {
@@ -154,10 +152,10 @@ static void add_sensor(slot *s) {
   cairn_status status = CAIRN_OK;
   void *given = NULL;
   uint32_t rows = 3;
-  const int kind = (int)fuzz_below(5);
+  const int kind = s->planar && !fuzz_one_in(9) ? 2 + (int)fuzz_below(4) : (int)fuzz_below(fuzz_one_in(9) ? 6 : 5);
   if (kind == 0) {
     cairn_stereo_head h;
-    check_status(cairn_stereo_head_init(&h, sizeof h));
+    fuzz_check_status(cairn_stereo_head_init(&h, sizeof h));
     h.encoder_mode = fuzz_one_in(30) ? fuzz_int() : (int32_t)fuzz_below(2);
     fuzz_numbers(h.platform, 3, 1), fuzz_numbers(h.stick, 3, 1);
     if (fuzz_one_in(2)) fuzz_numbers(h.camera_quaternion, 4, 1);
@@ -168,7 +166,7 @@ static void add_sensor(slot *s) {
     status = cairn_filter_add_stereo_head(s->filter, fuzz_maybe(given), out);
   } else if (kind == 1) {
     cairn_stereo_camera c;
-    check_status(cairn_stereo_camera_init(&c, sizeof c));
+    fuzz_check_status(cairn_stereo_camera_init(&c, sizeof c));
     c.fu = fuzz_positive(500), c.fv = fuzz_positive(500), c.baseline = fuzz_positive(1), c.cu = fuzz_number(500);
     if (fuzz_one_in(3)) fuzz_pose(&c.T_body_camera);
     c.sigma[fuzz_below(3)] = fuzz_positive(2);
@@ -176,16 +174,23 @@ static void add_sensor(slot *s) {
     status = cairn_filter_add_stereo_camera(s->filter, fuzz_maybe(given), out);
   } else if (kind == 2) {
     cairn_cartesian c;
-    check_status(cairn_cartesian_init(&c, sizeof c));
+    fuzz_check_status(cairn_cartesian_init(&c, sizeof c));
     if (fuzz_one_in(2)) fuzz_pose(&c.T_body_sensor);
     c.sigma[fuzz_below(3)] = fuzz_positive(1);
     given = fuzz_one_in(4) ? fuzz_resized(&c, sizeof c) : memcpy(malloc(sizeof c), &c, sizeof c);
     status = cairn_filter_add_cartesian(s->filter, fuzz_maybe(given), out);
+    if (s->planar) rows = 2;
+  } else if (kind == 5) {
+    cairn_range_bearing r;
+    draw_radar(&r);
+    given = fuzz_one_in(4) ? fuzz_resized(&r, sizeof r) : memcpy(malloc(sizeof r), &r, sizeof r);
+    status = cairn_filter_add_range_bearing(s->filter, fuzz_maybe(given), out);
+    rows = 2;
   } else {
     cairn_custom c;
     double worst, landmark[3];
     cairn_pose T;
-    check_status(cairn_custom_init(&c, sizeof c));
+    fuzz_check_status(cairn_custom_init(&c, sizeof c));
     c.predict = kind == 3 ? fuzz_custom_predict : fuzz_range_predict;
     c.place = kind == 3 && !fuzz_one_in(4) ? fuzz_custom_place : NULL;
     c.rows = rows = kind == 3 ? 3 : 1;
@@ -194,12 +199,12 @@ static void add_sensor(slot *s) {
     c.angle_mask = (uint32_t)fuzz_below(8);
     c.sigma[0] = fuzz_positive(1);
     fuzz_pose(&T), fuzz_numbers(landmark, 3, 5);
-    check_status(cairn_custom_check(fuzz_maybe(&c), fuzz_maybe(&T), fuzz_maybe(landmark), fuzz_maybe_out(&worst)));
+    fuzz_check_status(cairn_custom_check(fuzz_maybe(&c), fuzz_maybe(&T), fuzz_maybe(landmark), fuzz_maybe_out(&worst)));
     given = memcpy(malloc(sizeof c), &c, sizeof c);
     status = cairn_filter_add_custom(s->filter, fuzz_maybe(given), out);
   }
   free(given);
-  check_status(status);
+  fuzz_check_status(status);
   HOLDS((status == CAIRN_OK) == (added != -77), added);
   if (status != CAIRN_OK) return;
   HOLDS(added == s->sensors, added);
@@ -212,25 +217,25 @@ static void motion(slot *s) {
   cairn_pose T;
   const double dt = fuzz_bad() ? fuzz_garbage() : fuzz_uniform(0.01, 0.5);
   const int kind = (int)fuzz_below(5);
-  if (kind == 0) check_status(cairn_filter_predict_wheels(f, dt, fuzz_number(5), fuzz_number(5)));
+  if (kind == 0) fuzz_check_status(cairn_filter_predict_wheels(f, dt, fuzz_number(5), fuzz_number(5)));
   fuzz_numbers(v, 3, 1), fuzz_numbers(w, 3, 1);
-  if (kind == 1) check_status(cairn_filter_predict_twist(f, dt, fuzz_maybe(v), fuzz_maybe(w)));
+  if (kind == 1) fuzz_check_status(cairn_filter_predict_twist(f, dt, fuzz_maybe(v), fuzz_maybe(w)));
   fuzz_pose(&T), fuzz_covariance(c, 6, 1e-4);
-  if (kind == 2) check_status(cairn_filter_predict_increment(f, fuzz_maybe(&T), fuzz_maybe(c)));
+  if (kind == 2) fuzz_check_status(cairn_filter_predict_increment(f, fuzz_maybe(&T), fuzz_maybe(c)));
   if (kind == 3) {
     cairn_wheels wheels;
-    check_status(cairn_wheels_init(&wheels, sizeof wheels));
+    fuzz_check_status(cairn_wheels_init(&wheels, sizeof wheels));
     wheels.radius = fuzz_positive(0.5), wheels.track = fuzz_positive(1), wheels.slip_sigma = fuzz_positive(0.1);
     void *given = fuzz_resized(&wheels, sizeof wheels);
-    check_status(cairn_filter_set_wheels(f, fuzz_maybe(given)));
+    fuzz_check_status(cairn_filter_set_wheels(f, fuzz_maybe(given)));
     free(given);
   }
   if (kind == 4) {
     cairn_twist_noise noise;
-    check_status(cairn_twist_noise_init(&noise, sizeof noise));
+    fuzz_check_status(cairn_twist_noise_init(&noise, sizeof noise));
     noise.velocity_sigma[fuzz_below(3)] = fuzz_positive(0.1), noise.rate_sigma[fuzz_below(3)] = fuzz_positive(0.1);
     void *given = fuzz_resized(&noise, sizeof noise);
-    check_status(cairn_filter_set_twist_noise(f, fuzz_maybe(given)));
+    fuzz_check_status(cairn_filter_set_twist_noise(f, fuzz_maybe(given)));
     free(given);
   }
 }
@@ -247,11 +252,11 @@ static void observe(slot *s) {
     o[i].id = fuzz_one_in(40) ? id() : (first + i) % (s->max_landmarks + 2u);
     fuzz_numbers(o[i].z, 3, 10);
     if (fuzz_one_in(2)) o[i].z[0] = fuzz_uniform(0, 400), o[i].z[1] = o[i].z[0] - fuzz_uniform(0, 30);
-    if (fuzz_one_in(10)) fuzz_covariance(o[i].covariance, 3, 1);
+    if (fuzz_one_in(10)) fuzz_covariance(o[i].covariance, by >= 0 && by < s->sensors ? s->rows[by] : 3, 1);
   }
   const bool asked = !fuzz_one_in(5);
   const cairn_status status = cairn_filter_update(s->filter, by, fuzz_maybe(o), count, asked ? m : NULL);
-  check_status(status);
+  fuzz_check_status(status);
   for (size_t i = 0; i < count; ++i) {
     if (status != CAIRN_OK) {
       HOLDS(m[i].result == 0x5a5a5a5a && m[i].reason == 0x5a5a5a5a, i);
@@ -261,8 +266,27 @@ static void observe(slot *s) {
       HOLDS_OF_NUMBERS(s, m[i].distance >= 0 && !isnan(m[i].threshold), m[i].distance);
     }
   }
-  if (by >= 0 && by < s->sensors) check_status(cairn_filter_point_head(s->filter, by, fuzz_number(1), fuzz_number(1)));
+  if (by >= 0 && by < s->sensors)
+    fuzz_check_status(cairn_filter_point_head(s->filter, by, fuzz_number(1), fuzz_number(1)));
   free(o), free(m);
+}
+
+/* What becomes of landmarks beside being seen. */
+static void life(slot *s) {
+  double lower[3], upper[3], c[9];
+  cairn_match m, *out = fuzz_one_in(3) ? NULL : &m;
+  switch (fuzz_below(4)) {
+    case 0: fuzz_check_status(cairn_filter_remove_landmark(s->filter, id())); break;
+    case 1: fuzz_check_status(cairn_filter_merge_landmarks(s->filter, id(), id(), out)); break;
+    case 2:
+      fuzz_covariance(c, 3, 0.1);
+      fuzz_check_status(cairn_filter_split_landmark(s->filter, id(), id(), fuzz_maybe(c)));
+      break;
+    default:
+      fuzz_numbers(lower, 3, 10);
+      for (int i = 0; i < 3; ++i) upper[i] = fuzz_bad() ? fuzz_number(10) : lower[i] + fuzz_uniform(0, 40);
+      fuzz_check_status(cairn_filter_set_view(s->filter, sensor(), fuzz_maybe(lower), fuzz_maybe(upper)));
+  }
 }
 
 static void absolute(slot *s) {
@@ -271,10 +295,10 @@ static void absolute(slot *s) {
   fuzz_numbers(z, 3, 5), fuzz_covariance(c, 3, 0.1), fuzz_numbers(lever, 3, 1), fuzz_numbers(q, 4, 1);
   const int kind = (int)fuzz_below(3);
   if (kind == 0)
-    check_status(
+    fuzz_check_status(
         cairn_filter_update_position(s->filter, fuzz_maybe(z), fuzz_maybe(c), fuzz_one_in(2) ? NULL : lever, out));
-  if (kind == 1) check_status(cairn_filter_update_attitude(s->filter, fuzz_maybe(q), fuzz_maybe(c), out));
-  if (kind == 2) check_status(cairn_filter_update_heading(s->filter, fuzz_number(4), fuzz_positive(0.2), out));
+  if (kind == 1) fuzz_check_status(cairn_filter_update_attitude(s->filter, fuzz_maybe(q), fuzz_maybe(c), out));
+  if (kind == 2) fuzz_check_status(cairn_filter_update_heading(s->filter, fuzz_number(4), fuzz_positive(0.2), out));
 }
 
 static void linear(slot *s) {
@@ -288,8 +312,9 @@ static void linear(slot *s) {
   if (rows > 0) fuzz_covariance(c, rows, 0.1);
   const uint64_t first = id();
   for (size_t i = 0; i < count; ++i) ids[i] = fuzz_one_in(10) ? id() : first + i;
-  check_status(cairn_filter_update_linear(s->filter, fuzz_maybe(r), rows, fuzz_maybe(c), fuzz_one_in(4) ? NULL : jp,
-                                          fuzz_maybe(ids), count, fuzz_maybe(jl), fuzz_one_in(3) ? NULL : &m));
+  fuzz_check_status(cairn_filter_update_linear(s->filter, fuzz_maybe(r), rows, fuzz_maybe(c),
+                                               fuzz_one_in(4) ? NULL : jp, fuzz_maybe(ids), count, fuzz_maybe(jl),
+                                               fuzz_one_in(3) ? NULL : &m));
   free(r), free(c), free(jp), free(jl), free(ids);
 }
 
@@ -305,29 +330,32 @@ static void ask(slot *s) {
   for (int i = 0; i < 3 && fuzz_one_in(2); ++i) b[i] = a[i] + fabs(b[i]);
   for (size_t i = 0; i < count; ++i) ids[i] = id();
   switch (fuzz_below(9)) {
-    case 0: check_status(cairn_map_landmark(map, id(), fuzz_maybe_out(&one))); break;
-    case 1: check_status(cairn_map_landmarks(map, fuzz_maybe_out(out), capacity, fuzz_maybe_out(&needed))); break;
+    case 0: fuzz_check_status(cairn_map_landmark(map, id(), fuzz_maybe_out(&one))); break;
+    case 1: fuzz_check_status(cairn_map_landmarks(map, fuzz_maybe_out(out), capacity, fuzz_maybe_out(&needed))); break;
     case 2:
-      check_status(cairn_map_within(map, fuzz_maybe(a), fuzz_positive(10), out, capacity, fuzz_maybe_out(&needed)));
+      fuzz_check_status(
+          cairn_map_within(map, fuzz_maybe(a), fuzz_positive(10), out, capacity, fuzz_maybe_out(&needed)));
       break;
     case 3:
-      check_status(cairn_map_nearest(map, fuzz_maybe(a), fuzz_one_in(9) ? SIZE_MAX : count, out, capacity, &needed));
+      fuzz_check_status(
+          cairn_map_nearest(map, fuzz_maybe(a), fuzz_one_in(9) ? SIZE_MAX : count, out, capacity, &needed));
       break;
     case 4:
-      check_status(cairn_map_in_box(map, fuzz_maybe(a), fuzz_maybe(b), out, capacity, fuzz_maybe_out(&needed)));
+      fuzz_check_status(cairn_map_in_box(map, fuzz_maybe(a), fuzz_maybe(b), out, capacity, fuzz_maybe_out(&needed)));
       break;
     case 5:
-      check_status(cairn_map_joint_covariance(map, fuzz_maybe(ids), count, matrix, capacity * 12, &needed));
+      fuzz_check_status(cairn_map_joint_covariance(map, fuzz_maybe(ids), count, matrix, capacity * 12, &needed));
       break;
     case 6:
-      check_status(cairn_filter_joint_covariance(s->filter, fuzz_maybe(ids), count, matrix, capacity * 12, &needed));
+      fuzz_check_status(
+          cairn_filter_joint_covariance(s->filter, fuzz_maybe(ids), count, matrix, capacity * 12, &needed));
       break;
-    case 7: check_status(cairn_filter_pose_nees(s->filter, fuzz_maybe(&truth), fuzz_maybe_out(&nees))); break;
+    case 7: fuzz_check_status(cairn_filter_pose_nees(s->filter, fuzz_maybe(&truth), fuzz_maybe_out(&nees))); break;
     default: {
       cairn_update_report report;
       memset(&report, 0, sizeof report);
       void *given = fuzz_resized(&report, sizeof report);
-      check_status(cairn_filter_last_update(s->filter, fuzz_maybe_out(given)));
+      fuzz_check_status(cairn_filter_last_update(s->filter, fuzz_maybe_out(given)));
       free(given);
     }
   }
@@ -343,14 +371,14 @@ static void ask_submaps(slot *s) {
   cairn_closing_report report;
   memset(&report, 0, sizeof report);
   void *given = fuzz_resized(&report, sizeof report);
-  check_status(cairn_filter_last_closing(f, fuzz_maybe_out(given)));
+  fuzz_check_status(cairn_filter_last_closing(f, fuzz_maybe_out(given)));
   free(given);
-  check_status(cairn_filter_local_pose(f, fuzz_maybe_out(&local), fuzz_maybe_out(covariance)));
-  check_status(cairn_filter_base_pose(f, fuzz_maybe_out(&base), fuzz_maybe_out(covariance)));
-  check_status(cairn_filter_submap_count(f, fuzz_maybe_out(&count)));
+  fuzz_check_status(cairn_filter_local_pose(f, fuzz_maybe_out(&local), fuzz_maybe_out(covariance)));
+  fuzz_check_status(cairn_filter_base_pose(f, fuzz_maybe_out(&base), fuzz_maybe_out(covariance)));
+  fuzz_check_status(cairn_filter_submap_count(f, fuzz_maybe_out(&count)));
   const size_t capacity = fuzz_below(20), index = fuzz_one_in(9) ? (size_t)fuzz_id() : fuzz_below(count + 1);
   uint64_t *ids = malloc(capacity * sizeof *ids + 1);
-  check_status(cairn_filter_submap(f, index, fuzz_maybe_out(&pose), fuzz_maybe_out(ids), capacity, &needed));
+  fuzz_check_status(cairn_filter_submap(f, index, fuzz_maybe_out(&pose), fuzz_maybe_out(ids), capacity, &needed));
   free(ids);
   if (f == NULL) return;
   report.struct_size = sizeof report;
@@ -380,7 +408,7 @@ static void ask_submaps(slot *s) {
 
 static void submaps(slot *s) {
   if (fuzz_one_in(3)) {
-    check_status(cairn_filter_close_submap(fuzz_one_in(40) ? NULL : s->filter));
+    fuzz_check_status(cairn_filter_close_submap(fuzz_one_in(40) ? NULL : s->filter));
     return;
   }
   ask_submaps(s);
@@ -388,7 +416,7 @@ static void submaps(slot *s) {
 
 static void call_one(void) {
   static const char *const names[] = {"add_sensor", "motion", "observe", "absolute", "linear",
-                                      "ask",        "remove", "helpers", "submaps"};
+                                      "ask",        "life",   "helpers", "submaps"};
   static const unsigned char weights[] = {3, 22, 38, 9, 7, 9, 4, 3, 5};
   slot *s = &slots[fuzz_below(3)];
   uint64_t pick = fuzz_below(100);
@@ -399,10 +427,10 @@ static void call_one(void) {
   fuzz_wild = s->wild;
   while (pick >= weights[kind]) pick -= weights[kind++];
   if (s->sensors == 0) kind = 0;
-  operation = names[kind];
+  fuzz_operation = names[kind];
   fuzz_shadow before, after;
   fuzz_fickle = fuzz_one_in(10);
-  const unsigned long long failures = counts[0];
+  const unsigned long long failures = fuzz_counts[0];
   fuzz_shadow_take(&before, s->filter);
   switch (kind) {
     case 0: add_sensor(s); break;
@@ -411,12 +439,12 @@ static void call_one(void) {
     case 3: absolute(s); break;
     case 4: linear(s); break;
     case 5: ask(s); break;
-    case 6: check_status(cairn_filter_remove_landmark(s->filter, id())); break;
-    case 7: fuzz_helpers(check_status); break;
+    case 6: life(s); break;
+    case 7: fuzz_helpers(fuzz_check_status); break;
     default: submaps(s); break;
   }
   fuzz_shadow_take(&after, s->filter);
-  if (counts[0] == failures || kind == 5) /* all of its calls failed, or it only asked */
+  if (fuzz_counts[0] == failures || kind == 5) /* all of its calls failed, or it only asked */
     HOLDS(memcmp(&before, &after, sizeof before) == 0, 0);
   check_state(s, fuzz_one_in(16));
 }
@@ -426,18 +454,19 @@ int main(int argc, char **argv) {
     fprintf(stderr, "usage: api_fuzz SEED CALLS [LIMIT [loose]]\n");
     return 2;
   }
-  the_seed = strtoull(argv[1], NULL, 10);
+  const uint64_t seed = strtoull(argv[1], NULL, 10);
+  fuzz_program = "api_fuzz";
   const unsigned long long calls = strtoull(argv[2], NULL, 10);
   loose = argc == 5;
-  fuzz_seed(the_seed, argc > 3 ? strtod(argv[3], NULL) : INFINITY);
-  for (call_number = 1; call_number <= calls; ++call_number) call_one();
+  fuzz_seed(seed, argc > 3 ? strtod(argv[3], NULL) : INFINITY);
+  for (fuzz_call = 1; fuzz_call <= calls; ++fuzz_call) call_one();
   for (size_t i = 0; i < sizeof slots / sizeof slots[0]; ++i) {
     if (slots[i].filter != NULL) check_state(&slots[i], true);
     cairn_filter_destroy(slots[i].filter);
   }
-  printf("seed %llu: %llu calls", (unsigned long long)the_seed, calls);
-  for (int i = 0; i < 9; ++i) printf(", %s %llu", cairn_status_name(-i), counts[i]);
+  printf("seed %llu: %llu calls", (unsigned long long)seed, calls);
+  for (int i = 0; i < 9; ++i) printf(", %s %llu", cairn_status_name(-i), fuzz_counts[i]);
   printf("; %llu wild states without a positive pivot\n", refused_by_audit);
   /* A run that never gets anywhere proves nothing. */
-  return calls >= 1000 && counts[0] < calls / 4;
+  return calls >= 1000 && fuzz_counts[0] < calls / 4;
 }

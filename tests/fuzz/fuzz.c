@@ -3,15 +3,33 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static uint64_t state;
+static uint64_t first_state, state;
 static double largest;
 
+const char *fuzz_program = "", *fuzz_operation = "";
+unsigned long long fuzz_call, fuzz_counts[9];
+
 void fuzz_seed(uint64_t seed, double limit) {
-  state = seed;
+  first_state = state = seed;
   largest = limit;
+}
+
+void fuzz_fail(const char *what, double value) {
+  fprintf(stderr, "%s: seed %llu, call %llu, %s: %s (%g)\n  last message: %s\n", fuzz_program,
+          (unsigned long long)first_state, fuzz_call, fuzz_operation, what, value, cairn_last_message());
+  exit(1);
+}
+
+void fuzz_check_status(cairn_status status) {
+  HOLDS(status <= 0 && status >= CAIRN_ERROR_STATE, status); /* CAIRN_ERROR_INTERNAL is a defect by its definition */
+  ++fuzz_counts[-status];
+  if (status == CAIRN_OK) return;
+  const char *line = cairn_last_message();
+  HOLDS(line != NULL && line[0] != '\0' && strchr(line, '\n') == NULL, status);
 }
 
 uint64_t fuzz_bits(void) { /* splitmix64 */

@@ -8,6 +8,18 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* What has to hold after a call; where it does not, the program ends and names seed and call. */
+#define HOLDS(condition, value)                               \
+  do {                                                        \
+    if (!(condition)) fuzz_fail(#condition, (double)(value)); \
+  } while (0)
+extern const char *fuzz_program, *fuzz_operation;
+extern unsigned long long fuzz_call;
+void fuzz_fail(const char *what, double value);
+/* A status is of the pinned set, and no defect; one line goes with each failure. Counted by status. */
+extern unsigned long long fuzz_counts[9];
+void fuzz_check_status(cairn_status status);
+
 /* `limit`: no number but 0, NaN and the infinities is larger or, turned over, smaller. */
 void fuzz_seed(uint64_t seed, double limit);
 uint64_t fuzz_bits(void);

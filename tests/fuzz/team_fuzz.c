@@ -23,27 +23,8 @@ typedef struct letter {
 static cairn_team* teams[TEAMS];
 static double clocks[TEAMS];
 static letter pool[POOL];
-static const char* operation = "";
-static unsigned long long call_number, counts[9], results[17];
-static uint64_t the_seed, taken_by[TEAMS], taken;
-
-static void report_and_exit(const char* what, double value) {
-  fprintf(stderr, "team_fuzz: seed %llu, call %llu, %s: %s (%g)\n  last message: %s\n", (unsigned long long)the_seed,
-          call_number, operation, what, value, cairn_last_message());
-  exit(1);
-}
-#define HOLDS(condition, value)                                     \
-  do {                                                              \
-    if (!(condition)) report_and_exit(#condition, (double)(value)); \
-  } while (0)
-
-static void check_status(cairn_status status) {
-  HOLDS(status <= 0 && status >= CAIRN_ERROR_STATE, status);
-  ++counts[-status];
-  if (status == CAIRN_OK) return;
-  const char* line = cairn_last_message();
-  HOLDS(line != NULL && line[0] != '\0' && strchr(line, '\n') == NULL, status);
-}
+static unsigned long long results[17];
+static uint64_t taken_by[TEAMS], taken;
 
 /* All that a team tells of its estimate; the caller frees it. */
 typedef struct view {
@@ -103,10 +84,10 @@ static void create(size_t number) {
   cairn_filter_options f;
   cairn_range_bearing radar;
   cairn_team* team = NULL;
-  operation = "create";
-  check_status(cairn_team_options_init(&o, sizeof o));
-  check_status(cairn_filter_options_init(&f, sizeof f));
-  check_status(cairn_range_bearing_init(&radar, sizeof radar));
+  fuzz_operation = "create";
+  fuzz_check_status(cairn_team_options_init(&o, sizeof o));
+  fuzz_check_status(cairn_filter_options_init(&f, sizeof f));
+  fuzz_check_status(cairn_range_bearing_init(&radar, sizeof radar));
   o.mode = fuzz_one_in(3) ? (int32_t)fuzz_below(5) : CAIRN_TEAM_JOINT;
   o.vehicle = number + 1;
   o.max_vehicles = fuzz_one_in(5) ? 1 + (uint32_t)fuzz_below(5) : 5;
@@ -129,7 +110,7 @@ static void create(size_t number) {
   void* given = fuzz_one_in(5) ? fuzz_resized(&o, sizeof o) : memcpy(malloc(sizeof o), &o, sizeof o);
   const cairn_status status = cairn_team_create(fuzz_maybe(given), fuzz_maybe(&f), fuzz_maybe(&radar), &team);
   free(given);
-  check_status(status);
+  fuzz_check_status(status);
   HOLDS((team != NULL) == (status == CAIRN_OK), status);
   if (team == NULL) return;
   cairn_team_destroy(teams[number]);
@@ -137,7 +118,8 @@ static void create(size_t number) {
   taken_by[number] = 0;
   clocks[number] = 0;
   for (uint64_t other = 1; other <= TEAMS; ++other)
-    if (other != number + 1) check_status(cairn_team_add(team, other, fuzz_one_in(3) ? NULL : &f.initial_pose, NULL));
+    if (other != number + 1)
+      fuzz_check_status(cairn_team_add(team, other, fuzz_one_in(3) ? NULL : &f.initial_pose, NULL));
 }
 
 static void level_pose(cairn_pose* out) {
@@ -164,22 +146,22 @@ static void membership(cairn_team* team) {
   level_pose(&start), level_covariance(covariance, 0.1);
   switch (fuzz_below(8)) {
     case 0:
-      if (fuzz_one_in(5)) check_status(cairn_team_remove(team, vehicle));
+      if (fuzz_one_in(5)) fuzz_check_status(cairn_team_remove(team, vehicle));
       break;
     case 1:
-      check_status(cairn_team_ask(team));
+      fuzz_check_status(cairn_team_ask(team));
       break;
     case 2:
-      if (fuzz_one_in(60)) check_status(cairn_team_leave(team));
+      if (fuzz_one_in(60)) fuzz_check_status(cairn_team_leave(team));
       break;
     case 3:
-      check_status(cairn_team_add(team, vehicle, NULL, NULL));
+      fuzz_check_status(cairn_team_add(team, vehicle, NULL, NULL));
       break;
     case 4:
-      check_status(cairn_team_score(team, &start));
+      fuzz_check_status(cairn_team_score(team, &start));
       break;
     default:
-      check_status(cairn_team_add(team, vehicle, &start, fuzz_one_in(3) ? NULL : covariance));
+      fuzz_check_status(cairn_team_add(team, vehicle, &start, fuzz_one_in(3) ? NULL : covariance));
   }
 }
 
@@ -188,10 +170,10 @@ static void motion(cairn_team* team) {
   double c[36], v[3], w[3];
   if (fuzz_one_in(2)) {
     level_pose(&T), level_covariance(c, 1e-3);
-    check_status(cairn_team_predict_increment(team, fuzz_maybe(&T), fuzz_maybe(c)));
+    fuzz_check_status(cairn_team_predict_increment(team, fuzz_maybe(&T), fuzz_maybe(c)));
   } else {
     fuzz_numbers(v, 3, 1), fuzz_numbers(w, 3, 1);
-    check_status(cairn_team_predict_twist(team, fuzz_positive(1), fuzz_maybe(v), fuzz_maybe(w), NULL));
+    fuzz_check_status(cairn_team_predict_twist(team, fuzz_positive(1), fuzz_maybe(v), fuzz_maybe(w), NULL));
   }
 }
 
@@ -213,7 +195,7 @@ static void observe(size_t number) {
   const double time = fuzz_bad() ? fuzz_garbage() : clocks[number] + 1;
   const cairn_status status =
       cairn_team_observe(teams[number], time, fuzz_one_in(60) ? NULL : landmarks, n, vehicles, m);
-  check_status(status);
+  fuzz_check_status(status);
   if (time == clocks[number] + 1 && status != CAIRN_ERROR_ARGUMENT) clocks[number] = time;
   if (fuzz_one_in(200)) clocks[number] += fuzz_uniform(0, 100); /* a long silence */
 }
@@ -259,7 +241,7 @@ static void deliver(cairn_team* team, const letter* l) {
   int32_t result = 0;
   const view before = look(team);
   const cairn_status status = cairn_team_receive(team, exact, size, &result);
-  check_status(status);
+  fuzz_check_status(status);
   HOLDS(status == CAIRN_OK, status);
   HOLDS(result >= CAIRN_PACKET_TAKEN && result <= CAIRN_PACKET_NONSENSE, result);
   ++results[result];
@@ -273,12 +255,12 @@ static void deliver(cairn_team* team, const letter* l) {
 static void take(cairn_team* team) {
   size_t needed = 0, given = 0;
   const cairn_status status = cairn_team_take_packet(team, NULL, 0, fuzz_maybe_out(&needed));
-  check_status(status);
+  fuzz_check_status(status);
   if (status != CAIRN_OK || needed == 0) return;
   const size_t room = fuzz_one_in(10) ? fuzz_below(needed) : needed;
   uint8_t* bytes = malloc(room + 1);
   const cairn_status copied = cairn_team_take_packet(team, bytes, room, &given);
-  check_status(copied);
+  fuzz_check_status(copied);
   HOLDS(given == needed && (copied == CAIRN_OK) == (room == needed), copied);
   if (copied != CAIRN_OK) {
     free(bytes);
@@ -301,19 +283,19 @@ static void call_one(void) {
   if (team == NULL) return;
   const uint64_t what = fuzz_below(100);
   if (what < 5) {
-    operation = "membership";
+    fuzz_operation = "membership";
     membership(team);
   } else if (what < 20) {
-    operation = "motion";
+    fuzz_operation = "motion";
     motion(team);
   } else if (what < 35) {
-    operation = "observe";
+    fuzz_operation = "observe";
     observe(number);
   } else if (what < 80) {
-    operation = "take";
+    fuzz_operation = "take";
     take(team);
   } else {
-    operation = "deliver";
+    fuzz_operation = "deliver";
     deliver(team, &pool[fuzz_below(POOL)]);
   }
   free(look(team).bytes);
@@ -325,18 +307,19 @@ int main(int argc, char** argv) {
     fprintf(stderr, "usage: team_fuzz SEED CALLS [LIMIT]\n");
     return 2;
   }
-  the_seed = strtoull(argv[1], NULL, 10);
+  const uint64_t seed = strtoull(argv[1], NULL, 10);
+  fuzz_program = "team_fuzz";
   const unsigned long long calls = strtoull(argv[2], NULL, 10);
   fuzz_wild = false;
-  fuzz_seed(the_seed, argc > 3 ? strtod(argv[3], NULL) : 1e4);
-  for (call_number = 1; call_number <= calls; ++call_number) call_one();
+  fuzz_seed(seed, argc > 3 ? strtod(argv[3], NULL) : 1e4);
+  for (fuzz_call = 1; fuzz_call <= calls; ++fuzz_call) call_one();
   for (size_t i = 0; i < TEAMS; ++i) cairn_team_destroy(teams[i]);
   for (size_t i = 0; i < POOL; ++i) free(pool[i].bytes);
-  printf("seed %llu: %llu calls", (unsigned long long)the_seed, calls);
-  for (int i = 0; i < 9; ++i) printf(", %s %llu", cairn_status_name(-i), counts[i]);
+  printf("seed %llu: %llu calls", (unsigned long long)seed, calls);
+  for (int i = 0; i < 9; ++i) printf(", %s %llu", cairn_status_name(-i), fuzz_counts[i]);
   printf("\npackets by result:");
   for (int i = 1; i < 17; ++i) printf(" %llu", results[i]);
   printf("; %llu taken\n", (unsigned long long)taken);
   /* A run that never gets anywhere proves nothing. */
-  return calls >= 10000 && (counts[0] < calls / 2 || taken < calls / 100);
+  return calls >= 10000 && (fuzz_counts[0] < calls / 2 || taken < calls / 100);
 }
