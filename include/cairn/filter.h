@@ -80,9 +80,9 @@ typedef struct cairn_filter_options {
                                       CAIRN_ASSOCIATION_KNOWN */
   uint32_t association_nodes;    /**< joint tests of one frame at most, 1 to 1000000: after so many the best set that was
                                       found is taken; default 2000 */
-  double new_probability;        /**< without known ids: an observation places a new landmark only where its distance from
-                                      each that exists exceeds the chi-square bound of this probability, in (0, 1); and
-                                      none beyond it is paired, where gate_probability would allow that; default 0.9999 */
+  double new_probability;        /**< without known ids: an observation places a new landmark only where its distance from each
+                                      that exists, and was not paired with another of the frame, exceeds the chi-square bound
+                                      of this probability, in (0, 1); none beyond it is paired; default 0.9999 */
   int32_t vehicle;               /**< CAIRN_VEHICLE_SPATIAL or CAIRN_VEHICLE_PLANAR; default CAIRN_VEHICLE_SPATIAL */
   int32_t association_distance;  /**< CAIRN_DISTANCE_MAHALANOBIS or CAIRN_DISTANCE_LIKELIHOOD; default
                                       CAIRN_DISTANCE_MAHALANOBIS */

@@ -363,7 +363,7 @@ bool align_by_weights(const std::vector<Vector3>& a, const std::vector<Vector3>&
   mean_b /= sum;
   Matrix3 H = Matrix3::Zero();
   for (std::size_t i = 0; i < a.size(); ++i) H += (weights[i] / sum) * (a[i] - mean_a) * (b[i] - mean_b).transpose();
-  const Eigen::JacobiSVD<Matrix3> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Matrix3, Eigen::NoQRPreconditioner> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
   if (!(svd.singularValues()[1] > 1e-12 * svd.singularValues()[0])) return false;
   Vector3 signs = Vector3::Ones();
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) signs.z() = -1;
