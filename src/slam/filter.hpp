@@ -366,6 +366,7 @@ class Filter final : public Landmarks {
   void gate_batch(const Sensor<Pose>& sensor);
   template <class Linearise>
   void iterate(int iterations, bool relative, Linearise&& linearise);
+  void keep_founded();
   void place_new(const Sensor<Pose>& sensor);
   template <class Linearise>
   void update_alone(Index rows, int iterations, std::uint64_t landmark, Linearise&& linearise);

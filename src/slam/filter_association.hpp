@@ -232,12 +232,13 @@ void Filter<Pose>::settle_pairs(const Sensor<Pose>& sensor, Index count) {
       const Expected& expected = unknowns_.expected[unknowns_.details[chosen].expected];
       match.landmark = ids_[expected.slot];
       add_candidate(sensor, i, expected.slot, expected.prediction);
-    } else if (nearest.distance > new_thresholds_[rows] || other_than_paired(sensor, count, i)) {
+    } else if (nearest.distance > new_thresholds_[rows]) {
       add_new_one(sensor, i);
     } else {
       match = nearest;
       match.threshold = std::min(gate_thresholds_[rows], new_thresholds_[rows]);
       match.reason = nearest.distance <= match.threshold ? Reason::ambiguous : Reason::gate;
+      if (other_than_paired(sensor, count, i)) add_new_one(sensor, i);
     }
   }
 }

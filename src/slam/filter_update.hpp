@@ -96,7 +96,7 @@ void Filter<Pose>::add_new_one(const Sensor<Pose>& sensor, Index observation) {
   if (sensor.place(ekf_.pose(), Vector3(observations_[observation].z), Mount::Zero(), placement))
     new_ones_[new_count_++] = observation;
   else
-    next_matches_[observation].reason = Reason::no_place;
+    next_matches_[observation] = {kNoId, Decision::rejected, Reason::no_place, 0.0, 0.0};
 }
 
 template <class Pose>
@@ -214,13 +214,29 @@ void Filter<Pose>::gate_batch(const Sensor<Pose>& sensor) {
   if (!ekf_.factor()) throw_not_definite();
 }
 
+// What is new because its neighbour was seen by itself stays refused where the gates refused that.
+template <class Pose>
+void Filter<Pose>::keep_founded() {
+  const auto taken_in = [&](std::uint64_t id) {
+    return std::any_of(candidates_, candidates_ + candidate_count_, [&](const Candidate& candidate) {
+      return candidate.slot >= ekf_.companions() && ids_[candidate.slot] == id;
+    });
+  };
+  Index kept = 0;
+  for (Index k = 0; k < new_count_; ++k) {
+    const std::uint64_t neighbour = next_matches_[new_ones_[k]].landmark;
+    if (neighbour == kNoId || taken_in(neighbour)) new_ones_[kept++] = new_ones_[k];
+  }
+  new_count_ = kept;
+}
+
 template <class Pose>
 void Filter<Pose>::place_new(const Sensor<Pose>& sensor) {
   const MountNoise mode = sensor.mount_noise_mode();
   for (Index k = 0; k < new_count_; ++k) {
     const Observation& observation = observations_[new_ones_[k]];
     Match& match = next_matches_[new_ones_[k]];
-    match.reason = Reason::no_place;
+    match = {kNoId, Decision::rejected, Reason::no_place, 0.0, 0.0};
     Placement<Pose> placement;
     if (!sensor.place(ekf_.pose(), Vector3(observation.z), ekf_.iterate_mount(), placement)) continue;
     const int rows = sensor.rows();
@@ -256,6 +272,7 @@ void Filter<Pose>::take_in(int sensor_number, Index landmarks, Index companions)
     next_matches_[candidates_[a].observation].decision = Decision::matched;
     ++counts_[candidates_[a].slot];
   }
+  keep_founded();
   place_new(sensor);
   finish_report(count);
   review_landmarks(sensor_number, landmarks);

@@ -188,6 +188,26 @@ static void one_landmark_is_seen_once_a_frame(void **state) {
     }
     rig_close(&r);
   }
+  /* Each of two would do by itself, and the gate of the batch refuses one: beside that one nothing is new. */
+  const cairn_observation two[] = {at(10, -50, 0), at(10, 50, 0)};
+  cairn_observation known[2], four[] = {at(10.72, -50, 0), at(11.25, -50, 0), at(9.28, 50, 0), at(8.75, 50, 0)};
+  cairn_match of_four[4];
+  rig refusing;
+  memcpy(known, two, sizeof known);
+  for (int i = 0; i < 3; ++i) {
+    for (size_t k = 0; k < 2; ++k) known[k].covariance[4 * i] = 0.01;
+    for (size_t k = 0; k < 4; ++k) four[k].covariance[4 * i] = 0.01;
+  }
+  open_pushed(&refusing, unnamed(CAIRN_ASSOCIATION_NEAREST), known, 2, 0.25);
+  assert_ok(cairn_filter_update(refusing.filter, refusing.sensors[CARTESIAN], four, 4, of_four));
+  const size_t refused = of_four[0].result == CAIRN_REJECTED ? 0 : 2, taken = 2 - refused;
+  assert_int_equal(of_four[refused].reason, CAIRN_REASON_BATCH_GATE);
+  assert_int_equal(of_four[refused + 1].reason, CAIRN_REASON_GATE);
+  assert_int_equal(of_four[refused + 1].landmark, refused / 2);
+  assert_int_equal(of_four[taken].result, CAIRN_MATCHED);
+  assert_int_equal(of_four[taken + 1].result, CAIRN_NEW);
+  assert_int_equal(of_four[taken + 1].landmark, 2);
+  rig_close(&refusing);
   /* Where the one beside it is doubtful itself, nothing is placed. */
   const cairn_observation apart[] = {at(10, 0, 0), at(12, 0, 0)};
   cairn_match m[2];
