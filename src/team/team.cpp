@@ -167,7 +167,7 @@ void Team::observe(double time, std::vector<Observation> landmarks, std::vector<
   packet.vehicle = self.id;
   packet.number = self.next + self.waiting.size();
   packet.time = time;
-  packet.motions = std::move(pending_);
+  packet.motions = pending_;  // which stay where sending fails
   packet.landmarks = std::move(landmarks);
   packet.vehicles = std::move(vehicles);
   send(packet);
@@ -330,8 +330,8 @@ void Team::skip_gap(Member& member) {
   lose_sight(member);
 }
 
-// The packets of the earliest time for which all are there; what is left of them in `waiting` is empty. False where
-// somebody is still to be waited for.
+// Whose packets are of the earliest time for which all are there; they are not in the turns yet. False where somebody
+// is still to be waited for.
 bool Team::next_turns(std::vector<Turn>& turns) {
   turns.clear();
   const double newest = own().heard;
@@ -365,7 +365,7 @@ bool Team::next_turns(std::vector<Turn>& turns) {
   for (Member& member : members_) {
     const auto packet = head(member);
     if (packet == member.waiting.end() || packet->second.time > earliest + options_.time_tolerance) continue;
-    turns.push_back({&member, std::move(packet->second)});
+    turns.push_back({&member, {}});
   }
   std::sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.member->id < b.member->id; });
   return true;
@@ -376,9 +376,12 @@ void Team::settle() {
   while (next_turns(turns)) {
     for (Turn& turn : turns) {  // consumed, whatever becomes of it
       Member& member = *turn.member;
-      member.checksums.push_back(turn.packet.checksum);
+      const auto packet = member.waiting.begin();
+      member.checksums.push_back(packet->second.checksum);
       if (member.checksums.size() > kChecksumsKept) member.checksums.pop_front();
-      member.waiting.erase(member.next++);
+      turn.packet = std::move(packet->second);
+      member.waiting.erase(packet);
+      ++member.next;
       member.time = turn.packet.time;
       member.started = true;
       if (member.id != options_.vehicle) ++counts_.taken;

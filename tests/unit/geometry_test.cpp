@@ -189,6 +189,32 @@ TEST_CASE_TEMPLATE("poses: retract and the ordinary error", Pose, SE2, SE3) {
   }
 }
 
+TEST_CASE_TEMPLATE("poses: the ordinary error of a product", Pose, SE2, SE3) {
+  using Tangent = typename Pose::Tangent;
+  using Square = typename Pose::Square;
+  test::Random random(15);
+  const std::vector<Tangent> first = tangents<Pose>(16), second = tangents<Pose>(18);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const Pose T_a = Pose::exp(first[i]), T_b = Pose::exp(second[second.size() - 1 - i]), product = T_a * T_b;
+    const ProductJacobians J(T_a, T_b);
+    const auto error_of = [&](const Pose& moved) { return pose_error(moved, product); };
+    const Square by_a = test::pose_jacobian([&](const Pose& X) { return error_of(X * T_b); }, T_a);
+    const Square by_b = test::pose_jacobian([&](const Pose& X) { return error_of(T_a * X); }, T_b);
+    CHECK((J.by_a - by_a).norm() < 10 * kDifference);
+    CHECK((J.by_b - by_b).norm() < 10 * kDifference);
+    Square A, B;
+    for (int c = 0; c < Pose::kDof; ++c) {
+      A.col(c) = random.normal_vector<Pose::kDof>();
+      B.col(c) = random.normal_vector<Pose::kDof>();
+    }
+    const Square P_a = A * A.transpose(), P_b = B * B.transpose();
+    const Square expected = by_a * P_a * by_a.transpose() + by_b * P_b * by_b.transpose();
+    const Square covariance = J.covariance(P_a, P_b);
+    CHECK((covariance - expected).norm() < 1e-8 * expected.norm());
+    CHECK(covariance == covariance.transpose());
+  }
+}
+
 TEST_CASE("SE2 is SE3 in the plane") {
   for (const Vector3& tau : tangents<SE2>(12)) {
     Vector6 spatial = Vector6::Zero();
