@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "ekf/triangle.hpp"
+#include "linear/triangle.hpp"
 #include "samples.hpp"
 
 namespace {

@@ -74,11 +74,11 @@ pass "the README's lines of C compile"
 # The symbols: what the headers promise, what the committed list says, and nothing else.
 symbols() { nm -D --defined-only "$1" | awk '$2 != "A" {print $3}' | LC_ALL=C sort; }
 committed() { awk '!/^#/ && NF' "$@" | LC_ALL=C sort; }
-committed "$source_dir/src/capi/symbols.txt" >"$work/committed"
+committed "$source_dir/src/cairn/capi/symbols.txt" >"$work/committed"
 committed "$source_dir/src/sim/symbols.txt" >"$work/committed_sim"
 for file in "${libraries[@]}"; do
   symbols "$file" >"$work/exported"
-  same "$work/committed" "$work/exported" "exported symbols of ${file#"$prefix/"} differ from src/capi/symbols.txt"
+  same "$work/committed" "$work/exported" "exported symbols of ${file#"$prefix/"} differ from src/cairn/capi/symbols.txt"
 done
 symbols "$libdir/libcairn_sim.so.$version" >"$work/exported"
 same "$work/committed_sim" "$work/exported" "exported symbols of libcairn_sim differ from src/sim/symbols.txt"
@@ -86,7 +86,7 @@ for header in "${headers[@]}"; do
   "$cc" -std=c99 -E -P -I"$prefix/include" "$prefix/include/$header"
 done | grep -o '\<cairn_[a-z0-9_]* *(' | tr -d ' (' | LC_ALL=C sort -u >"$work/declared"
 sed 's/@.*//' "$work/committed" "$work/committed_sim" | LC_ALL=C sort >"$work/names"
-same "$work/declared" "$work/names" "the headers' functions differ from src/capi/symbols.txt and src/sim/symbols.txt"
+same "$work/declared" "$work/names" "the headers' functions differ from src/cairn/capi/symbols.txt and src/sim/symbols.txt"
 pass "$(wc -l <"$work/names") symbols, as committed and as declared"
 
 # What the libraries need of the machine: the C and C++ runtime.

@@ -11,9 +11,9 @@
 
 #include "geometry/embedding.hpp"
 #include "map/global_map.hpp"
-#include "map/submap_factor.hpp"
+#include "map/join/sparse/submap_factor.hpp"
 #include "numerical.hpp"
-#include "submap_hessian.hpp"
+#include "map/join/submap_hessian.hpp"
 
 namespace cairn::test {
 

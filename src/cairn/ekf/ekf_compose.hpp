@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A submap handed over to the filter of the whole map (docs/submaps.md). Included by ekf.cpp alone.
+#pragma once
+
+#include "ekf/ekf.hpp"
+#include "linear/triangle.hpp"
+
+namespace cairn {
+
+// Composition of eq. 17-26 of the Mars paper with the group's product in place of its sum of Euler angles. In errors:
+//   invariant  xi_R' = xi_RS + R_S xi_RL
+//              xi_x' = xi_pS + R_S xi_xL + hat(p_S) R_S xi_RL       new pose and new landmarks
+//              xi_l' = xi_l + hat(l) R_S xi_RL                      old landmarks: the reference turns
+//   standard   e_R' = e_RS + R_S e_RL,  e_x' = e_pS + G(R_S x_L) e_RS + R_S e_xL,  e_l' = e_l
+// where the submap's errors are K y + w, y the errors of the fused landmarks as seen from the base, and w ~ N(0, W).
+template <class Pose>
+void Ekf<Pose>::compose(const Handover& handover) {
+  using Matrix = Eigen::MatrixXd;
+  using Eigen::all;
+  const bool invariant = error_ == ErrorKind::invariant;
+  const Index fused = handover.fused_count, fresh = handover.fresh_count;
+  const Index rest = kDof + kDim * fresh, q = kDof + kDim * fused, n = states();
+  const PointSquare R = pose_.rotation().matrix();
+  const Point p = pose_.translation();
+  apply_pending();
+
+  // Columns of P of the base and the fused landmarks, all rows.
+  std::vector<Index> chosen(q);
+  for (Index c = 0; c < kDof; ++c) chosen[c] = c;
+  for (Index a = 0; a < fused; ++a)
+    for (Index d = 0; d < kDim; ++d) chosen[kDof + kDim * a + d] = state(handover.fused[a]) + d;
+  Matrix columns(n, q);
+  for (Index c = 0; c < q; ++c)
+    for (Index r = 0; r < n; ++r) columns(r, c) = symmetric(r, chosen[c]);
+
+  // y = R_S^T (l - p_S) of the fused landmarks by the errors of base and landmarks.
+  Matrix Y = Matrix::Zero(kDim * fused, q);
+  for (Index a = 0; a < fused; ++a) {
+    Y.block(kDim * a, 0, kDim, kDim) = -R.transpose();
+    Y.block(kDim * a, kDof + kDim * a, kDim, kDim) = R.transpose();
+    if (!invariant)
+      Y.block(kDim * a, kDim, kDim, kTurn) = -R.transpose() * Rotation::turn(local(handover.fused[a]) - p);
+  }
+  const Matrix KY = handover.K * Y;
+
+  // The new pose and the new landmarks by (base, fused) and by w.
+  Matrix A = Matrix::Zero(rest, q), B = Matrix::Zero(rest, rest);
+  const auto set_point = [&](Index row, const Point& arm) {
+    A.middleRows(row, kDim) = R * KY.middleRows(row, kDim);
+    A.block(row, 0, kDim, kDim) += PointSquare::Identity();
+    B.block(row, row, kDim, kDim) = R;
+    if (!invariant) A.block(row, kDim, kDim, kTurn) += Rotation::turn(arm);
+  };
+  const Matrix J_turn = pose_.rotation().adjoint();
+  A.middleRows(kDim, kTurn) = J_turn * KY.middleRows(kDim, kTurn);
+  const Matrix C = A.middleRows(kDim, kTurn);  // R_S xi_RL but for its own noise
+  A.block(kDim, kDim, kTurn, kTurn) += Eigen::Matrix<double, kTurn, kTurn>::Identity();
+  B.block(kDim, kDim, kTurn, kTurn) = J_turn;
+  set_point(0, R * handover.T_base_end.translation());
+  for (Index a = 0; a < fresh; ++a) set_point(kDof + kDim * a, R * handover.fresh[a]);
+  if (invariant) {
+    const typename Rotation::Turn arm = -Rotation::turn(p);
+    for (Index row = 0; row < rest; row += row == 0 ? kDof : kDim) {
+      A.middleRows(row, kDim) += arm * C;
+      B.block(row, kDim, kDim, kTurn) += arm * J_turn;
+    }
+  }
+  const Matrix noise = B * handover.W * B.transpose();
+  Matrix across = A * columns.transpose();  // new by old states, before the old ones' reference turns
+  Matrix block = A * columns(chosen, all) * A.transpose() + noise;
+  block = (0.5 * (block + block.transpose())).eval();
+
+  if (invariant && size_ > 0) {
+    const Matrix turned = columns * C.transpose();  // covariance of all states with R_S xi_RL
+    const Matrix pivot = C * turned(chosen, all) + noise.block(kDim, kDim, kTurn, kTurn);
+    Matrix new_turned = A * turned(chosen, all) + noise.middleCols(kDim, kTurn);
+    Matrix left = Matrix::Zero(n, kTurn), right = Matrix::Zero(n, kTurn);
+    for (Index slot = 0; slot < size_; ++slot) {
+      const typename Rotation::Turn U = -Rotation::turn(local(slot));
+      left.middleRows(state(slot), kDim) = U;
+      right.middleRows(state(slot), kDim) = turned.middleRows(state(slot), kDim) + 0.5 * U * pivot;
+    }
+    across += new_turned * left.transpose();
+    std::vector<double> workspace(update_triangle_workspace(n, 2 * kTurn));
+    const TriangleTerm terms[] = {{left.data(), n, right.data(), n, kTurn, 1.0},
+                                  {right.data(), n, left.data(), n, kTurn, 1.0}};
+    update_triangle(P_, ld_, n, terms, 2, workspace.data());
+  }
+  for (Index c = 0; c < kDof; ++c) {
+    for (Index r = c; r < kDof; ++r) P(r, c) = block(r, c);
+    for (Index r = kDof; r < n; ++r) P(r, c) = across(c, r);
+  }
+  for (Index r = 0; r < kDim * fresh; ++r) {
+    for (Index c = 0; c < kDof; ++c) P(n + r, c) = block(kDof + r, c);
+    for (Index c = kDof; c < n; ++c) P(n + r, c) = across(kDof + r, c);
+    for (Index c = 0; c <= r; ++c) P(n + r, n + c) = block(kDof + r, kDof + c);
+  }
+  for (Index a = 0; a < fresh; ++a) Eigen::Map<Point>(landmarks_ + kDim * (size_ + a)) = p + R * handover.fresh[a];
+  size_ += fresh;
+  pose_ = pose_ * handover.T_base_end;
+}
+
+template <class Pose>
+typename Ekf<Pose>::Backup Ekf<Pose>::backup() const {
+  const Index n = states();
+  Backup backup{pose_,    {landmarks_, landmarks_ + kDim * size_},
+                {},       {companion_rotations_, companion_rotations_ + companions_},
+                pending_, F_,
+                N_};
+  backup.triangle.reserve(n * (n + 1) / 2);
+  for (Index c = 0; c < n; ++c) backup.triangle.insert(backup.triangle.end(), P_ + c * ld_ + c, P_ + c * ld_ + n);
+  return backup;
+}
+
+template <class Pose>
+void Ekf<Pose>::restore(const Backup& backup) {
+  pose_ = backup.pose;
+  size_ = static_cast<Index>(backup.landmarks.size()) / kDim;
+  std::copy(backup.landmarks.begin(), backup.landmarks.end(), landmarks_);
+  std::copy(backup.rotations.begin(), backup.rotations.end(), companion_rotations_);
+  const double* from = backup.triangle.data();
+  const Index n = states();
+  for (Index c = 0; c < n; from += n - c, ++c) std::copy_n(from, n - c, P_ + c * ld_ + c);
+  pending_ = backup.pending;
+  F_ = backup.F;
+  N_ = backup.N;
+}
+
+}  // namespace cairn

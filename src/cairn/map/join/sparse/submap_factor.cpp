@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/join/sparse/submap_factor.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace cairn {
+namespace {
+
+using Eigen::Index;
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+// Variances below these count as these: what a submap knows exactly (it began there, and did not move) must not divide
+// by zero. A micrometre and a tenth of a microradian.
+constexpr double kLeastPosition = 1e-12, kLeastTurn = 1e-14;
+
+// A covariance scaled to unit diagonal, and its factor. Where it is singular, a grain of independent noise makes it
+// regular; so does the same grain all of its principal parts.
+struct ScaledFactor {
+  Vector scale;
+  Eigen::LLT<Matrix> llt;
+};
+
+template <class Pose>
+ScaledFactor factor(const Matrix& covariance) {
+  const Index n = covariance.rows();
+  ScaledFactor out;
+  out.scale.resize(n);
+  for (Index i = 0; i < n; ++i) {
+    const bool turn = i >= Pose::kDim && i < Pose::kDof;
+    out.scale(i) = 1.0 / std::sqrt(std::max(covariance(i, i), turn ? kLeastTurn : kLeastPosition));
+  }
+  for (double grain = 0.0; grain < 1e-5; grain = grain == 0.0 ? 1e-12 : 100.0 * grain) {
+    Matrix scaled = out.scale.asDiagonal() * covariance * out.scale.asDiagonal();
+    for (Index i = 0; i < n; ++i) scaled(i, i) = std::max(scaled(i, i), 1.0) + grain;
+    out.llt.compute(scaled);
+    if (out.llt.info() != Eigen::Success || !out.llt.matrixLLT().allFinite()) continue;
+    if (out.llt.matrixLLT().diagonal().minCoeff() < 1e-7 && grain < 1e-8) continue;  // pivots of rounding alone
+    return out;
+  }
+  throw Error(ErrorCode::numerical, "submap: its covariance is not positive definite; it stays open");
+}
+
+template <class Pose>
+Matrix invert(const Matrix& covariance) {
+  const ScaledFactor scaled = factor<Pose>(covariance);
+  const Index n = covariance.rows();
+  const Matrix inverse = scaled.llt.solve(Matrix::Identity(n, n));
+  return scaled.scale.asDiagonal() * inverse * scaled.scale.asDiagonal();
+}
+
+}  // namespace
+
+template <class Pose>
+SubmapData<Pose>::SubmapData(const Submap<Pose>& submap)
+    : error(submap.error),
+      T_base_end(submap.T_base_end),
+      ids(submap.ids),
+      landmarks(submap.landmarks),
+      covariance(submap.covariance) {
+  // The whole, so that no landmark that is private today can stop a closing some day, when another submap sees it.
+  factor<Pose>(submap.covariance);
+}
+
+template <class Pose>
+SubmapFactor<Pose>::SubmapFactor(std::shared_ptr<const Data> data, std::vector<Index> shared)
+    : data_(std::move(data)), shared_(std::move(shared)) {
+  const std::vector<Index> chosen = states();
+  information_ = Packed(invert<Pose>(data_->covariance.block(chosen, chosen)));
+}
+
+template <class Pose>
+std::vector<Index> SubmapFactor<Pose>::states() const {
+  std::vector<Index> states;
+  for (Index d = 0; d < kDof; ++d) states.push_back(d);
+  for (const Index i : shared_)
+    for (Index d = 0; d < kDim; ++d) states.push_back(kDof + kDim * i + d);
+  return states;
+}
+
+template <class Pose>
+Vector SubmapFactor<Pose>::residual(const Values& values) const {
+  Vector xi(rows());
+  const Pose T_end = values.base.inverse() * values.end;
+  const Tangent turn = (T_end.rotation() * data_->T_base_end.rotation().inverse()).log();
+  xi.segment<kTurn>(kDim) = turn;
+  const Rotation R = Rotation::exp(turn);
+  const PointSquare V_inverse = Rotation::translation_jacobian_inverse(turn);
+  const auto error = [&](const Point& x, const Point& estimate) -> Point {
+    if (data_->error == ErrorKind::standard) return x - estimate;
+    return V_inverse * (x - R * estimate);
+  };
+  xi.head<kDim>() = error(T_end.translation(), data_->T_base_end.translation());
+  const Pose T_base_map = values.base.inverse();
+  for (Index i = 0; i < shared_count(); ++i)
+    xi.segment<kDim>(kDof + kDim * i) = error(T_base_map * values.shared[i], data_->landmarks[shared_[i]]);
+  return xi;
+}
+
+// Of a point x (the end's position or a shared landmark), whose own error is e_x: B (e_x - e_p) + base e_R + end
+// e_R_end.
+template <class Pose>
+struct SubmapFactor<Pose>::Jacobian {
+  PointSquare B;
+  typename Rotation::Jacobian turn;                      // of xi_R by e_R_end; by e_R its negative
+  std::vector<typename Rotation::Turn> by_base, by_end;  // the end's position first, then the shared landmarks
+};
+
+// X' X_hat^-1 = Exp(tau) Exp(xi) for a change tau of X on the left, so that d xi = J_l(xi)^-1 tau with the group's left
+// Jacobian (Barfoot, State Estimation for Robotics, eq. 7.95): V^-1 (tau_x - Q J^-1 tau_R). Here
+// tau_R = R^T (e_R_end - e_R) and tau_x = dx + hat(x) tau_R = R^T (e_x - e_p + hat(l - p) e_R_end).
+// In the plane hat(x) tau_R is -turn(x) tau_R likewise.
+template <class Pose>
+typename SubmapFactor<Pose>::Jacobian SubmapFactor<Pose>::jacobian(const Values& values, const Vector& xi) const {
+  using Turn = typename Rotation::Turn;
+  Jacobian J;
+  const PointSquare R_transposed = values.base.rotation().matrix().transpose();
+  const Point p = values.base.translation();
+  const Tangent turn = xi.segment<kTurn>(kDim);
+  const typename Rotation::Jacobian adjoint_transposed = values.base.rotation().adjoint().transpose();
+  J.turn = Rotation::left_jacobian_inverse(turn) * adjoint_transposed;
+  const bool standard = data_->error == ErrorKind::standard;
+  J.B = standard ? R_transposed : PointSquare(Rotation::translation_jacobian_inverse(turn) * R_transposed);
+  const PointSquare V_inverse = Rotation::translation_jacobian_inverse(turn);
+  for (Index i = -1; i < shared_count(); ++i) {
+    const Point x = i < 0 ? values.end.translation() : values.shared[i];
+    const Turn lever = -Rotation::turn(x - p);
+    const Turn arm = J.B * lever;
+    if (standard) {
+      J.by_base.push_back(arm);
+      J.by_end.push_back(Turn::Zero());
+      continue;
+    }
+    const Point xi_x = i < 0 ? Point(xi.head<kDim>()) : Point(xi.segment<kDim>(kDof + kDim * i));
+    const Turn coupling = V_inverse * Rotation::translation_coupling(xi_x, turn) * J.turn;
+    J.by_base.push_back(coupling);
+    J.by_end.push_back(arm - coupling);
+  }
+  return J;
+}
+
+template <class Pose>
+Vector SubmapFactor<Pose>::weighted(const Vector& xi) const {
+  Vector out(rows());
+  information_.times(xi.data(), out.data());
+  return out;
+}
+
+template <class Pose>
+typename SubmapFactor<Pose>::Evaluation SubmapFactor<Pose>::evaluate(const Values& values) const {
+  Evaluation out;
+  const Vector xi = residual(values);
+  const Vector weight = weighted(xi);
+  out.cost = 0.5 * xi.dot(weight);
+  const Jacobian J = jacobian(values, xi);
+  Vector& gradient = out.gradient = Vector::Zero(columns());
+  const Tangent turn = J.turn.transpose() * weight.segment<kTurn>(kDim);
+  gradient.segment<kTurn>(kDim) -= turn;
+  gradient.segment<kTurn>(kDof + kDim) += turn;
+  for (Index i = -1; i < shared_count(); ++i) {
+    const Point w = i < 0 ? Point(weight.head<kDim>()) : Point(weight.segment<kDim>(kDof + kDim * i));
+    const Point force = J.B.transpose() * w;
+    gradient.segment<kDim>(0) -= force;
+    gradient.segment<kDim>(i < 0 ? kDof : column(i)) += force;
+    gradient.segment<kTurn>(kDim) += J.by_base[i + 1].transpose() * w;
+    gradient.segment<kTurn>(kDof + kDim) += J.by_end[i + 1].transpose() * w;
+  }
+  return out;
+}
+
+template <class Pose>
+Matrix SubmapFactor<Pose>::dense_jacobian(const Values& values) const {
+  const Jacobian J = jacobian(values, residual(values));
+  Matrix D = Matrix::Zero(rows(), columns());
+  D.block<kTurn, kTurn>(kDim, kDim) = -J.turn;
+  D.block<kTurn, kTurn>(kDim, kDof + kDim) = J.turn;
+  for (Index i = -1; i < shared_count(); ++i) {
+    const Index row = i < 0 ? 0 : kDof + kDim * i;
+    D.block<kDim, kDim>(row, 0) = -J.B;
+    D.block<kDim, kTurn>(row, kDim) = J.by_base[i + 1];
+    D.block<kDim, kDim>(row, i < 0 ? kDof : column(i)) = J.B;
+    D.block<kDim, kTurn>(row, kDof + kDim) = J.by_end[i + 1];
+  }
+  return D;
+}
+
+template <class Pose>
+Matrix SubmapFactor<Pose>::hessian(const Values& values, const std::vector<Rotation>& axes) const {
+  const Index n = rows();
+  Matrix information(n, n);  // lower triangle, the diagonal blocks of landmarks whole
+  for (Index c = 0; c < n; ++c) {
+    std::copy(information_.column(c) + c, information_.column(c) + n, information.col(c).data() + c);
+    if (c < kDof) continue;
+    for (Index r = c - (c - kDof) % kDim; r < c; ++r) information(r, c) = information(c, r);
+  }
+  Matrix D = dense_jacobian(values);
+  const PointSquare B = D.block<kDim, kDim>(0, kDof);
+  auto poses = D.leftCols<2 * kDof>();
+  const auto turn = [&](Index first, const auto& R) {
+    constexpr int width = std::decay_t<decltype(R)>::ColsAtCompileTime;
+    poses.template middleCols<width>(first) = (poses.template middleCols<width>(first) * R).eval();
+  };
+  for (Index pose = 0; pose < 2; ++pose) {
+    turn(kDof * pose, axes[pose].matrix());
+    turn(kDof * pose + kDim, axes[pose].adjoint());
+  }
+  std::vector<PointSquare> own;
+  for (Index i = 0; i < shared_count(); ++i) own.push_back(B * axes[2 + i].matrix());
+
+  Matrix H = Matrix::Zero(columns(), columns());
+  // The poses' columns are dense, those of a landmark have one block in its own rows alone.
+  const Matrix weighted = information.selfadjointView<Eigen::Lower>() * poses;
+  H.topLeftCorner<2 * kDof, 2 * kDof>().noalias() = poses.transpose() * weighted;
+  Matrix strip(n, kDim);
+  for (Index j = 0; j < shared_count(); ++j) {
+    const Index first = kDof + kDim * j;
+    H.block<kDim, 2 * kDof>(column(j), 0).noalias() = own[j].transpose() * weighted.middleRows<kDim>(first);
+    const Index below = n - first;
+    strip.topRows(below).noalias() = information.block(first, first, below, kDim).lazyProduct(own[j]);
+    for (Index i = j; i < shared_count(); ++i)
+      H.block<kDim, kDim>(column(i), column(j)).noalias() = own[i].transpose() * strip.middleRows<kDim>(kDim * (i - j));
+  }
+  return H;
+}
+
+template <class Pose>
+typename SubmapFactor<Pose>::PointSquare SubmapFactor<Pose>::landmark_information(Index i, const Rotation& base) const {
+  PointSquare block;
+  for (Index c = 0; c < kDim; ++c)
+    for (Index r = 0; r < kDim; ++r) block(r, c) = information_(kDof + kDim * i + r, kDof + kDim * i + c);
+  const PointSquare R = base.matrix();
+  return R * block * R.transpose();
+}
+
+template <class Pose>
+typename SubmapFactor<Pose>::Points SubmapFactor<Pose>::place_private(const Values& values, const Vector& xi,
+                                                                      const Vector& weight) const {
+  const std::vector<Index> chosen = states();
+  Vector weights = Vector::Zero(data_->covariance.size()), errors(weights.size());
+  for (std::size_t k = 0; k < chosen.size(); ++k) weights(chosen[k]) = weight(static_cast<Index>(k));
+  data_->covariance.times(weights.data(), errors.data());
+  PointSquare R = PointSquare::Identity(), V = R;
+  if (data_->error != ErrorKind::standard) {
+    const Tangent turn = xi.segment<kTurn>(kDim);
+    R = Rotation::exp(turn).matrix();
+    V = Rotation::translation_jacobian(turn);
+  }
+  const PointSquare base = values.base.rotation().matrix();
+  Points positions(kDim, static_cast<Index>(data_->landmarks.size()));
+  for (Index i = 0; i < positions.cols(); ++i)
+    positions.col(i) =
+        values.base.translation() + base * (R * data_->landmarks[i] + V * errors.segment<kDim>(kDof + kDim * i));
+  return positions;
+}
+
+// xi_l = K xi + w with K = Sigma_ls Sigma_ss^-1, and xi = J e. In the frame of the base y = y_hat + xi_l + G(y) xi_R
+// (standard: without the last term), and e_l = e_p + G(R y) e_R + R e_y.
+template <class Pose>
+void SubmapFactor<Pose>::express_private(const std::vector<Index>& landmarks, const Values& values, Matrix& A,
+                                         Matrix& W) const {
+  std::vector<Index> rows_of, chosen = states();
+  for (const Index i : landmarks)
+    for (Index d = 0; d < kDim; ++d) rows_of.push_back(kDof + kDim * i + d);
+  const auto n = static_cast<Index>(landmarks.size());
+  const Vector xi = residual(values);
+  const Vector weight = weighted(xi);
+  Matrix information(rows(), rows());
+  for (Index c = 0; c < rows(); ++c)
+    for (Index r = 0; r < rows(); ++r) information(r, c) = information_(r, c);
+  const Matrix cross = data_->covariance.block(rows_of, chosen);
+  Matrix K = cross * information;
+  W = data_->covariance.block(rows_of, rows_of);
+  W -= K * cross.transpose();
+  const PointSquare R = values.base.rotation().matrix();
+  const Points placed = place_private(values, xi, weight);
+  std::vector<Point> arms;
+  for (Index a = 0; a < n; ++a) {
+    arms.push_back(placed.col(landmarks[a]) - values.base.translation());
+    if (data_->error == ErrorKind::invariant)
+      K.block<kDim, kTurn>(kDim * a, kDim) += Rotation::turn(R.transpose() * arms[a]);
+  }
+  A = K * dense_jacobian(values);
+  for (Index a = 0; a < n; ++a) {
+    A.middleRows<kDim>(kDim * a) = (R * A.middleRows<kDim>(kDim * a)).eval();
+    A.block<kDim, kDim>(kDim * a, 0) += PointSquare::Identity();
+    A.block<kDim, kTurn>(kDim * a, kDim) += Rotation::turn(arms[a]);
+    for (Index b = 0; b < n; ++b)
+      W.block<kDim, kDim>(kDim * a, kDim * b) = (R * W.block<kDim, kDim>(kDim * a, kDim * b) * R.transpose()).eval();
+  }
+  W = (0.5 * (W + W.transpose())).eval();
+}
+
+template struct SubmapData<SE2>;
+template struct SubmapData<SE3>;
+template class SubmapFactor<SE2>;
+template class SubmapFactor<SE3>;
+
+}  // namespace cairn

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A closed submap as one observation of its base, its end and its landmarks: the submap's estimate is the value, its
+// covariance the noise, whole (docs/submaps.md).
+//
+// Landmarks that no other submap holds are private: given the others, they can always stand where they leave no
+// residual, so that eliminating them leaves the covariance of the others as it is. Only base, end and shared landmarks
+// enter the factor; the private ones follow from them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "map/join/sparse/packed.hpp"
+#include "map/submap.hpp"
+
+namespace cairn {
+
+// What never changes. Shared between copies of a map.
+template <class Pose>
+struct SubmapData {
+  explicit SubmapData(const Submap<Pose>& submap);
+
+  ErrorKind error;
+  Pose T_base_end;
+  std::vector<std::uint64_t> ids;
+  std::vector<typename Pose::Point> landmarks;  // in the frame of the base
+  Packed covariance;                            // of [end; landmarks], own error coordinates
+};
+
+// Values of what a factor depends on.
+template <class Pose>
+struct FactorValues {
+  Pose base, end;
+  std::vector<typename Pose::Point> shared;  // in the map frame, in the order of the factor's shared landmarks
+};
+
+// The factor for one choice of shared landmarks.
+template <class Pose>
+class SubmapFactor {
+ public:
+  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  using Matrix = Eigen::MatrixXd;
+  using Vector = Eigen::VectorXd;
+  using Rotation = typename Pose::Rotation;
+  using PointSquare = typename Rotation::Matrix;
+  using Points = Eigen::Matrix<double, kDim, Eigen::Dynamic>;
+  using Data = SubmapData<Pose>;
+  using Values = FactorValues<Pose>;
+
+  // `shared`: numbers of landmarks in the submap, ascending. Throws where the covariance can't be inverted.
+  SubmapFactor(std::shared_ptr<const Data> data, std::vector<Eigen::Index> shared);
+
+  const Data& data() const { return *data_; }
+  const std::vector<Eigen::Index>& shared() const { return shared_; }
+  Eigen::Index rows() const { return information_.size(); }  // kDof + kDim shared
+  // Base, end, shared: ordinary errors in map axes.
+  Eigen::Index columns() const { return column(shared_count()); }
+  static Eigen::Index column(Eigen::Index shared_landmark) { return 2 * kDof + kDim * shared_landmark; }
+  Eigen::Index shared_count() const { return static_cast<Eigen::Index>(shared_.size()); }
+
+  // The error xi of the submap's estimate against the values; that of its turn comes from kDim on.
+  Vector residual(const Values& values) const;
+  Vector weighted(const Vector& residual) const;  // Sigma^-1 xi
+  struct Evaluation {
+    double cost = 0.0;  // xi^T Sigma^-1 xi / 2
+    Vector gradient;    // of the cost, columns()
+  };
+  Evaluation evaluate(const Values& values) const;
+  // J^T Sigma^-1 J, lower triangle, its diagonal blocks of poses and of landmarks whole; by errors in the given axes of
+  // base, end and shared landmarks.
+  Matrix hessian(const Values& values, const std::vector<Rotation>& axes) const;
+  // Block of the information of a single shared landmark, in map axes.
+  PointSquare landmark_information(Eigen::Index i, const Rotation& base) const;
+
+  // Where each of the submap's landmarks leaves no residual of its own, a column each, in the map frame.
+  Points place_private(const Values& values, const Vector& residual, const Vector& weighted) const;
+  // Landmarks of the submap by their number, as e = A [base; end; shared] + w with ordinary errors in map axes, w of
+  // covariance W: joint of all that are asked for. Shared landmarks are not to be asked for.
+  void express_private(const std::vector<Eigen::Index>& landmarks, const Values& values, Matrix& A, Matrix& W) const;
+
+  std::size_t memory_bytes() const { return information_.memory_bytes() + data_->covariance.memory_bytes(); }
+
+ private:
+  using Point = typename Pose::Point;
+  using Tangent = typename Rotation::Tangent;
+
+  struct Jacobian;
+  Jacobian jacobian(const Values& values, const Vector& residual) const;
+  std::vector<Eigen::Index> states() const;
+  Matrix dense_jacobian(const Values& values) const;
+
+  std::shared_ptr<const Data> data_;
+  std::vector<Eigen::Index> shared_;
+  Packed information_;  // Sigma^-1 of [end; shared]
+};
+
+extern template struct SubmapData<SE2>;
+extern template struct SubmapData<SE3>;
+extern template class SubmapFactor<SE2>;
+extern template class SubmapFactor<SE3>;
+
+}  // namespace cairn

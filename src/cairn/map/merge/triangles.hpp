@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Triangles of neighbouring points: what two maps of one place have in common whatever their frames are.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "map/merge/correspondence.hpp"
+#include "map/spatial_index.hpp"
+
+namespace cairn {
+
+// A point's neighbours, nearest first.
+using Neighbours = std::vector<std::vector<std::uint32_t>>;
+
+struct Triangle {
+  std::array<std::uint32_t, 3> points;  // point i stands opposite side i
+  Vector3 sides;                        // ascending, m
+  Vector3 variances;                    // of the sides, m^2
+};
+
+struct Triangles {
+  Neighbours neighbours;
+  std::vector<Triangle> triangles;
+  double spacing = 0;  // median distance of a point and its nearest, m
+};
+
+// Triangles of each point with pairs of its `corners` nearest, each once; slivers and those that their uncertainty
+// leaves shapeless are left out. `neighbours` of each point are kept, at least as many as `corners`.
+Triangles make_triangles(const PointSet& set, const SpatialIndex& index, std::size_t corners, std::size_t neighbours,
+                         std::size_t most);
+
+// Covariance of each point beside its neighbours: what its error has in common with theirs, as a motion of all of them,
+// is taken out, for a transform between two maps takes it up anyway. Without a joint covariance the points' own.
+std::vector<Matrix3> local_covariances(const PointSet& set, const SpatialIndex& index, std::size_t neighbours);
+
+// The rotation and translation that lay triangle b onto triangle a, corner i on corner i: sides along each other,
+// planes together, centroids together.
+SE3 lay_onto(const std::array<Vector3, 3>& a, const std::array<Vector3, 3>& b);
+
+// Ways of pairing the corners: corner i of a is corner kPairings[w][i] of b.
+inline constexpr std::array<std::array<int, 3>, 6> kPairings = {
+    {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+
+}  // namespace cairn

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A map that belongs to no filter: dense or sparse, and whose data it holds.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "map/merge/merge.hpp"
+
+namespace cairn {
+
+struct OwnedMap {
+  // A copy of whatever holds the landmarks; `origins` are the filters that made them.
+  OwnedMap(const Landmarks& source, std::vector<std::uint64_t> origins_of_source);
+  // Both as one, in the frame of `map`. Throws where they do not merge, as maps of the plane never do; `report` then
+  // tells how far it got.
+  OwnedMap(const OwnedMap& map, const Landmarks& other, const std::vector<std::uint64_t>& origins_of_other,
+           const MergeOptions& options, MergeReport& report);
+
+  std::unique_ptr<const Landmarks> landmarks;
+  std::vector<std::uint64_t> origins;  // ascending
+  std::vector<MergedId> merged;        // of the last merge
+};
+
+bool is_sparse(const Landmarks& map);
+
+}  // namespace cairn

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A recorded run, whatever file it came from: how the vehicle moved, what it saw, and the truth where it is known.
+#pragma once
+
+#include <cairn/cairn.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace cairn::program::logs {
+
+// A file that is no log, or a broken one. The message is one line: file, line or variable, cause.
+class LogError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Relative pose of a step, and the covariance of its error [dp; dtheta] in the axes of the body before.
+struct Increment {
+  cairn_pose T_before_after;
+  std::array<double, 36> covariance;
+};
+
+// Body velocity (m/s) and rate (rad/s), held for `dt` seconds.
+struct Twist {
+  double dt;
+  std::array<double, 3> velocity;
+  std::array<double, 3> rate;
+};
+
+struct Step {
+  std::uint64_t number = 0;                                // the log's own count
+  double time = std::numeric_limits<double>::quiet_NaN();  // s; NaN where the log does not tell
+  std::optional<Increment> increment;                      // motion that leads to this step: one of these two,
+  std::optional<Twist> twist;                              // none at the first step
+  std::vector<cairn_observation> observations;
+  std::optional<cairn_pose> truth;  // body in the map frame; the first step always has it
+};
+
+enum class SensorKind { kStereoHead, kStereoCamera };
+
+struct Log {
+  std::string format;              // for people
+  std::vector<std::string> notes;  // what the reader left out
+  SensorKind sensor = SensorKind::kStereoHead;
+  cairn_stereo_head head{};                                  // where the sensor is a stereo head
+  cairn_stereo_camera camera{};                              // where it is a stereo camera
+  cairn_twist_noise twist_noise{};                           // of every twist
+  std::vector<Step> steps;                                   // never empty
+  std::map<std::uint64_t, std::array<double, 3>> landmarks;  // true positions, m
+};
+
+// Noise that the caller wants instead of the file's, as standard deviations.
+struct NoiseOverride {
+  std::optional<double> pixel;     // u_left and u_right; v, a mean of two rows, gets it over sqrt(2)
+  std::optional<double> velocity;  // m/s, each axis
+  std::optional<double> rate;      // rad/s, each axis
+};
+
+// Reads a log, whose kind its content tells. Throws LogError.
+Log read_log(const std::string& path, const NoiseOverride& noise);
+
+// The two kinds. `text` is the file's whole content.
+Log read_neutral_log(const std::string& path, const std::string& text);
+Log read_stars_log(const std::string& path, const std::string& content, const NoiseOverride& noise);
+
+}  // namespace cairn::program::logs

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Opens a log and tells its kind by its content, never by its name.
+#include <sys/stat.h>
+
+#include "program/logs/log.hpp"
+#include "program/logs/text_file.hpp"
+
+namespace cairn::program::logs {
+namespace {
+
+// MATLAB's binary files begin with a text that says so; whether the rest of the header is whole, the reader finds out.
+bool is_mat_file(const std::string& content) {
+  return content.compare(0, 7, "MATLAB ") == 0;
+}
+
+}  // namespace
+
+Log read_log(const std::string& path, const NoiseOverride& noise) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode))
+    throw LogError(path + ": a folder, and no MRCLAM one: it holds no Barcodes.dat");
+  const std::string content = read_file(path);
+  if (content.empty()) throw LogError(path + ":1: the file is empty");
+  if (is_mat_file(content)) return read_stars_log(path, content, noise);
+  return read_neutral_log(path, content);
+}
+
+}  // namespace cairn::program::logs

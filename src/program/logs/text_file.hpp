@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Text files of records, one a line, their fields separated by blanks. All errors are LogError and name file and line.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cairn::program::logs {
+
+std::string read_file(const std::string& path);
+
+class TextLines {
+ public:
+  TextLines(std::string path, std::string text) : path_(std::move(path)), text_(std::move(text)) {}
+
+  // To the next record; false where there is none. Empty lines and lines that begin with # are passed over.
+  bool next();
+
+  // --- of this record ---
+  std::size_t size() const { return fields_.size(); }
+  std::string_view field(std::size_t index) const { return fields_[index]; }
+  // `name` is for the message.
+  double number(std::size_t index, const char* name) const;  // finite
+  std::uint64_t whole(std::size_t index, const char* name) const;
+  std::uint64_t identity(std::size_t index, const char* name) const;  // whole, and not CAIRN_ID_NONE
+
+  // Throw, of the line that was read last.
+  [[noreturn]] void fail(const std::string& cause) const;
+  [[noreturn]] void refuse(std::size_t index, const char* name, const char* why) const;
+
+  // What a file of another kind contains must not reach the terminal as it is.
+  static std::string quoted(std::string_view field);
+
+ private:
+  std::string path_, text_;
+  std::vector<std::string_view> fields_;
+  std::size_t begin_ = 0, line_ = 0;
+};
+
+}  // namespace cairn::program::logs

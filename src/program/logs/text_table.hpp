@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A text file whose records all have the same fields. All errors are LogError and name file and line.
+#pragma once
+
+#include <limits>
+
+#include "program/logs/text_file.hpp"
+
+namespace cairn::program::logs {
+
+class TextTable {
+ public:
+  // Reads the whole file. `columns` name the fields of a record.
+  TextTable(const std::string& path, std::vector<const char*> columns)
+      : lines_(path, read_file(path)), columns_(std::move(columns)) {}
+
+  // To the next record; false where there is none.
+  bool next();
+
+  // Fields of this record.
+  double number(std::size_t column) const { return lines_.number(column, columns_[column]); }  // finite
+  double positive(std::size_t column) const;
+  std::uint64_t whole(std::size_t column) const { return lines_.whole(column, columns_[column]); }
+  std::uint64_t identity(std::size_t column) const { return lines_.identity(column, columns_[column]); }
+  // The first one, which may not be less than that of the record before.
+  double time();
+
+  // Throws, of the line that was read last.
+  [[noreturn]] void fail(const std::string& cause) const { lines_.fail(cause); }
+
+ private:
+  TextLines lines_;
+  std::vector<const char*> columns_;
+  double last_time_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace cairn::program::logs
