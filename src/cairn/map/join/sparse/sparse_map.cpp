@@ -8,7 +8,7 @@
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
-#include "ekf/iterate.hpp"
+#include "linear/joint_gate.hpp"
 #include "map/join/sparse/sparse_queries.hpp"
 #include "map/join/sparse/sparse_solve.hpp"
 #include "map/join/sparse/sparse_undo.hpp"
