@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/chi_square.hpp"
 #include "ekf/iterate.hpp"
@@ -183,75 +184,109 @@ void DenseMap<Pose>::fuse_and_compose(const Submap<Pose>& submap, const std::vec
   ekf_.compose(handover);
 }
 
+// The filter is backed up before its first change; the lists of landmarks and submaps change in commit() only.
 template <class Pose>
-JoinReport DenseMap<Pose>::join_and_fix(const Submap<Pose>& submap, FixRequest<Pose>* fix) {
-  JoinReport report;
-  std::vector<Pair> pairs;
-  std::vector<Eigen::Index> fresh;
-  for (Eigen::Index i = 0; i < submap.size(); ++i) {
-    const std::int32_t index = indices_.find(submap.ids[i]);
-    if (index == IdTable::kAbsent)
-      fresh.push_back(i);
-    else
-      pairs.push_back({i, slot_of(static_cast<std::size_t>(index))});
+class DenseMap<Pose>::Transaction final : public MapTransaction<Pose> {
+ public:
+  explicit Transaction(DenseMap& map) : map_(map) {}
+  ~Transaction() override {
+    if (backup_) map_.ekf_.restore(*backup_);
   }
-  if (size() + fresh.size() > options_.max_landmarks)
+
+  void join(const Submap<Pose>& submap) override;
+  FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) override;
+  JoinReport commit() override;
+
+ private:
+  DenseMap& map_;
+  std::optional<typename Ekf<Pose>::Backup> backup_;
+  JoinReport report_;
+  std::vector<Pair> pairs_;            // known landmarks that are fused
+  std::vector<Eigen::Index> fresh_;    // the submap's new landmarks, by their number there
+  std::vector<std::uint64_t> counts_;  // of the submap's landmarks
+  std::vector<Point> before_;          // the map's landmarks
+  std::optional<Closed> closed_;       // the submap, once joined
+};
+
+template <class Pose>
+std::unique_ptr<MapTransaction<Pose>> DenseMap<Pose>::begin() {
+  return std::make_unique<Transaction>(*this);
+}
+
+template <class Pose>
+void DenseMap<Pose>::Transaction::join(const Submap<Pose>& submap) {
+  for (Eigen::Index i = 0; i < submap.size(); ++i) {
+    const std::int32_t index = map_.indices_.find(submap.ids[i]);
+    if (index == IdTable::kAbsent)
+      fresh_.push_back(i);
+    else
+      pairs_.push_back({i, map_.slot_of(static_cast<std::size_t>(index))});
+  }
+  if (map_.size() + fresh_.size() > map_.options_.max_landmarks)
     throw Error(ErrorCode::capacity, "submap: %zu new landmarks, and the map holds %zu of max_landmarks = %zu",
-                fresh.size(), size(), options_.max_landmarks);
-  const std::size_t known = pairs.size();
+                fresh_.size(), map_.size(), map_.options_.max_landmarks);
+  const std::size_t known = pairs_.size();
   std::vector<Eigen::Index> known_ones;
-  for (const Pair& pair : pairs) known_ones.push_back(pair.local);
+  for (const Pair& pair : pairs_) known_ones.push_back(pair.local);
   Eigen::MatrixXd joint = submap.covariance;
   to_ordinary(submap, known_ones, joint);
-  if (!pairs.empty()) gate(submap, pairs, joint, report);
-  report.fused = pairs.size();
-  report.fresh = fresh.size();
-  report.refused = known - pairs.size();
+  if (!pairs_.empty()) map_.gate(submap, pairs_, joint, report_);
+  report_.fused = pairs_.size();
+  report_.fresh = fresh_.size();
+  report_.refused = known - pairs_.size();
 
   // The rest of the submap's error is K y + w by the fused landmarks' y.
   std::vector<Eigen::Index> fused, rest;
   for (Eigen::Index d = 0; d < kDof; ++d) rest.push_back(d);
-  for (const Pair& pair : pairs) fused.push_back(pair.local);
-  const std::vector<Eigen::Index> of_fused = states_of<Pose>(fused), of_fresh = states_of<Pose>(fresh);
+  for (const Pair& pair : pairs_) fused.push_back(pair.local);
+  const std::vector<Eigen::Index> of_fused = states_of<Pose>(fused), of_fresh = states_of<Pose>(fresh_);
   rest.insert(rest.end(), of_fresh.begin(), of_fresh.end());
   typename Ekf<Pose>::Handover handover;
   const Eigen::MatrixXd cross = joint(of_fused, rest);
-  handover.K = pairs.empty() ? Eigen::MatrixXd(rest.size(), 0)
-                             : Eigen::MatrixXd(joint(of_fused, of_fused).ldlt().solve(cross).transpose());
+  handover.K = pairs_.empty() ? Eigen::MatrixXd(rest.size(), 0)
+                              : Eigen::MatrixXd(joint(of_fused, of_fused).ldlt().solve(cross).transpose());
   handover.W = joint(rest, rest);
   handover.W -= handover.K * cross;
   if (!handover.K.allFinite() || !handover.W.allFinite()) throw_not_definite();
   std::vector<Index> slots;
-  for (const Pair& pair : pairs) slots.push_back(pair.slot);
-  std::vector<Point> before, landmarks;
-  for (std::size_t i = 0; i < size(); ++i) before.push_back(ekf_.landmark(slot_of(i)));
-  for (const Eigen::Index i : fresh) landmarks.push_back(submap.landmarks[i]);
-  Closed closed{base(), submap.ids};
-  if (closed_.size() == closed_.capacity()) closed_.reserve(2 * closed_.size() + 8);
+  for (const Pair& pair : pairs_) slots.push_back(pair.slot);
+  std::vector<Point> landmarks;
+  for (std::size_t i = 0; i < map_.size(); ++i) before_.push_back(map_.ekf_.landmark(map_.slot_of(i)));
+  for (const Eigen::Index i : fresh_) landmarks.push_back(submap.landmarks[i]);
+  counts_ = submap.counts;
+  closed_.emplace(Closed{map_.base(), submap.ids});
+  std::vector<Closed>& all_closed = map_.closed_;
+  if (all_closed.size() == all_closed.capacity()) all_closed.reserve(2 * all_closed.size() + 8);
 
-  // Nothing was changed so far. The composition takes memory once more: if there is none, the update is taken back.
-  const typename Ekf<Pose>::Backup backup = ekf_.backup();
-  try {
-    fuse_and_compose(submap, pairs, joint, slots, landmarks, handover, report);
-    if (fix != nullptr) fix->report = this->fix(fix->fix, fix->threshold);
-  } catch (...) {
-    ekf_.restore(backup);
-    throw;
-  }
-  for (std::size_t a = 0; a < fresh.size(); ++a) {
-    const std::size_t index = size() - fresh.size() + a;
-    ids_[index] = submap.ids[fresh[a]];
-    counts_[index] = submap.counts[fresh[a]];
-    indices_.set(ids_[index], static_cast<std::int32_t>(index));
-  }
-  for (const Pair& pair : pairs) counts_[pair.slot - ekf_.companions()] += submap.counts[pair.local];
-  measure_movement<Pose>(before, ekf_, report);
-  closed_.push_back(std::move(closed));
-  return report;
+  // Nothing was changed so far.
+  backup_.emplace(map_.ekf_.backup());
+  map_.fuse_and_compose(submap, pairs_, joint, slots, landmarks, handover, report_);
 }
 
 template <class Pose>
-FixReport DenseMap<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold) {
+FixReport DenseMap<Pose>::Transaction::fix(const AbsoluteFix<Pose>& fix, double threshold) {
+  if (!backup_) backup_.emplace(map_.ekf_.backup());
+  return map_.fix_base(fix, threshold);
+}
+
+template <class Pose>
+JoinReport DenseMap<Pose>::Transaction::commit() {
+  backup_.reset();
+  if (!closed_) return report_;
+  for (std::size_t a = 0; a < fresh_.size(); ++a) {
+    const std::size_t index = map_.size() - fresh_.size() + a;
+    map_.ids_[index] = closed_->ids[fresh_[a]];
+    map_.counts_[index] = counts_[fresh_[a]];
+    map_.indices_.set(map_.ids_[index], static_cast<std::int32_t>(index));
+  }
+  for (const Pair& pair : pairs_) map_.counts_[pair.slot - map_.ekf_.companions()] += counts_[pair.local];
+  measure_movement<Pose>(before_, map_.ekf_, report_);
+  map_.closed_.push_back(std::move(*closed_));
+  return report_;
+}
+
+template <class Pose>
+FixReport DenseMap<Pose>::fix_base(const AbsoluteFix<Pose>& fix, double threshold) {
   FixReport report;
   const auto linearise = [&](double* residual_only) { return linearise_fix(ekf_, fix, residual_only); };
   ekf_.open(nullptr, 0, nullptr);

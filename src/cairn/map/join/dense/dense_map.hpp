@@ -20,8 +20,7 @@ class DenseMap final : public GlobalMap<Pose> {
   explicit DenseMap(const MapOptions<Pose>& options);
   static std::size_t required_bytes(const MapOptions<Pose>& options);
 
-  JoinReport join_and_fix(const Submap<Pose>& submap, FixRequest<Pose>* fix) override;
-  FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) override;
+  std::unique_ptr<MapTransaction<Pose>> begin() override;
   void remove(std::uint64_t id) override;
   Pose base() const override { return ekf_.pose(); }
   typename Pose::Square base_covariance() const override { return ekf_.pose_covariance(); }
@@ -56,12 +55,14 @@ class DenseMap final : public GlobalMap<Pose> {
     Eigen::Index local;  // in the submap
     Index slot;          // in the map
   };
+  class Transaction;
   struct Closed {
     Pose base;  // as it was known then
     std::vector<std::uint64_t> ids;
   };
 
   DenseMap(const MapOptions<Pose>& options, std::size_t bytes);
+  FixReport fix_base(const AbsoluteFix<Pose>& fix, double threshold);
   Index slot_of(std::size_t index) const { return ekf_.companions() + static_cast<Index>(index); }
   Index companion(std::uint64_t id) const;
   void open(const std::vector<Pair>& pairs);
