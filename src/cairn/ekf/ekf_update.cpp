@@ -87,7 +87,6 @@ void EkfUpdate<Pose>::gather_columns() {
 
 template <class Pose>
 void EkfUpdate<Pose>::compute_innovation() {
-  require(stage_ != Stage::committed, "linearise");
   const Index m = batch().rows(), n = state_.states(), ld = state_.ld_;
   double* const W = workspace_.W;
   double* const HP = workspace_.HP;
@@ -145,6 +144,7 @@ void EkfUpdate<Pose>::keep(const Index* blocks, Index count, Index rows) {
 
 template <class Pose>
 InverseInnovation EkfUpdate<Pose>::invert() {
+  require(stage_ == Stage::linearised || stage_ == Stage::factored, "invert");
   form_innovation();  // a factor may stand where S was
   const Index m = batch().rows();
   double* const L = workspace_.scratch;
@@ -165,8 +165,8 @@ template <class Pose>
 bool EkfUpdate<Pose>::try_factor() {
   require(stage_ == Stage::linearised, "factor");
   const Index m = batch().rows();
+  stage_ = Stage::open;  // S is overwritten, also where it has no factor
   if (!cholesky(workspace_.S, m, m, workspace_.scratch)) return false;
-  stage_ = Stage::factored;
   // The residual of the iterated filter: r(x_i) + H_i xi_i (Bell and Cathey 1993); xi is zero at the first.
   double* const innovation = workspace_.innovation;
   batch().add_product(1.0, workspace_.error_window, innovation);
@@ -174,7 +174,9 @@ bool EkfUpdate<Pose>::try_factor() {
   solve_lower(workspace_.S, m, m, innovation);
   nis_ = 0.0;
   for (Index i = 0; i < m; ++i) nis_ += innovation[i] * innovation[i];
-  return std::isfinite(nis_);
+  if (!std::isfinite(nis_)) return false;
+  stage_ = Stage::factored;
+  return true;
 }
 
 template <class Pose>
@@ -205,6 +207,7 @@ void EkfUpdate<Pose>::step() {
 
 template <class Pose>
 double EkfUpdate<Pose>::misfit(const double* residual) const {
+  require(stage_ == Stage::solved, "misfit");
   double sum = 0.0;
   for (Index i = 0; i < batch().rows(); ++i) {
     const double difference = residual[i] - workspace_.foreseen[i];
@@ -216,6 +219,7 @@ double EkfUpdate<Pose>::misfit(const double* residual) const {
 template <class Pose>
 bool EkfUpdate<Pose>::try_commit() {
   require(stage_ == Stage::solved, "commit");
+  stage_ = Stage::open;  // W is overwritten, also where the commit is refused
   constexpr double kLeast = 1e-14;
   const Index n = state_.states(), m = batch().rows(), ld = state_.ld_;
   // P H^T of the last linearisation becomes W = P H^T L^-T; the error xi = W L^-1 r, and what P_new = P - W W^T (Mars
@@ -261,6 +265,7 @@ template <class Pose>
 bool EkfUpdate<Pose>::place(const Point& position, const PointByPose& J_pose, const PointByMount* J_mount,
                             const PointSquare& noise, bool relative) {
   require(stage_ == Stage::committed || batch().rows() == 0, "place");
+  stage_ = Stage::committed;  // the window's columns are those of the state before
   const typename State<Pose>::SharedMount mount{mount_covariance_, workspace_.mount_cross};
   return state_.augment(position, J_pose, noise, relative, J_mount, &mount);
 }

@@ -18,7 +18,7 @@ class UpdateGates {
   template <class Bound>
   bool consistent(Bound&& bound) {
     update_.factor();
-    return update_.nis() <= bound(update_.batch().rows());
+    return count() == 0 || update_.nis() <= bound(update_.batch().rows());  // no rows have no bound
   }
   InverseInnovation invert() { return update_.invert(); }
   void refactor() { update_.factor(); }
