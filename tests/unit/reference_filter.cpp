@@ -63,14 +63,14 @@ int ReferenceFilter::find(std::uint64_t id) const {
 
 // R = Exp(xi_R) R_hat, and for the position and every landmark: invariant x = Exp(xi_R) x_hat + J(xi_R) xi_x, which is
 // the exponential of SE_{K+1}(3) times the state; standard x = x_hat + e_x.
-State ReferenceFilter::retract(const State& state, const DynamicVector& error) const {
+ReferenceState ReferenceFilter::retract(const ReferenceState& state, const DynamicVector& error) const {
   const Vector3 turn = piece(error, 3);
   const SO3 R = SO3::exp(turn);
   const Matrix3 V = options_.invariant ? series(turn) : Matrix3(Matrix3::Identity());
   const auto move = [&](const Vector3& x, const Vector3& e) {
     return Vector3((options_.invariant ? R * x : x) + V * e);
   };
-  State result = state;
+  ReferenceState result = state;
   result.pose = SE3(R * state.pose.rotation(), move(state.pose.translation(), piece(error, 0)));
   for (std::size_t i = 0; i < state.landmarks.size(); ++i)
     result.landmarks[i] = move(state.landmarks[i], piece(error, 6 + 3 * i));
@@ -79,7 +79,7 @@ State ReferenceFilter::retract(const State& state, const DynamicVector& error) c
   return result;
 }
 
-DynamicVector ReferenceFilter::local(const State& from, const State& to) const {
+DynamicVector ReferenceFilter::local(const ReferenceState& from, const ReferenceState& to) const {
   const SO3 R = to.pose.rotation() * from.pose.rotation().inverse();
   const Vector3 turn = R.log();
   const Matrix3 V_inverse = options_.invariant ? Matrix3(series(turn).inverse()) : Matrix3(Matrix3::Identity());
@@ -100,7 +100,7 @@ DynamicVector ReferenceFilter::local(const State& from, const State& to) const {
 Dynamic ReferenceFilter::ordinary_by_own() const {
   return differentiate(
       [&](const DynamicVector& error) {
-        const State moved = retract(state_, error);
+        const ReferenceState moved = retract(state_, error);
         DynamicVector e(state_.size());
         e.head<3>() = moved.pose.translation() - state_.pose.translation();
         e.segment<3>(3) = (moved.pose.rotation() * state_.pose.rotation().inverse()).log();
@@ -117,14 +117,14 @@ Dynamic ReferenceFilter::ordinary_covariance() const {
 }
 
 void ReferenceFilter::predict(const Motion& motion, const Dynamic& noise_covariance) {
-  const auto after = [&](const State& before, const DynamicVector& noise) {
-    State result = before;
+  const auto after = [&](const ReferenceState& before, const DynamicVector& noise) {
+    ReferenceState result = before;
     result.pose = motion(before.pose, noise);
     return result;
   };
   const Eigen::Index noises = noise_covariance.rows();
   const DynamicVector none = DynamicVector::Zero(noises);
-  const State next = after(state_, none);
+  const ReferenceState next = after(state_, none);
   const Dynamic F = differentiate(
       [&](const DynamicVector& error) { return local(next, after(retract(state_, error), none)); }, state_.size());
   const Dynamic G =
@@ -170,7 +170,7 @@ void ReferenceFilter::predict_increment(const SE3& T_before_after, const Matrix6
 FrameResult ReferenceFilter::update(const Residual& residual, const Noise& noise, int least, int iterations) {
   FrameResult result;
   const Eigen::Index n = state_.size();
-  State iterate = state_;
+  ReferenceState iterate = state_;
   DynamicVector xi = DynamicVector::Zero(n), r, r_next;
   Dynamic H, R, K;
   if (!residual(iterate, r)) throw std::runtime_error("the reference has no residual at its prediction");
@@ -190,7 +190,7 @@ FrameResult ReferenceFilter::update(const Residual& residual, const Noise& noise
     xi = K * y;
     result.iterations = i;
     if (i >= iterations) break;
-    const State next = retract(state_, xi);
+    const ReferenceState next = retract(state_, xi);
     if (!residual(next, r_next)) break;
     const DynamicVector foreseen = y - H * xi;
     if (i >= least &&
@@ -207,28 +207,30 @@ FrameResult ReferenceFilter::update(const Residual& residual, const Noise& noise
 
 FrameResult ReferenceFilter::update_position(const Vector3& position, const Matrix3& covariance,
                                              const Vector3& lever_arm) {
-  const auto residual = [&](const State& x, DynamicVector& out) { return out = position - x.pose * lever_arm, true; };
+  const auto residual = [&](const ReferenceState& x, DynamicVector& out) {
+    return out = position - x.pose * lever_arm, true;
+  };
   return update(
-      residual, [&](const State&) { return covariance; }, 2, options_.iterations);
+      residual, [&](const ReferenceState&) { return covariance; }, 2, options_.iterations);
 }
 
 FrameResult ReferenceFilter::update_attitude(const SO3& attitude, const Matrix3& covariance) {
-  const auto residual = [&](const State& x, DynamicVector& out) {
+  const auto residual = [&](const ReferenceState& x, DynamicVector& out) {
     return out = (attitude * x.pose.rotation().inverse()).log(), true;
   };
   return update(
-      residual, [&](const State&) { return covariance; }, 2, options_.iterations);
+      residual, [&](const ReferenceState&) { return covariance; }, 2, options_.iterations);
 }
 
 FrameResult ReferenceFilter::update_heading(double heading, double sigma) {
-  const auto residual = [&](const State& x, DynamicVector& out) {
+  const auto residual = [&](const ReferenceState& x, DynamicVector& out) {
     const Vector3 forward = x.pose.rotation() * Vector3::UnitX();
     return out.setConstant(1,
                            std::remainder(heading - std::atan2(forward.y(), forward.x()), 2 * 3.14159265358979323846)),
            true;
   };
   return update(
-      residual, [&](const State&) { return Dynamic::Constant(1, 1, sigma * sigma); }, 2, options_.iterations);
+      residual, [&](const ReferenceState&) { return Dynamic::Constant(1, 1, sigma * sigma); }, 2, options_.iterations);
 }
 
 FrameResult ReferenceFilter::update_linear(const DynamicVector& residual, const Dynamic& covariance,
@@ -239,10 +241,12 @@ FrameResult ReferenceFilter::update_linear(const DynamicVector& residual, const 
   for (std::size_t i = 0; i < ids.size(); ++i)
     J.middleCols(6 + 3 * find(ids[i]), 3) = J_landmarks.middleCols(static_cast<Eigen::Index>(3 * i), 3);
   const Dynamic H = J * ordinary_by_own();
-  const State prior = state_;
-  const auto linear = [&](const State& x, DynamicVector& out) { return out = residual - H * local(prior, x), true; };
+  const ReferenceState prior = state_;
+  const auto linear = [&](const ReferenceState& x, DynamicVector& out) {
+    return out = residual - H * local(prior, x), true;
+  };
   return update(
-      linear, [&](const State&) { return covariance; }, 1, 1);
+      linear, [&](const ReferenceState&) { return covariance; }, 1, 1);
 }
 
 void ReferenceFilter::remove(std::uint64_t id) {

@@ -21,7 +21,7 @@ using Dynamic = Eigen::MatrixXd;
 using DynamicVector = Eigen::VectorXd;
 
 // Errors of a state stand as [position; attitude; landmarks...; mount angles], the last only where there are any.
-struct State {
+struct ReferenceState {
   SE3 pose;
   std::vector<Vector3> landmarks;
   std::vector<double> mount;
@@ -62,8 +62,8 @@ class ReferenceFilter {
   void predict_increment(const SE3& T_before_after, const Matrix6& covariance);
 
   // --- updates --- a residual z - h(state), false where there is none; its noise may depend on the state
-  using Residual = std::function<bool(const State&, DynamicVector& out)>;
-  using Noise = std::function<Dynamic(const State&)>;
+  using Residual = std::function<bool(const ReferenceState&, DynamicVector& out)>;
+  using Noise = std::function<Dynamic(const ReferenceState&)>;
   // `least`: linearisations before the residual may end it, as far as `iterations` allow.
   FrameResult update(const Residual& residual, const Noise& noise, int least, int iterations);
   FrameResult update_frame(const Sensor<SE3>& sensor, const std::vector<Seen>& frame);
@@ -77,26 +77,27 @@ class ReferenceFilter {
   void remove(std::uint64_t id);
 
   // --- results ---
-  const State& state() const { return state_; }
+  const ReferenceState& state() const { return state_; }
   const std::vector<std::uint64_t>& ids() const { return ids_; }
   int find(std::uint64_t id) const;                 // -1: absent
   const Dynamic& covariance() const { return P_; }  // in the filter's own error coordinates
   Dynamic ordinary_covariance() const;
 
  private:
-  State retract(const State& state, const DynamicVector& error) const;
-  DynamicVector local(const State& from, const State& to) const;  // retract(from, local(from, to)) is `to`
+  ReferenceState retract(const ReferenceState& state, const DynamicVector& error) const;
+  DynamicVector local(const ReferenceState& from,
+                      const ReferenceState& to) const;  // retract(from, local(from, to)) is `to`
   Dynamic ordinary_by_own() const;
-  bool compare(const Sensor<SE3>& sensor, const Seen& seen, const State& state, Vector3& residual) const;
+  bool compare(const Sensor<SE3>& sensor, const Seen& seen, const ReferenceState& state, Vector3& residual) const;
   Residual frame_residual(const Sensor<SE3>& sensor, const std::vector<Seen>& frame) const;
-  Dynamic frame_noise(const Sensor<SE3>& sensor, const std::vector<Seen>& frame, const State& state) const;
+  Dynamic frame_noise(const Sensor<SE3>& sensor, const std::vector<Seen>& frame, const ReferenceState& state) const;
   // Numbers of the known observations that pass, and each one's own squared distance.
   void gate(const Sensor<SE3>& sensor, const std::vector<Seen>& known, std::vector<std::size_t>& kept,
             std::vector<double>& distance) const;
   bool place(const Sensor<SE3>& sensor, const Seen& seen);
 
   Options options_;
-  State state_;
+  ReferenceState state_;
   std::vector<std::uint64_t> ids_;
   Dynamic P_;
 };

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Index;
 
-Vector2 mount_of(const State& x) {
+Vector2 mount_of(const ReferenceState& x) {
   return x.mount.empty() ? Vector2(0, 0) : Vector2(x.mount[0], x.mount[1]);
 }
 
@@ -31,7 +31,8 @@ Dynamic choose(const std::vector<std::size_t>& which, Index rows, std::size_t al
 
 }  // namespace
 
-bool ReferenceFilter::compare(const Sensor<SE3>& sensor, const Seen& seen, const State& x, Vector3& residual) const {
+bool ReferenceFilter::compare(const Sensor<SE3>& sensor, const Seen& seen, const ReferenceState& x,
+                              Vector3& residual) const {
   Prediction<SE3> prediction;
   const std::size_t landmark = static_cast<std::size_t>(find(seen.id));
   if (!sensor.predict(x.pose, x.landmarks[landmark], mount_of(x), prediction)) return false;
@@ -41,7 +42,7 @@ bool ReferenceFilter::compare(const Sensor<SE3>& sensor, const Seen& seen, const
 
 ReferenceFilter::Residual ReferenceFilter::frame_residual(const Sensor<SE3>& sensor,
                                                           const std::vector<Seen>& frame) const {
-  return [this, &sensor, frame](const State& x, DynamicVector& out) {
+  return [this, &sensor, frame](const ReferenceState& x, DynamicVector& out) {
     const Index rows = sensor.rows();
     out.resize(rows * static_cast<Index>(frame.size()));
     for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -54,7 +55,8 @@ ReferenceFilter::Residual ReferenceFilter::frame_residual(const Sensor<SE3>& sen
 }
 
 // Noise of the observations, with that of the mount's angles where each observation has its own.
-Dynamic ReferenceFilter::frame_noise(const Sensor<SE3>& sensor, const std::vector<Seen>& frame, const State& x) const {
+Dynamic ReferenceFilter::frame_noise(const Sensor<SE3>& sensor, const std::vector<Seen>& frame,
+                                     const ReferenceState& x) const {
   const Index rows = sensor.rows(), m = rows * static_cast<Index>(frame.size());
   Dynamic R = Dynamic::Zero(m, m);
   for (std::size_t i = 0; i < frame.size(); ++i) {
@@ -120,7 +122,7 @@ void ReferenceFilter::gate(const Sensor<SE3>& sensor, const std::vector<Seen>& k
 bool ReferenceFilter::place(const Sensor<SE3>& sensor, const Seen& seen) {
   const Index rows = sensor.rows();
   const bool own_mount = sensor.mount_noise_mode() == MountNoise::per_observation;
-  const auto placed = [&](const State& x, const DynamicVector& noise, State& out) {
+  const auto placed = [&](const ReferenceState& x, const DynamicVector& noise, ReferenceState& out) {
     Vector3 z = seen.z;
     z.head(rows) += noise.head(rows);
     Vector2 mount = mount_of(x);
@@ -132,10 +134,10 @@ bool ReferenceFilter::place(const Sensor<SE3>& sensor, const Seen& seen) {
     return true;
   };
   const Index noises = rows + (own_mount ? 2 : 0), n = state_.size(), at = n - static_cast<Index>(state_.mount.size());
-  State next;
+  ReferenceState next;
   if (!placed(state_, DynamicVector::Zero(noises), next)) return false;
-  const auto error_of = [&](const State& x, const DynamicVector& noise) {
-    State moved;
+  const auto error_of = [&](const ReferenceState& x, const DynamicVector& noise) {
+    ReferenceState moved;
     if (!placed(x, noise, moved)) throw std::runtime_error("no place beside the placement");
     return local(next, moved);
   };
@@ -178,7 +180,7 @@ FrameResult ReferenceFilter::update_frame(const Sensor<SE3>& sensor, const std::
   for (std::size_t i : kept) taken.push_back(known[i]);
   if (!taken.empty())
     result = update(
-        frame_residual(sensor, taken), [&](const State& x) { return frame_noise(sensor, taken, x); },
+        frame_residual(sensor, taken), [&](const ReferenceState& x) { return frame_noise(sensor, taken, x); },
         sensor.relative() ? 1 : 2, options_.iterations);
   result.distance.assign(frame.size(), -1);
   result.taken.assign(frame.size(), false);

@@ -102,7 +102,7 @@ bool Pair::update(int sensor, const std::vector<Seen>& frame) {
 Difference Pair::difference() {
   Difference worst;
   const std::vector<std::uint64_t>& ids = reference_.ids();
-  const State& x = reference_.state();
+  const ReferenceState& x = reference_.state();
   const auto note = [&](const Vector3& a, const Vector3& b) {
     worst.state = std::max(worst.state, (a - b).norm() / (1 + b.norm()));
   };

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Poses of other vehicles beside the filter's own, against a filter that knows nothing of slots, companions, motion
-// held back or the invariant error: all poses and landmarks in one dense covariance of ordinary errors, each step by
-// its full matrix.
+// Poses of other vehicles in a filter's state, against a dense filter of ordinary errors (dense_state.hpp).
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
 #include <vector>
 
-#include "ekf/ekf.hpp"
+#include "ekf/dense_state.hpp"
+#include "ekf/ekf_update.hpp"
 #include "numerical.hpp"
 
 using namespace cairn;
@@ -16,81 +15,6 @@ using namespace cairn::test;
 namespace {
 
 using Dynamic = Eigen::MatrixXd;
-
-// State [poses; landmarks], by ordinary errors.
-template <class Pose>
-struct Dense {
-  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
-  using Point = typename Pose::Point;
-  using Square = typename Pose::Square;
-
-  std::vector<Pose> poses;
-  std::vector<Point> points;
-  Dynamic P;
-
-  Index pose_at(std::size_t n) const { return kDof * static_cast<Index>(n); }
-  Index point_at(std::size_t n) const { return kDof * static_cast<Index>(poses.size()) + kDim * static_cast<Index>(n); }
-
-  void propagate(std::size_t n, const Increment<Pose>& increment) {
-    const typename Pose::Rotation::Matrix R = poses[n].rotation().matrix();
-    Dynamic F = Dynamic::Identity(P.rows(), P.rows());
-    F.block(pose_at(n), pose_at(n) + kDim, kDim, kTurn) =
-        Pose::Rotation::turn(R * increment.T_before_after.translation());
-    Square B = Square::Zero();
-    B.template topLeftCorner<kDim, kDim>() = R;
-    B.template bottomRightCorner<kTurn, kTurn>() = poses[n].rotation().adjoint();
-    P = (F * P * F.transpose()).eval();
-    P.template block<kDof, kDof>(pose_at(n), pose_at(n)) += B * increment.covariance * B.transpose();
-    poses[n] = poses[n] * increment.T_before_after;
-  }
-
-  // Rows of a new state before row `at`, which is J times that of pose n and noise of its own.
-  void insert(Index at, std::size_t n, const Dynamic& J, const Dynamic& noise) {
-    const Index size = P.rows(), more = J.rows();
-    Dynamic T = Dynamic::Zero(size + more, size);
-    T.topLeftCorner(at, at).setIdentity();
-    T.bottomRightCorner(size - at, size - at).setIdentity();
-    T.block(at, pose_at(n), more, kDof) = J;
-    P = (T * P * T.transpose()).eval();
-    P.block(at, at, more, more) += noise;
-  }
-  void add_pose(const Pose& pose, std::size_t n, const Square& J, const Square& noise) {
-    insert(pose_at(poses.size()), n, J, noise);
-    poses.push_back(pose);
-  }
-  void add_point(const Point& point, std::size_t n, const Dynamic& J, const Dynamic& noise) {
-    insert(P.rows(), n, J, noise);
-    points.push_back(point);
-  }
-  void erase(Index at, Index count) {
-    const Index size = P.rows();
-    Dynamic T = Dynamic::Zero(size - count, size);
-    T.topLeftCorner(at, at).setIdentity();
-    T.bottomRightCorner(size - count - at, size - count - at).setIdentity();
-    P = (T * P * T.transpose()).eval();
-  }
-  void remove_pose(std::size_t n) {
-    erase(pose_at(n), kDof);
-    poses.erase(poses.begin() + static_cast<Index>(n));
-  }
-  void remove_point(std::size_t n) {
-    erase(point_at(n), kDim);
-    points.erase(points.begin() + static_cast<Index>(n));
-  }
-
-  void update(const Dynamic& H, const Eigen::VectorXd& residual, const Dynamic& noise) {
-    const Dynamic S = H * P * H.transpose() + noise;
-    const Dynamic K = P * H.transpose() * S.inverse();
-    const Dynamic A = Dynamic::Identity(P.rows(), P.rows()) - K * H;
-    P = (A * P * A.transpose() + K * noise * K.transpose()).eval();
-    const Eigen::VectorXd error = K * residual;
-    for (std::size_t n = 0; n < poses.size(); ++n) {
-      const typename Pose::Tangent e = error.segment<kDof>(pose_at(n));
-      poses[n] = retract(poses[n], e);
-    }
-    for (std::size_t n = 0; n < points.size(); ++n) points[n] += error.segment<kDim>(point_at(n));
-  }
-};
 
 template <int N>
 Eigen::Matrix<double, N, N> random_covariance(Random& random, double sigma) {
@@ -107,23 +31,23 @@ struct Both {
   using Square = typename Pose::Square;
   using PointByPose = Eigen::Matrix<double, kDim, kDof>;
 
-  static typename Ekf<Pose>::Capacity capacity() {
-    typename Ekf<Pose>::Capacity c;
+  static typename State<Pose>::Capacity capacity() {
+    typename State<Pose>::Capacity c;
     c.landmarks = 14, c.observations = 5, c.companions = 4;
     return c;
   }
   static std::size_t bytes() {
     Arena measure;
-    const Ekf<Pose> unused(measure, ErrorKind::standard, capacity());
+    const State<Pose> unused(measure, ErrorKind::standard, capacity());
     return measure.used();
   }
 
   // `noise` scales all that is uncertain, and all residuals.
   Both(ErrorKind error, unsigned seed, double noise_scale)
-      : random(seed), scale(noise_scale), arena(bytes()), ekf(arena, error, capacity()) {
+      : random(seed), scale(noise_scale), arena(bytes()), state(arena, error, capacity()) {
     const Pose start = random_pose();
     const Square P = random_covariance<kDof>(random, 0.05 * scale);
-    ekf.start(start, P);
+    state.start(start, P);
     dense.poses.push_back(start);
     dense.P = P;
   }
@@ -140,23 +64,23 @@ struct Both {
     increment.T_before_after =
         Pose(Pose::Rotation::exp(0.2 * random.normal_vector<kTurn>()), Point(random.normal_vector<kDim>()));
     increment.covariance = random_covariance<kDof>(random, 0.02 * scale);
-    REQUIRE(ekf.propagate(increment));
+    REQUIRE(state.propagate(increment));
     dense.propagate(active, increment);
   }
   void activate() {
     if (companions.empty()) return;
     const std::size_t k = any(companions.size());
-    ekf.activate(static_cast<Index>(k));
+    state.activate(static_cast<Index>(k));
     std::swap(active, companions[k]);
   }
   void add_companion() {
-    if (static_cast<Index>(companions.size()) == capacity().companions || ekf.size() == capacity().landmarks) return;
+    if (static_cast<Index>(companions.size()) == capacity().companions || state.size() == capacity().landmarks) return;
     const Pose pose = random_pose();
     Square J = Square::Zero();
     if (random.uniform(0, 1) < 0.7)
       for (int i = 0; i < kDof; ++i) J.col(i) = random.template normal_vector<kDof>();
     const Square noise = random_covariance<kDof>(random, 0.05 * scale);
-    REQUIRE(ekf.add_companion(pose, J, noise));
+    REQUIRE(state.add_companion(pose, J, noise));
     dense.add_pose(pose, active, J, noise);
     companions.push_back(dense.poses.size() - 1);
     if (!landmarks.empty()) {  // the first one moves behind the last
@@ -167,7 +91,7 @@ struct Both {
   void remove_companion() {
     if (companions.empty()) return;
     const std::size_t k = any(companions.size()), gone = companions[k];
-    ekf.remove_companion(static_cast<Index>(k));
+    state.remove_companion(static_cast<Index>(k));
     companions[k] = companions.back();
     companions.pop_back();
     if (!landmarks.empty()) {
@@ -179,7 +103,7 @@ struct Both {
     active -= active > gone;
   }
   void augment() {
-    if (ekf.size() == capacity().landmarks) return;
+    if (state.size() == capacity().landmarks) return;
     const Point body = 5 * random.template normal_vector<kDim>(), arm = dense.poses[active].rotation() * body;
     const bool relative = random.uniform(0, 1) < 0.5;
     PointByPose J;
@@ -189,14 +113,14 @@ struct Both {
       for (int i = 0; i < kDof; ++i) J.col(i) += 0.3 * random.template normal_vector<kDim>();
     const Point point = dense.poses[active].translation() + arm;
     const auto noise = random_covariance<kDim>(random, 0.1 * scale);
-    REQUIRE(ekf.augment(point, J, nullptr, noise, relative));
+    REQUIRE(state.augment(point, J, noise, relative));
     dense.add_point(point, active, J, noise);
     landmarks.push_back(dense.points.size() - 1);
   }
   void remove_landmark() {
     if (landmarks.empty()) return;
     const std::size_t k = any(landmarks.size()), gone = landmarks[k];
-    ekf.remove(static_cast<Index>(companions.size() + k));
+    state.remove(static_cast<Index>(companions.size() + k));
     landmarks[k] = landmarks.back();
     landmarks.pop_back();
     dense.remove_point(gone);
@@ -204,38 +128,40 @@ struct Both {
   }
   // Sightings of some slots, companions' or landmarks', by any Jacobian.
   void update() {
-    const auto all = static_cast<std::size_t>(ekf.size());
+    const auto all = static_cast<std::size_t>(state.size());
     if (all == 0) return;
     std::vector<Index> slots;
     for (std::size_t s = any(all); s < all && slots.size() < 5; s += 1 + any(2)) slots.push_back(static_cast<Index>(s));
     const auto rows = static_cast<Index>(kDim * slots.size());
     Dynamic H = Dynamic::Zero(rows, dense.P.rows()), noise = Dynamic::Zero(rows, rows);
     Eigen::VectorXd residual(rows);
-    ekf.open(slots.data(), static_cast<Index>(slots.size()), nullptr);
-    for (std::size_t a = 0; a < slots.size(); ++a) {
-      PointByPose J_pose;
-      for (int i = 0; i < kDof; ++i) J_pose.col(i) = random.template normal_vector<kDim>();
-      Eigen::Matrix<double, kDim, kDim> J_point;
-      for (int i = 0; i < kDim; ++i) J_point.col(i) = random.template normal_vector<kDim>();
-      const auto R = random_covariance<kDim>(random, 0.1 * scale);
-      const Point r = 0.1 * scale * random.template normal_vector<kDim>();
-      const Index row = ekf.batch().add_rows(kDim), slot = slots[a];
-      const auto pose = ekf.add_pose_block(row, kDim, J_pose, false);
-      ekf.add_landmark_block(row, kDim, J_point, static_cast<Index>(a), pose);
-      Eigen::Map<Eigen::Matrix<double, kDim, kDim>>(ekf.batch().add_noise(row, kDim)) = R;
-      Eigen::Map<Point>(ekf.batch().residual() + row) = r;
-      const bool companion = slot < ekf.companions();
-      const Index column = companion ? dense.pose_at(companions[static_cast<std::size_t>(slot)])
-                                     : dense.point_at(landmarks[static_cast<std::size_t>(slot - ekf.companions())]);
-      H.block(row, dense.pose_at(active), kDim, kDof) += J_pose;
-      H.block(row, column, kDim, kDim) += J_point;
-      noise.block(row, row, kDim, kDim) = R;
-      residual.segment(row, kDim) = r;
-    }
-    ekf.compute_innovation();
-    REQUIRE(ekf.factor());
-    ekf.solve();
-    REQUIRE(ekf.commit());
+    EkfUpdate<Pose> update = state.begin({slots.data(), static_cast<Index>(slots.size())});
+    update.linearise([&](double*) {
+      for (std::size_t a = 0; a < slots.size(); ++a) {
+        PointByPose J_pose;
+        for (int i = 0; i < kDof; ++i) J_pose.col(i) = random.template normal_vector<kDim>();
+        Eigen::Matrix<double, kDim, kDim> J_point;
+        for (int i = 0; i < kDim; ++i) J_point.col(i) = random.template normal_vector<kDim>();
+        const auto R = random_covariance<kDim>(random, 0.1 * scale);
+        const Point r = 0.1 * scale * random.template normal_vector<kDim>();
+        const Index row = update.batch().add_rows(kDim), slot = slots[a];
+        const auto pose = update.add_pose_block(row, kDim, J_pose, false);
+        update.add_landmark_block(row, kDim, J_point, static_cast<Index>(a), pose);
+        Eigen::Map<Eigen::Matrix<double, kDim, kDim>>(update.batch().add_noise(row, kDim)) = R;
+        Eigen::Map<Point>(update.batch().residual() + row) = r;
+        const bool companion = slot < state.companions();
+        const Index column = companion ? dense.pose_at(companions[static_cast<std::size_t>(slot)])
+                                       : dense.point_at(landmarks[static_cast<std::size_t>(slot - state.companions())]);
+        H.block(row, dense.pose_at(active), kDim, kDof) += J_pose;
+        H.block(row, column, kDim, kDim) += J_point;
+        noise.block(row, row, kDim, kDim) = R;
+        residual.segment(row, kDim) = r;
+      }
+      return true;
+    });
+    REQUIRE_NOTHROW(update.factor());
+    update.solve();
+    REQUIRE_NOTHROW(update.commit());
     dense.update(H, residual, noise);
   }
 
@@ -263,10 +189,10 @@ struct Both {
 
   Dynamic ordinary() const {
     std::vector<Index> slots;
-    for (Index s = 0; s < ekf.size(); ++s) slots.push_back(s);
-    const Index n = kDof + kDim * ekf.size();
+    for (Index s = 0; s < state.size(); ++s) slots.push_back(s);
+    const Index n = kDof + kDim * state.size();
     Dynamic out(n, n);
-    ekf.gather_ordinary(slots.data(), ekf.size(), out.data(), n);
+    state.gather_ordinary(slots.data(), state.size(), out.data(), n);
     return out;
   }
 
@@ -277,14 +203,14 @@ struct Both {
     const auto of_pose = [&](const Pose& a, const Pose& b) {
       worst = std::max(worst, pose_error(a, b).norm() / (1 + b.translation().norm()));
     };
-    REQUIRE(ekf.companions() == static_cast<Index>(companions.size()));
-    REQUIRE(ekf.size() == static_cast<Index>(companions.size() + landmarks.size()));
-    of_pose(ekf.pose(), dense.poses[active]);
+    REQUIRE(state.companions() == static_cast<Index>(companions.size()));
+    REQUIRE(state.size() == static_cast<Index>(companions.size() + landmarks.size()));
+    of_pose(state.pose(), dense.poses[active]);
     for (std::size_t k = 0; k < companions.size(); ++k)
-      of_pose(ekf.companion(static_cast<Index>(k)), dense.poses[companions[k]]);
+      of_pose(state.companion(static_cast<Index>(k)), dense.poses[companions[k]]);
     for (std::size_t l = 0; l < landmarks.size(); ++l) {
       const Point& x = dense.points[landmarks[l]];
-      worst = std::max(worst, (ekf.landmark(ekf.companions() + static_cast<Index>(l)) - x).norm() / (1 + x.norm()));
+      worst = std::max(worst, (state.landmark(state.companions() + static_cast<Index>(l)) - x).norm() / (1 + x.norm()));
     }
     return worst / scale;
   }
@@ -297,8 +223,8 @@ struct Both {
     double worst = relative(ordinary(), dense.P(all, all));
     for (std::size_t k = 0; k < companions.size(); ++k) {
       const Index at = dense.pose_at(companions[k]);
-      worst =
-          std::max(worst, relative(ekf.companion_covariance(static_cast<Index>(k)), dense.P.block(at, at, kDof, kDof)));
+      worst = std::max(worst,
+                       relative(state.companion_covariance(static_cast<Index>(k)), dense.P.block(at, at, kDof, kDof)));
     }
     return std::max(worst, worst_relative());
   }
@@ -315,8 +241,8 @@ struct Both {
       J.block(0, point, kDim, kDim).setIdentity();
       const Dynamic parts = J.cwiseAbs() * dense.P.cwiseAbs() * J.cwiseAbs().transpose();
       const Dynamic D = J * dense.P * J.transpose();
-      worst = std::max(worst,
-                       (ekf.relative_covariance(ekf.companions() + static_cast<Index>(l)) - D).norm() / parts.norm());
+      worst = std::max(
+          worst, (state.relative_covariance(state.companions() + static_cast<Index>(l)) - D).norm() / parts.norm());
     }
     return worst;
   }
@@ -324,8 +250,8 @@ struct Both {
   Random random;
   double scale;
   Arena arena;
-  Ekf<Pose> ekf;
-  Dense<Pose> dense;
+  State<Pose> state;
+  DenseState<Pose> dense;
   std::size_t active = 0;
   std::vector<std::size_t> companions, landmarks;  // in the reference, by slot
 };
@@ -345,7 +271,7 @@ void standard_error_is_the_dense_filter() {
       CHECK(both.worst_covariance() < 1e-9);
       most = std::max(most, both.companions.size());
     }
-    CHECK(both.ekf.smallest_pivot() > 0);
+    CHECK(both.state.smallest_pivot() > 0);
   }
   CHECK(most == 4);
 }
@@ -362,7 +288,7 @@ void invariant_error_without_updates_is_the_dense_filter() {
       CHECK(both.worst_state() < 1e-12);
       CHECK(both.worst_covariance() < 1e-9);
     }
-    CHECK(both.ekf.smallest_pivot() > 0);
+    CHECK(both.state.smallest_pivot() > 0);
   }
 }
 
@@ -379,7 +305,7 @@ void invariant_error_agrees_where_noise_is_small() {
         state = std::max(state, both.worst_state());
         covariance = std::max(covariance, both.worst_covariance());
       }
-      CHECK(both.ekf.smallest_pivot() > 0);
+      CHECK(both.state.smallest_pivot() > 0);
     }
     CAPTURE(scale);
     CHECK(state < 30 * scale);
@@ -398,25 +324,25 @@ void looking_from_another_changes_no_ordinary_covariance() {
       for (int step = 0; step < 40; ++step) both.any_step(true);
       if (both.companions.empty()) both.add_companion();
       if (seed % 2 == 0) both.propagate();  // motion held back
-      Ekf<Pose>& ekf = both.ekf;
-      const Index k = ekf.companions() - 1;
+      State<Pose>& state = both.state;
+      const Index k = state.companions() - 1;
       const Dynamic before = both.ordinary();
-      const typename Pose::Square own = ekf.pose_covariance(), other = ekf.companion_covariance(k);
-      const Pose own_pose = ekf.pose(), other_pose = ekf.companion(k);
-      ekf.activate(k);
-      CHECK(Both<Pose>::relative(ekf.pose_covariance(), other) < 1e-8);
-      CHECK(Both<Pose>::relative(ekf.companion_covariance(k), own) < 1e-8);
-      CHECK(pose_error(ekf.pose(), other_pose).norm() < 1e-12);
-      CHECK(pose_error(ekf.companion(k), own_pose).norm() < 1e-12);
+      const typename Pose::Square own = state.pose_covariance(), other = state.companion_covariance(k);
+      const Pose own_pose = state.pose(), other_pose = state.companion(k);
+      state.activate(k);
+      CHECK(Both<Pose>::relative(state.pose_covariance(), other) < 1e-8);
+      CHECK(Both<Pose>::relative(state.companion_covariance(k), own) < 1e-8);
+      CHECK(pose_error(state.pose(), other_pose).norm() < 1e-12);
+      CHECK(pose_error(state.companion(k), own_pose).norm() < 1e-12);
       // The landmarks among themselves.
-      const Index from = Pose::kDof + Pose::kDim * ekf.companions(), n = before.rows() - from;
+      const Index from = Pose::kDof + Pose::kDim * state.companions(), n = before.rows() - from;
       if (n > 0)
         CHECK(Both<Pose>::relative(both.ordinary().bottomRightCorner(n, n), before.bottomRightCorner(n, n)) < 1e-8);
-      CHECK(ekf.smallest_pivot() > 0);
-      ekf.activate(k);
+      CHECK(state.smallest_pivot() > 0);
+      state.activate(k);
       CHECK(Both<Pose>::relative(both.ordinary(), before) < 1e-8);
-      CHECK(Both<Pose>::relative(ekf.companion_covariance(k), other) < 1e-8);
-      CHECK(ekf.smallest_pivot() > 0);
+      CHECK(Both<Pose>::relative(state.companion_covariance(k), other) < 1e-8);
+      CHECK(state.smallest_pivot() > 0);
     }
 }
 
@@ -428,16 +354,16 @@ void a_companion_that_was_seen() {
   for (ErrorKind error : kBothErrors) {
     Random random(7);
     Arena arena(Both<Pose>::bytes());
-    Ekf<Pose> ekf(arena, error, Both<Pose>::capacity());
+    State<Pose> state(arena, error, Both<Pose>::capacity());
     const Pose start(Pose::Rotation::exp(random.normal_vector<kTurn>()),
                      typename Pose::Point(3 * random.normal_vector<kDim>()));
     const Square P = random_covariance<kDof>(random, 0.1), Q = random_covariance<kDof>(random, 0.05),
                  N = random_covariance<kDof>(random, 0.2);
-    ekf.start(start, P);
+    state.start(start, P);
     Increment<Pose> step{Pose(Pose::Rotation::exp(0.3 * random.normal_vector<kTurn>()),
                               typename Pose::Point(random.normal_vector<kDim>())),
                          Q};
-    REQUIRE(ekf.propagate(step));  // held back when the companion comes
+    REQUIRE(state.propagate(step));  // held back when the companion comes
     const Pose after = start * step.T_before_after;
     Square F = Square::Identity(), B = Square::Zero();
     F.template topRightCorner<kDim, kTurn>() = Pose::Rotation::turn(after.translation() - start.translation());
@@ -451,33 +377,33 @@ void a_companion_that_was_seen() {
     const Pose there = after * d;
     Square J = Square::Identity();
     J.template topRightCorner<kDim, kTurn>() = Pose::Rotation::turn(there.translation() - after.translation());
-    REQUIRE(ekf.add_companion(there, J, N));
-    CHECK(Both<Pose>::relative(ekf.pose_covariance(), moved) < 1e-12);
-    CHECK(Both<Pose>::relative(ekf.companion_covariance(0), J * moved * J.transpose() + N) < 1e-12);
+    REQUIRE(state.add_companion(there, J, N));
+    CHECK(Both<Pose>::relative(state.pose_covariance(), moved) < 1e-12);
+    CHECK(Both<Pose>::relative(state.companion_covariance(0), J * moved * J.transpose() + N) < 1e-12);
     Index slot = 0;
     Eigen::Matrix<double, kDof + kDim, kDof + kDim> joint;
-    ekf.gather_ordinary(&slot, 1, joint.data(), kDof + kDim);
+    state.gather_ordinary(&slot, 1, joint.data(), kDof + kDim);
     CHECK((joint.template bottomLeftCorner<kDim, kDof>() - (J * moved).template topRows<kDim>()).norm() <
           1e-12 * moved.norm() * J.norm());
 
     // The own vehicle goes on: the companion's pose does not change, nor its covariance.
-    const Square seen = ekf.companion_covariance(0);
-    REQUIRE(ekf.propagate(step));
-    CHECK(Both<Pose>::relative(ekf.companion_covariance(0), seen) < 1e-12);
-    CHECK(pose_error(ekf.companion(0), there).norm() < 1e-13);
+    const Square seen = state.companion_covariance(0);
+    REQUIRE(state.propagate(step));
+    CHECK(Both<Pose>::relative(state.companion_covariance(0), seen) < 1e-12);
+    CHECK(pose_error(state.companion(0), there).norm() < 1e-13);
     // Now the companion does, with the own one's motion taken in at the change.
-    const Pose own = ekf.pose();
-    const Square own_covariance = ekf.pose_covariance();
-    ekf.activate(0);
-    REQUIRE(ekf.propagate(step));
-    CHECK(Both<Pose>::relative(ekf.companion_covariance(0), own_covariance) < 1e-12);
-    CHECK(pose_error(ekf.companion(0), own).norm() < 1e-13);
+    const Pose own = state.pose();
+    const Square own_covariance = state.pose_covariance();
+    state.activate(0);
+    REQUIRE(state.propagate(step));
+    CHECK(Both<Pose>::relative(state.companion_covariance(0), own_covariance) < 1e-12);
+    CHECK(pose_error(state.companion(0), own).norm() < 1e-13);
     Square F_there = Square::Identity(), B_there = Square::Zero();
     F_there.template topRightCorner<kDim, kTurn>() =
         Pose::Rotation::turn(there.rotation() * step.T_before_after.translation());
     B_there.template topLeftCorner<kDim, kDim>() = there.rotation().matrix();
     B_there.template bottomRightCorner<kTurn, kTurn>() = there.rotation().adjoint();
-    CHECK(Both<Pose>::relative(ekf.pose_covariance(),
+    CHECK(Both<Pose>::relative(state.pose_covariance(),
                                F_there * seen * F_there.transpose() + B_there * Q * B_there.transpose()) < 1e-12);
   }
 }
@@ -492,33 +418,35 @@ void a_companion_that_is_known_exactly() {
       CAPTURE(static_cast<int>(error));
       CAPTURE(seed);
       Both<Pose> both(error, seed, 1.0);
-      Ekf<Pose>& ekf = both.ekf;
+      State<Pose>& state = both.state;
       for (int i = 0; i < 6; ++i) both.augment(), both.propagate();
       const Pose pose = both.random_pose();
-      REQUIRE(ekf.add_companion(pose, Pose::Square::Zero(), Pose::Square::Zero()));
+      REQUIRE(state.add_companion(pose, Pose::Square::Zero(), Pose::Square::Zero()));
       both.landmarks.push_back(both.landmarks.front());
       both.landmarks.erase(both.landmarks.begin());
       both.dense.add_pose(pose, 0, Pose::Square::Zero(), Pose::Square::Zero());
       both.companions.push_back(1);
-      ekf.activate(0);
+      state.activate(0);
       std::swap(both.active, both.companions[0]);
-      CHECK(ekf.pose_covariance().norm() < 1e-9);
+      CHECK(state.pose_covariance().norm() < 1e-9);
       const Index slot = 2;
       Eigen::Matrix<double, kDim, kDof> J_pose;
       J_pose << -Eigen::Matrix<double, kDim, kDim>::Identity(),
-          -Pose::Rotation::turn(ekf.landmark(slot) - pose.translation());
-      ekf.open(&slot, 1, nullptr);
-      const Index row = ekf.batch().add_rows(kDim);
-      const auto block = ekf.add_pose_block(row, kDim, J_pose, false);
-      ekf.add_landmark_block(row, kDim, Eigen::Matrix<double, kDim, kDim>::Identity(), 0, block);
-      Eigen::Map<Eigen::Matrix<double, kDim, kDim>>(ekf.batch().add_noise(row, kDim)).setIdentity();
-      Eigen::Map<typename Pose::Point>(ekf.batch().residual()).setConstant(0.1);
-      ekf.compute_innovation();
-      REQUIRE(ekf.factor());
-      ekf.solve();
-      CHECK(ekf.commit());
-      CHECK(ekf.pose_covariance().norm() < 1e-9);
-      CHECK((ekf.pose().translation() - pose.translation()).norm() < 1e-9);
+          -Pose::Rotation::turn(state.landmark(slot) - pose.translation());
+      EkfUpdate<Pose> update = state.begin({&slot, 1});
+      update.linearise([&](double*) {
+        const Index row = update.batch().add_rows(kDim);
+        const auto block = update.add_pose_block(row, kDim, J_pose, false);
+        update.add_landmark_block(row, kDim, Eigen::Matrix<double, kDim, kDim>::Identity(), 0, block);
+        Eigen::Map<Eigen::Matrix<double, kDim, kDim>>(update.batch().add_noise(row, kDim)).setIdentity();
+        Eigen::Map<typename Pose::Point>(update.batch().residual()).setConstant(0.1);
+        return true;
+      });
+      REQUIRE_NOTHROW(update.factor());
+      update.solve();
+      CHECK_NOTHROW(update.commit());
+      CHECK(state.pose_covariance().norm() < 1e-9);
+      CHECK((state.pose().translation() - pose.translation()).norm() < 1e-9);
     }
   (void)kTurn;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <vector>
 
 #include "reference_scenario.hpp"
 
@@ -21,11 +22,9 @@ struct Run {
   }
 
   void take(const std::vector<Seen>& frame) {
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-      Observation& o = filter.staging()[i];
-      o = {frame[i].id, {frame[i].z[0], frame[i].z[1], frame[i].z[2]}, {}};
-    }
-    filter.update(0, static_cast<Index>(frame.size()));
+    std::vector<Observation> observations;
+    for (const Seen& seen : frame) observations.push_back({seen.id, {seen.z[0], seen.z[1], seen.z[2]}, {}});
+    filter.update(0, observations.data(), static_cast<Index>(observations.size()));
   }
   // Of pose and all landmarks, ordinary.
   Dynamic covariance() const {
