@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <vector>
 
 #include "reference_scenario.hpp"
 
@@ -22,9 +21,11 @@ struct Run {
   }
 
   void take(const std::vector<Seen>& frame) {
-    std::vector<Observation> observations;
-    for (const Seen& seen : frame) observations.push_back({seen.id, {seen.z[0], seen.z[1], seen.z[2]}, {}});
-    filter.update(0, observations.data(), static_cast<Index>(observations.size()));
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      Observation& o = filter.staging()[i];
+      o = {frame[i].id, {frame[i].z[0], frame[i].z[1], frame[i].z[2]}, {}};
+    }
+    filter.update(0, static_cast<Index>(frame.size()));
   }
   // Of pose and all landmarks, ordinary.
   Dynamic covariance() const {
