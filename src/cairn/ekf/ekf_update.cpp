@@ -104,11 +104,13 @@ void EkfUpdate<Pose>::compute_innovation() {
   take_rows(n, window_.mount_size(), window_.mount());
   for (Index a = 0; a < window_.points(); ++a)
     take_rows(state_.layout_.point(workspace_.slots[a]).offset, kDim, window_.point(a));
+  stage_ = Stage::linearised;
   form_innovation();
 }
 
 template <class Pose>
 void EkfUpdate<Pose>::form_innovation() {
+  require(stage_ == Stage::linearised || stage_ == Stage::factored, "form_innovation");
   const Index m = batch().rows();
   batch().innovation_covariance(workspace_.HP, m, workspace_.S, m);
   std::copy_n(batch().residual(), m, workspace_.innovation);

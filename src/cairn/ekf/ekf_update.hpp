@@ -72,7 +72,8 @@ class EkfUpdate {
   double distance(Index block, Index rows) const;
   // Leaves these blocks of `rows` rows, in rising order, and their S; the window stays.
   void keep(const Index* blocks, Index count, Index rows);
-  InverseInnovation invert();  // of the batch's S; throws where it is not positive definite
+  void form_innovation();      // S once more, from the H P that stands
+  InverseInnovation invert();  // of the S that stands; throws where it is not positive definite
   Index* kept() { return workspace_.kept; }
   bool* refused() { return workspace_.refused; }
   // S = L L^T, and nis(). Throws where S is not positive definite.
@@ -123,7 +124,6 @@ class EkfUpdate {
   Eigen::Map<Point> place_of(Index number) { return Eigen::Map<Point>(workspace_.iterate_points + kDim * number); }
   void gather_columns();
   void compute_innovation();
-  void form_innovation();  // S, from the H P that stands
   bool try_factor();
   bool try_commit();
   void correlate_mount();
