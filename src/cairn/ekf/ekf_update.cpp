@@ -48,8 +48,9 @@ void EkfUpdate<Pose>::gather_columns() {
   motion.prepare(state_.layout_, state_.points_);
   motion.pose_columns(P, n, columns);
   // The mount's errors are states for as long as the frame lasts, independent of all others before it.
-  for (Index i = 0; i < mount; ++i) {
+  for (Index i = 0; i < mount; ++i)
     for (Index c = 0; c < window_.columns(); ++c) columns[c * ld + n + i] = 0.0;
+  for (Index i = 0; i < mount; ++i) {
     std::fill_n(columns + (window_.mount() + i) * ld, n, 0.0);
     for (Index r = 0; r < mount; ++r) columns[(window_.mount() + i) * ld + n + r] = mount_covariance_(r, i);
   }

@@ -349,6 +349,7 @@ TEST_CASE_TEMPLATE("ekf update: a commit that would lose definiteness is a numer
     frame.run(sample.state);
     frame.run(twin.state);
     CHECK(same_bits(bits_of(sample.state), bits_of(twin.state)));
+    CHECK(sample.state.smallest_pivot() > 0);
   }
 }
 
