@@ -62,7 +62,8 @@ typedef struct cairn_fleet_options {
                             in the paper). It matters to CAIRN_FLEET_COAST alone */
 } cairn_fleet_options;
 
-/** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+/** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
+ *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_fleet_options_init(cairn_fleet_options *options, size_t struct_size);
 
 /** Creates a fleet before its first step; the caller destroys it with \ref cairn_fleet_destroy. Options of an older or

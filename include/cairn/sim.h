@@ -140,7 +140,8 @@ typedef struct cairn_world_options {
   double stick[3];             /**< s of \ref cairn_stereo_head, m; default 0 (not in the paper) */
 } cairn_world_options;
 
-/** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+/** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
+ *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_world_options_init(cairn_world_options *options, size_t struct_size);
 
 /** Worlds to measure by. The rows' velocity and rate noise are a sample of 0.2 s; they use CAIRN_TERRAIN_WAVES and

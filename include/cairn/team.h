@@ -39,7 +39,8 @@ typedef struct cairn_team_options {
   uint32_t history;        /**< own packets kept for teammates that miss them, 1 to 1000000; default 1024 */
 } cairn_team_options;
 
-/** Fills in the defaults, at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+/** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
+ *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_options_init(cairn_team_options *options, size_t struct_size);
 
 /** Creates a vehicle's view of its team; the caller destroys it with \ref cairn_team_destroy. `filter` describes the filter
