@@ -98,9 +98,9 @@ typedef struct cairn_filter_options {
                                       then it is part of the estimate, but no map shows it; default 1 */
   uint32_t deferred_frames;      /**< ... and is removed if it does not reach this number within so many frames, 1 to
                                       1000000; default 20 */
-  uint32_t missed_frames;        /**< a landmark is removed if it lay in a sensor's view (\ref
-                                      cairn_filter_set_view), but was not seen, in this many consecutive frames of
-                                      this sensor; 0, the default: never */
+  uint32_t missed_frames;        /**< a landmark is removed if it lay in a sensor's view
+                                      (\ref cairn_filter_set_view), but was not seen, in this many consecutive frames
+                                      of this sensor; 0, the default: never */
   uint32_t reserved;             /**< 0 */
   double error_persistence;      /**< number of consecutive observations of a landmark whose errors are fully
                                       correlated, 1 to 1000000: an update multiplies the covariance of an
@@ -199,7 +199,7 @@ CAIRN_API cairn_status cairn_filter_predict_twist(cairn_filter *filter, double d
 CAIRN_API cairn_status cairn_filter_predict_increment(cairn_filter *filter, const cairn_pose *T_before_after,
                                                       const double covariance[36]);
 
-/* Observations. The observations of a call are one batch. A call that fails leaves the filter as it was, bit for bit. */
+/* Observations. A call is one batch of observations. A call that fails leaves the filter as it was, bit for bit. */
 
 /** Updates the filter by one frame of one sensor. The observations of known landmarks update the state together. An
  *  observation with an unknown id places a new landmark, with all its correlations. `matches` (room for `count`, or
