@@ -31,7 +31,7 @@ static void open_pushed(rig *r, cairn_filter_options options, const cairn_observ
   assert_ok(cairn_filter_predict_increment(r->filter, &stay, covariance));
 }
 
-static void names_are_not_asked_for(void **state) {
+static void without_ids_a_filter_decides_as_with_ids(void **state) {
   const int32_t ways[] = {CAIRN_ASSOCIATION_NEAREST, CAIRN_ASSOCIATION_JOINT};
   (void)state;
   for (size_t k = 0; k < LENGTH(ways); ++k) {
@@ -60,27 +60,16 @@ static void names_are_not_asked_for(void **state) {
       assert_ok(rig_take(&known, &f, told));
       for (size_t i = 0; i < f.count; ++i) f.observations[i].id = step % 2 == 0 ? CAIRN_ID_NONE : 5;
       assert_ok(rig_take(&unknown, &f, found));
-      for (size_t i = 0; i < f.count; ++i) {
-        assert_int_equal(found[i].result, told[i].result);
-        if (found[i].result == CAIRN_NEW) name_of[found[i].landmark] = told[i].landmark;
-        if (found[i].result != CAIRN_MATCHED) continue;
-        assert_int_equal(name_of[found[i].landmark], told[i].landmark);
-        ++matched;
-      }
+      matched += check_same_matches(told, found, f.count, name_of);
     }
     assert_true(matched > 300);
-    cairn_pose a, b;
-    double pa[36], pb[36];
-    assert_ok(cairn_filter_pose(known.filter, &a, pa));
-    assert_ok(cairn_filter_pose(unknown.filter, &b, pb));
-    assert_memory_equal(&a, &b, sizeof a); /* the very same updates */
-    assert_memory_equal(pa, pb, sizeof pa);
+    check_same_pose(known.filter, unknown.filter);
     rig_close(&known);
     rig_close(&unknown);
   }
 }
 
-static void what_cannot_be_true_together_is_paired_once(void **state) {
+static void pairs_that_contradict_each_other_are_not_accepted_together(void **state) {
   const cairn_observation points[] = {{0, {10, -50, 0}, {0}}, {0, {10, 50, 0}, {0}}};
   const cairn_observation looked[] = {{0, {12.5, -50, 0}, {0}}, {0, {7.5, 50, 0}, {0}}};
   cairn_match m[2];
@@ -107,7 +96,7 @@ static void what_cannot_be_true_together_is_paired_once(void **state) {
   rig_close(&r);
 }
 
-static void one_that_could_be_another_waits_for_more(void **state) {
+static void an_ambiguous_observation_needs_the_support_of_others(void **state) {
   const cairn_observation points[] = {{0, {10, 0, 0}, {0}}, {0, {12, 0.5, 0}, {0}}, {0, {13, -0.5, 0}, {0}}};
   cairn_observation looked[3];
   cairn_match m[3];
@@ -129,7 +118,7 @@ static void one_that_could_be_another_waits_for_more(void **state) {
   }
 }
 
-static void new_landmarks_keep_their_distance(void **state) {
+static void a_new_landmark_keeps_its_distance_from_known_ones(void **state) {
   const cairn_observation point = at(10, 0, 0);
   /* one axis at noise 0.1, twice: squared distance d^2 / 0.02; bounds of 0.99 and 0.9999 at 11.34 and 21.11 */
   const struct {
@@ -259,7 +248,7 @@ static void errors_that_last_count_in_updates_alone(void **state) {
   rig_close(&a);
 }
 
-static void a_bound_of_tests_is_kept_and_told(void **state) {
+static void the_limit_of_joint_tests_is_kept_and_reported(void **state) {
   cairn_filter_options options = unnamed(CAIRN_ASSOCIATION_JOINT);
   cairn_observation points[WORLD_LANDMARKS];
   cairn_match m[WORLD_LANDMARKS];
@@ -383,13 +372,13 @@ static void options_that_cannot_be(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(names_are_not_asked_for),
-      cmocka_unit_test(what_cannot_be_true_together_is_paired_once),
-      cmocka_unit_test(one_that_could_be_another_waits_for_more),
-      cmocka_unit_test(new_landmarks_keep_their_distance),
+      cmocka_unit_test(without_ids_a_filter_decides_as_with_ids),
+      cmocka_unit_test(pairs_that_contradict_each_other_are_not_accepted_together),
+      cmocka_unit_test(an_ambiguous_observation_needs_the_support_of_others),
+      cmocka_unit_test(a_new_landmark_keeps_its_distance_from_known_ones),
       cmocka_unit_test(one_landmark_is_seen_once_a_frame),
       cmocka_unit_test(errors_that_last_count_in_updates_alone),
-      cmocka_unit_test(a_bound_of_tests_is_kept_and_told),
+      cmocka_unit_test(the_limit_of_joint_tests_is_kept_and_reported),
       cmocka_unit_test(closings_find_what_the_map_knows),
       cmocka_unit_test(a_frame_that_does_not_fit_changes_nothing),
       cmocka_unit_test(options_that_cannot_be),

@@ -84,6 +84,27 @@ cairn_update_report last_update(const cairn_filter *filter) {
   return report;
 }
 
+size_t check_same_matches(const cairn_match *known, const cairn_match *found, size_t count, uint64_t *name_of) {
+  size_t matched = 0;
+  for (size_t i = 0; i < count; ++i) {
+    assert_int_equal(found[i].result, known[i].result);
+    if (found[i].result == CAIRN_NEW) name_of[found[i].landmark] = known[i].landmark;
+    if (found[i].result != CAIRN_MATCHED) continue;
+    assert_int_equal(name_of[found[i].landmark], known[i].landmark);
+    ++matched;
+  }
+  return matched;
+}
+
+void check_same_pose(const cairn_filter *a, const cairn_filter *b) {
+  cairn_pose pose_a, pose_b;
+  double covariance_a[36], covariance_b[36];
+  assert_ok(cairn_filter_pose(a, &pose_a, covariance_a));
+  assert_ok(cairn_filter_pose(b, &pose_b, covariance_b));
+  assert_memory_equal(&pose_a, &pose_b, sizeof pose_a);
+  assert_memory_equal(covariance_a, covariance_b, sizeof covariance_a);
+}
+
 void snapshot_take(snapshot *s, const cairn_filter *filter) {
   const cairn_map *map = cairn_filter_map(filter);
   size_t n = 0, needed = 0;

@@ -105,8 +105,15 @@ void rig_close(rig *r);
 /* Takes a step. `matches` (room for WORLD_LANDMARKS) may be NULL. Gives the first status that is not CAIRN_OK. */
 cairn_status rig_take(rig *r, const frame *f, cairn_match *matches);
 
-/* Of the update before. */
+/* The report of the last update. */
 cairn_update_report last_update(const cairn_filter *filter);
+
+/* A frame was given to a filter that knew the landmark ids (`known`) and to one that did not (`found`). Both must have
+ * decided alike. `name_of` maps the landmark numbers of the second filter to the ids of the first; new landmarks are
+ * added to it. Returns the number of matched observations. */
+size_t check_same_matches(const cairn_match *known, const cairn_match *found, size_t count, uint64_t *name_of);
+/* Pose and covariance are the same to the bit. */
+void check_same_pose(const cairn_filter *a, const cairn_filter *b);
 
 /* Everything that a filter tells about its state, as bytes. */
 typedef struct snapshot {

@@ -157,7 +157,7 @@ class PoseTest(unittest.TestCase):
         np.testing.assert_allclose(cairn.pose_error(moved, a), [0.5, 0, 0, 0, 0, 0], atol=1e-12)
         with self.assertRaisesRegex(cairn.CairnError, "ARGUMENT"):
             cairn.pose_inverse(([0, 0, 0], [0, 0, 0, 0]))
-        with self.assertRaisesRegex(ValueError, "T_a_b: a pose is wanted"):
+        with self.assertRaisesRegex(ValueError, "T_a_b: must be a pose"):
             cairn.pose_inverse(3)
 
 

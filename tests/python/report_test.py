@@ -162,7 +162,7 @@ class ReportTest(unittest.TestCase):
         counts = scene.run_scene(one)["counts"]
         self.assertEqual(counts, {"landmarks": 30000, "landmarksDrawn": scene.MOST_LANDMARKS,
                                   "ellipsoids": scene.MOST_ELLIPSOIDS, "submaps": 0})
-        self.assertIn("landmarks are drawn, an even pick", page.asset("scene.js"))
+        self.assertIn("landmarks are drawn, evenly chosen", page.asset("scene.js"))
 
     def test_only_the_trajectory_must_be_there(self):
         for name in os.listdir(self.folder):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Boats with radars to try a team in (libcairn_sim): what each measures, and the truth."""
+"""Simulated boats with radars for tests of a team (libcairn_sim): their measurements, and the truth."""
 import types
 
 import numpy as np
@@ -16,8 +16,8 @@ def _check(status):
 
 
 class Boat(types.SimpleNamespace):
-    """One boat at the end of a step: speed (m/s) and rate (rad/s) as commanded over the step, truth (a Pose), and what its
-    radar measured of features and of the other boats (vehicles), arrays of observations as Team.observe takes them."""
+    """One boat at the end of a step: the commanded speed (m/s) and rate (rad/s) of the step, truth (a Pose), and the
+    radar's observations of features and of other boats (vehicles): arrays of observations for Team.observe."""
 
 
 class FleetStep(types.SimpleNamespace):
@@ -29,7 +29,7 @@ class Fleet(Handle):
 
     Options are the fields of cairn_fleet_options, by name: Fleet(seed=3, features=6, layout="coast").
 
-        for step in fleet:                        # from the start, every time
+        for step in fleet:                        # each loop begins at the start
             for team, boat in zip(teams, step.vehicles):
                 if step.dt > 0:
                     team.predict_twist(step.dt, (boat.speed, 0, 0), (0, 0, boat.rate), **fleet.twist_noise())
@@ -58,7 +58,7 @@ class Fleet(Handle):
             yield self.next()
 
     def next(self):
-        """The next FleetStep; StopIteration after the last one."""
+        """The next FleetStep. Raises StopIteration after the last step."""
         struct = _structs.sized("cairn_fleet_step")
         with self._use() as handle:
             try:
@@ -81,7 +81,7 @@ class Fleet(Handle):
                     vehicles=observations(boat.vehicles, boat.vehicle_count))
 
     def rewind(self):
-        """Back to before the first step: the same drive again, to the bit."""
+        """Goes back to the first step. The same drive follows again, to the bit."""
         with self._use() as handle:
             _check(lib.cairn_fleet_rewind(handle))
 

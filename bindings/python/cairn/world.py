@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Worlds to try a filter in (libcairn_sim): terrain, landmarks, a rover, its sensors with their noise, and the truth."""
+"""Simulated worlds for tests of a filter (libcairn_sim): terrain, landmarks, a rover, noisy sensors, and the truth."""
 import types
 
 import numpy as np
@@ -16,17 +16,17 @@ def _check(status):
 
 
 class Step(types.SimpleNamespace):
-    """One step of a world: number, time (s), truth (a Pose), velocity_sigma and rate_sigma (3 each), pan and stick (rad),
-    motions (an array with the fields dt, velocity, rate, wheels, ...) and observations (id, z, covariance)."""
+    """One step of a world: number, time (s), truth (a Pose), velocity_sigma and rate_sigma (3 each), pan and stick
+    (rad), motions (an array with the fields dt, velocity, rate, wheels, ...) and observations (id, z, covariance)."""
 
 
 class World(Handle):
-    """A rover on its way over rolling ground, and what it measures.
+    """A rover that drives over rolling ground, and its measurements.
 
-    Options are the fields of cairn_world_options, by name: World(seed=3, course="laps", landmarks=500); `preset` names
-    where they start from ("paper", "row1" ... "row4").
+    Options are the fields of cairn_world_options, by name: World(seed=3, course="laps", landmarks=500). `preset` names
+    the set of defaults ("paper", "row1" ... "row4").
 
-        for step in world:                        # from the start, every time
+        for step in world:                        # each loop begins at the start
             for motion in step.motions:
                 filter.predict_twist(motion["dt"], motion["velocity"], motion["rate"])
             filter.point_head(head, step.pan, step.stick)
@@ -46,7 +46,7 @@ class World(Handle):
         super().__init__(created[0], lib.cairn_world_destroy)
 
     def _ask(self, type_name, function, *arguments):
-        """What a function writes to its last argument."""
+        """The value that a function writes to its last argument."""
         answer = ffi.new(type_name)
         with self._use() as handle:
             _check(function(handle, *arguments, answer))
@@ -62,7 +62,7 @@ class World(Handle):
             yield self.next()
 
     def next(self):
-        """The next Step; StopIteration after the last one."""
+        """The next Step. Raises StopIteration after the last step."""
         struct = _structs.sized("cairn_world_step")
         with self._use() as handle:
             try:
@@ -79,13 +79,13 @@ class World(Handle):
         return Step(**step)
 
     def rewind(self):
-        """Back to before the first step: the same drive again, to the bit."""
+        """Goes back to the first step. The same drive follows again, to the bit."""
         with self._use() as handle:
             _check(lib.cairn_world_rewind(handle))
 
     @property
     def most_observations(self):
-        """An upper bound of the observations of a frame."""
+        """An upper bound of the number of observations in a frame."""
         return self._ask("size_t *", lib.cairn_world_most_observations)[0]
 
     def _description(self, type_name, function):
@@ -95,23 +95,24 @@ class World(Handle):
         return _structs.as_dict(struct[0])
 
     def head(self):
-        """The stereo head that the observations are of: filter.add_stereo_head(**world.head())."""
+        """The stereo head that makes the observations: filter.add_stereo_head(**world.head())."""
         return self._description("cairn_stereo_head", lib.cairn_world_head)
 
     def wheels(self):
-        """The wheels that the world drives: filter.set_wheels(**world.wheels())."""
+        """The wheels of the rover: filter.set_wheels(**world.wheels())."""
         return self._description("cairn_wheels", lib.cairn_world_wheels)
 
     def pose(self, time):
-        """True Pose of the body in the map at a time (s)."""
+        """True Pose of the body in the map at `time` (s)."""
         return Pose.of(self._ask("cairn_pose *", lib.cairn_world_pose, time))
 
     def contacts(self, time):
-        """Where the wheels touch the ground at a time (s): front left, front right, rear left, rear right (4 x 3, m)."""
+        """The points where the wheels touch the ground at `time` (s): front left, front right, rear left, rear right
+        (4 x 3, m)."""
         return np.array(list(self._ask("double[12]", lib.cairn_world_contacts, time))).reshape(4, 3)
 
     def height(self, x, y):
-        """Height of the ground, m, at x and y (m); arrays of one shape give an array."""
+        """Height of the ground, m, at x and y (m). Two arrays of the same shape give an array."""
         at = np.broadcast(x, y)
         heights = [self._ask("double *", lib.cairn_world_height, *map(float, pair))[0] for pair in at]
         return np.array(heights).reshape(at.shape)[()]

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// Where row i of a packed lower triangle begins.
+// Start of row i of a packed lower triangle.
 Index row_start(Index i) {
   return i * (i + 1) / 2;
 }
@@ -67,13 +67,13 @@ void Association::joint_compatibility(const PairCandidate* candidates, Index cou
   innovations_ = &innovations;
   rows_ = innovations.rows();
   budget_ = nodes;
-  // Observations with few candidates first: what they settle makes the others' innovations sharper.
+  // Observations with few candidates come first: their pairs make the innovations of the others sharper.
   std::iota(order_, order_ + observations, Index{0});
   const auto candidates_of = [&](Index o) { return first_[o + 1] - first_[o]; };
   std::sort(order_, order_ + observations, [&](Index a, Index b) {
     return candidates_of(a) != candidates_of(b) ? candidates_of(a) < candidates_of(b) : a < b;
   });
-  // Without candidates there is nothing to search for.
+  // Observations without candidates take no part in the search.
   while (observations_ > 0 && candidates_of(order_[0]) == 0) {
     std::rotate(order_, order_ + 1, order_ + observations_);
     --observations_;
@@ -81,10 +81,11 @@ void Association::joint_compatibility(const PairCandidate* candidates, Index cou
   search(0, 0, 0.0);
 }
 
-// Borders the factor of the set at hand, of `pairs` pairs, by a candidate, and returns by how much the joint distance
-// grows; infinity where its covariance, given the others, is not positive definite. With L L^T = S of the set,
+// Extends the Cholesky factor of the current set of `pairs` pairs by a candidate c and returns the growth of the joint
+// distance, or infinity if the covariance of c given the set is not positive definite. With L L^T = S of the set,
 //   L' = [L 0; X^T L_c],  X = L^-1 S_set,c,  L_c L_c^T = S_cc - X^T X,  y_c = L_c^-1 (nu_c - X^T y),
-// and the distance grows by |y_c|^2. Rows of L are packed, so that the set's stay where they are.
+// and the distance grows by |y_c|^2 (docs/association.md). The rows of L are packed, so that the rows of the set stay
+// in place.
 double Association::border(Index candidate, Index pairs) {
   const Index k = rows_, n = k * pairs;
   double block[kMostRows * kMostRows], nu[kMostRows];
@@ -113,7 +114,7 @@ double Association::border(Index candidate, Index pairs) {
   return grown;
 }
 
-// From the set at hand down: the candidates of one more observation, those that fit best first, then none of them.
+// Extends the current set by one more observation: by each compatible candidate, the best first, then by none.
 void Association::search(Index depth, Index pairs, double distance) {
   if (depth == observations_) {
     if (!better(pairs, distance)) return;
@@ -126,7 +127,7 @@ void Association::search(Index depth, Index pairs, double distance) {
   const Index o = order_[depth], rest = observations_ - depth - 1;
   const Index begin = first_[o], end = first_[o + 1];
   const double bound = innovations_->threshold(rows_ * (pairs + 1));
-  Index* fitting = queue_ + begin;  // each observation has its own part
+  Index* fitting = queue_ + begin;  // each observation has its own part of the queue
   Index count = 0, bordered = kUnpaired;
   for (Index c = begin; c < end; ++c) {
     if (taken_[candidates_[c].landmark] != 0) continue;
@@ -137,17 +138,17 @@ void Association::search(Index depth, Index pairs, double distance) {
   }
   std::sort(fitting, fitting + count,
             [&](Index a, Index b) { return joint_[a] != joint_[b] ? joint_[a] < joint_[b] : a < b; });
-  // Deeper calls work on other observations' parts, so that these lists outlive them.
+  // Deeper calls use the parts of other observations, so this list stays valid.
   for (Index i = 0; i < count; ++i) {
     const Index c = fitting[i];
-    // All that is left may be paired at no more distance.
+    // At best, all remaining observations are matched without adding distance.
     if (!better(pairs + 1 + rest, joint_[c])) break;
     if (i > 0 && nodes_ >= budget_) {
       exhausted_ = true;
       return;
     }
     if (c != bordered) border(c, pairs);
-    bordered = kUnpaired;  // deeper calls write below
+    bordered = kUnpaired;  // deeper calls overwrite the rows of this candidate
     now_[pairs] = c;
     taken_[candidates_[c].landmark] = 1;
     search(depth + 1, pairs + 1, joint_[c]);
