@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "program/commands.hpp"
-#include "program/option_table.hpp"
+#include "program/commands/commands.hpp"
 #include "program/logs/log.hpp"
+#include "program/options/option_table.hpp"
 
 namespace {
 
@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
     return dispatch({argv + 1, argv + argc});
   } catch (const program::UsageError& error) {
     return fail(error.what(), kUsage);
-  } catch (const logs::LogError& error) {
+  } catch (const program::logs::LogError& error) {
     return fail(error.what(), kUsage);
   } catch (const std::exception& error) {
     return fail(error.what(), kFailure);
