@@ -19,14 +19,15 @@ constexpr std::uint32_t kDeferredSightings = 54, kDeferredFrames = 2000;
 // A team refuses the options that it does not use.
 void check_choices(const TeamChoices& team) {
   const FilterChoices& o = team.filter;
-  if (o.forget_after != 0) throw UsageError("option --forget-after: a team forgets no landmark");
+  if (o.forget_after != 0)
+    throw UsageError("option --forget-after is not for teams, which keep all landmarks; leave it out");
   if (o.join.value_or(CAIRN_JOIN_AUTO) != CAIRN_JOIN_AUTO)
-    throw UsageError("option --join: a team joins submaps densely");
+    throw UsageError("option --join is not for teams, which join submaps densely; leave it out");
   const bool submaps = o.submap_landmarks.has_value() || o.submap_distance.value_or(0) > 0 ||
                        o.submap_extent.value_or(0) > 0 || o.submap_sigma.value_or(0) > 0;
-  if (submaps && team.mode != CAIRN_TEAM_SUBMAPS) throw UsageError("options of submaps go with --mode submaps only");
+  if (submaps && team.mode != CAIRN_TEAM_SUBMAPS) throw UsageError("options of submaps need --mode submaps");
   if (team.mode == CAIRN_TEAM_SUBMAPS && o.submap_landmarks == 0u)
-    throw UsageError("option --mode submaps does not go with --single-map");
+    throw UsageError("options --mode submaps and --single-map contradict each other; leave one out");
 }
 
 std::vector<OptionGroup> groups_of_team(CommonChoices& common, TeamChoices& team) {

@@ -190,7 +190,8 @@ SimulateOptions parse_simulate_options(const std::vector<std::string>& arguments
   if (options.common.help) return options;
   if (scenario.empty()) throw UsageError("no scenario given (usage: cairn simulate mars|usv [options])");
   if (options.compare && options.filter.submap_landmarks == 0u)
-    throw UsageError("option --compare runs a single map and submaps: it does not go with --single-map");
+    throw UsageError(
+        "options --compare and --single-map contradict each other: --compare runs submaps too; leave one out");
   return options;
 }
 
