@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands of the program. `arguments` are what follows the command's word.
+// The commands of the program. `arguments` are the words after the command.
 #pragma once
 
 #include <string>
@@ -7,9 +7,10 @@
 
 namespace cairn::program {
 
-extern const char* const kHelp;
-
-void write_stdout(const std::string& text);  // throws UsageError
+// Throw UsageError.
+void write_stdout(const std::string& text);
+void write_help();
+void write_manual_options();  // the parts of docs/cairn.1 that come from the option tables
 
 // Throw UsageError, logs::LogError, LibraryError.
 void run_command(const std::vector<std::string>& arguments);

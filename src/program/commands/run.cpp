@@ -5,8 +5,7 @@
 
 #include "program/commands/commands.hpp"
 #include "program/drives/log_drive.hpp"
-#include "program/options/options.hpp"
-#include "program/options/team_options.hpp"
+#include "program/options/catalogue.hpp"
 #include "program/output/progress.hpp"
 #include "program/runners/session.hpp"
 
@@ -15,7 +14,7 @@ namespace cairn::program {
 void run_command(const std::vector<std::string>& arguments) {
   if (!mrclam_folder(arguments).empty()) return run_team_command(arguments);
   const RunOptions options = parse_run_options(arguments);
-  if (options.common.help) return write_stdout(kHelp);
+  if (options.common.help) return write_help();
   const auto begin = std::chrono::steady_clock::now();
   const logs::Log log = logs::read_log(options.log, options.noise);
   if (!options.common.quiet) {

@@ -5,8 +5,7 @@
 
 #include "program/commands/commands.hpp"
 #include "program/drives/world_drive.hpp"
-#include "program/options/options.hpp"
-#include "program/options/team_options.hpp"
+#include "program/options/catalogue.hpp"
 #include "program/output/compare_table.hpp"
 #include "program/output/csv_output.hpp"
 #include "program/output/progress.hpp"
@@ -15,14 +14,14 @@
 namespace cairn::program {
 namespace {
 
-// One way to run the filter, and what it gave in each run.
+// One way to run the filter, and its figures in each run.
 struct Way {
   std::string name;  // of its folder; empty: the only one
   FilterChoices filter;
   std::vector<std::vector<Figure>> runs;
 };
 
-// The paper's rivals: EKF-SLAM as it is known, with one linearisation an update, and the filter with submaps.
+// The two filters of the paper: standard EKF-SLAM with one linearisation of an update, and the filter with submaps.
 std::vector<Way> ways_of(const SimulateOptions& options) {
   if (!options.compare) return {{"", options.filter, {}}};
   FilterChoices standard = options.filter;
@@ -40,7 +39,7 @@ std::vector<Figure> run_world(const SimulateOptions& options, const Way& way, st
   WorldDrive drive(world, options.by_wheels);
   if (!progress) progress.emplace(drive.steps() * options.runs * ways, options.common.quiet);
   Session session;
-  // Files of the first run alone: the others are like it.
+  // Files are written for the first run only: the others are like it.
   if (run == 0 && !options.common.output.empty()) {
     session.output = options.common.output + (way.name.empty() ? "" : "/" + way.name);
   }
@@ -66,7 +65,7 @@ std::string compared_json(const std::vector<Way>& ways) {
 void simulate_command(const std::vector<std::string>& arguments) {
   if (asks_for_usv(arguments)) return simulate_team_command(arguments);
   const SimulateOptions options = parse_simulate_options(arguments);
-  if (options.common.help) return write_stdout(kHelp);
+  if (options.common.help) return write_help();
   std::vector<Way> ways = ways_of(options);
   if (options.compare && !options.common.output.empty()) create_folder(options.common.output);
   {

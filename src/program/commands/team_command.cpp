@@ -12,7 +12,7 @@
 namespace cairn::program {
 namespace {
 
-// The team in its mode and, where `beside`, every vehicle by itself.
+// Runs the team in its mode and, if `beside` is given, each vehicle without the others.
 std::vector<Figure> run_team(TeamDrive& drive, TeamDrive* beside, const TeamChoices& choices, const std::string& folder,
                              Progress& progress) {
   std::optional<TeamOutput> output;
@@ -43,7 +43,7 @@ std::string title(const std::string& what, const TeamChoices& choices) {
 
 void simulate_team_command(const std::vector<std::string>& arguments) {
   const UsvOptions options = parse_usv_options(arguments);
-  if (options.common.help) return write_stdout(kHelp);
+  if (options.common.help) return write_help();
   if (options.compare) {
     if (!options.common.output.empty()) create_folder(options.common.output);
     std::string table, object, rows;
@@ -78,7 +78,7 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
 
 void run_team_command(const std::vector<std::string>& arguments) {
   const MrclamOptions options = parse_mrclam_options(arguments);
-  if (options.common.help) return write_stdout(kHelp);
+  if (options.common.help) return write_help();
   const logs::MrclamLog log = logs::read_mrclam(options.folder);
   if (!options.common.quiet)
     for (const std::string& note : log.notes) std::fprintf(stderr, "cairn: note: %s\n", note.c_str());

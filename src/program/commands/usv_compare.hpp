@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All modes of a team beside the cooperative paper's figures.
+// Runs all modes of a team, and compares them with the figures of the cooperative paper.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 namespace cairn::program {
 
 // Runs options.runs worlds for each number of features and each mode; the first boat is scored. `advance` is called
-// once a run. Fills `table`, for people, `object`, one JSON object, and `rows`, a CSV file.
+// once a run. Fills `table`, for people; `object`, one JSON object; and `rows`, a CSV file.
 void compare_modes(const UsvOptions& options, const std::function<void()>& advance, std::string& table,
                    std::string& object, std::string& rows);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a filter is driven with, step by step, whether it was recorded or is simulated.
+// The input of a filter, step by step, recorded or simulated.
 #pragma once
 
 #include <cairn/cairn.h>
@@ -20,15 +20,15 @@ struct WheelTurn {
   double right;
 };
 
-// The motions that lead to a step, what was seen there, and the truth. Valid until the next step.
+// The motions that lead to a step, its observations, and the truth. Valid until the next step.
 struct DriveStep {
   std::size_t index = 0;  // from 0
   std::uint64_t number = 0;
-  double time = 0;  // s; NaN where it is not known
+  double time = 0;  // s; NaN if it is not known
   const logs::Increment* increment = nullptr;
   std::vector<logs::Twist> twists;
   std::vector<WheelTurn> wheel_turns;
-  std::optional<cairn_twist_noise> noise;  // of the twists, where it is not that of before
+  std::optional<cairn_twist_noise> noise;  // of the twists, if it has changed
   double pan = 0;                          // of a stereo head, rad
   double stick = 0;
   const cairn_observation* observations = nullptr;
@@ -46,18 +46,18 @@ class Drive {
   virtual std::size_t steps() const = 0;
   virtual cairn_pose start() const = 0;
   virtual std::size_t largest_frame() const = 0;
-  // Landmarks that a filter holds at once at most, when it forgets one that was not seen for `forget_after` frames (0:
-  // never).
+  // The largest number of landmarks that a filter holds at once if it forgets those that were not seen for
+  // `forget_after` frames (0: never).
   virtual std::size_t landmarks_at_once(std::uint64_t forget_after) const = 0;
-  // Gives the filter the sensor that sees and the noise of the motion. Returns the sensor's number.
+  // Gives the filter its sensor and the noise of the motion. Returns the sensor's number.
   virtual std::int32_t equip(cairn_filter* filter) const = 0;
-  // The sensor has a mount that each step tells of.
+  // Whether each step tells how the sensor's mount is turned.
   virtual bool has_mount() const = 0;
   // False after the last step.
   virtual bool next(DriveStep& step) = 0;
-  // False where it is not known.
+  // False if it is not known.
   virtual bool true_landmark(std::uint64_t id, double position[3]) const = 0;
-  // The world behind a simulated drive, or NULL.
+  // The world of a simulated drive, or NULL.
   virtual const cairn_world* world() const { return nullptr; }
 };
 

@@ -35,7 +35,7 @@ class FleetDrive : public TeamDrive {
   std::vector<double> features_;
   std::size_t steps_ = 0;
   cairn_fleet_step step_{};
-  bool taken_ = false;  // the next step is in step_ already
+  bool taken_ = false;  // step_ already holds the next step
 };
 
 }  // namespace cairn::program

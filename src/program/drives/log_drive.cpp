@@ -23,8 +23,8 @@ std::size_t LogDrive::landmarks_at_once(std::uint64_t forget_after) const {
     }
     return last_seen.size();
   }
-  // A landmark is held from a frame that saw it until `forget_after` frames later, that frame's update included: add up
-  // where those stretches begin and end.
+  // A landmark is held from a frame that saw it until `forget_after` frames later, including that frame's update. Add
+  // up where these intervals begin and end.
   std::vector<std::int64_t> change(log.steps.size() + 1, 0);
   for (std::size_t k = 0; k < log.steps.size(); ++k) {
     const auto end_of = [&](std::size_t seen) {
@@ -35,7 +35,7 @@ std::size_t LogDrive::landmarks_at_once(std::uint64_t forget_after) const {
       if (is_new || end_of(entry->second) <= k) {
         ++change[k];
       } else {
-        ++change[end_of(entry->second)];  // it stays: take back the end that was set
+        ++change[end_of(entry->second)];  // it stays: undo the end that was set
       }
       entry->second = k;
       --change[end_of(k)];

@@ -9,7 +9,7 @@
 
 namespace cairn::program {
 
-// What a run asks of the log's stereo camera instead of the library's own.
+// Limits of the log's stereo camera that replace the library's.
 struct CameraChoices {
   std::optional<double> min_disparity;         // pixels
   std::optional<double> min_disparity_sigmas;  // standard deviations of the disparity
@@ -17,7 +17,7 @@ struct CameraChoices {
 
 class LogDrive : public Drive {
  public:
-  // `log` has to live as long.
+  // `log` has to live as long as the drive.
   LogDrive(const logs::Log& log, const CameraChoices& camera) : log_(log), camera_(camera) {}
 
   std::size_t steps() const override { return log_.steps.size(); }

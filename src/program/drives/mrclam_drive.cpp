@@ -50,7 +50,7 @@ MrclamDrive::MrclamDrive(const logs::MrclamLog& log, const MrclamNoise& noise) :
 cairn_range_bearing MrclamDrive::radar() const {
   cairn_range_bearing radar;
   check(cairn_range_bearing_init(&radar, sizeof radar));
-  radar.range_sigma = noise_.range;  // at 1 m: each measurement brings its own
+  radar.range_sigma = noise_.range;  // at 1 m: each observation has a covariance of its own
   radar.bearing_sigma = noise_.bearing;
   return radar;
 }
@@ -69,7 +69,7 @@ void MrclamDrive::move(const Robot& robot, double time, Place& place, VehicleSte
   }
 }
 
-// What a robot saw at a time: once each, the first where a subject comes twice.
+// The observations of a robot at a time. If a subject comes twice, the first one counts.
 void MrclamDrive::look(const Robot& robot, double time, Place& place, VehicleStep& step) const {
   const auto& all = robot.measurements;
   while (place.measurement < all.size() && all[place.measurement].time < time) ++place.measurement;

@@ -8,16 +8,16 @@
 namespace cairn::program {
 
 struct MrclamNoise {
-  double speed = 0.03;    // of the odometry's speed, m/s a square root of Hz
-  double rate = 0.06;     // of its rate of turn, rad/s a square root of Hz
+  double speed = 0.03;    // of the odometry's speed, m/s per square root of Hz
+  double rate = 0.06;     // of its rate of turn, rad/s per square root of Hz
   double range = 0.2;     // in proportion to the range
   double bearing = 0.06;  // rad
 };
 
-// All robots step at every time at which one of them saw something.
+// All robots make a step at each time at which one of them observed something.
 class MrclamDrive : public TeamDrive {
  public:
-  // `log` has to live as long.
+  // `log` has to live as long as the drive.
   MrclamDrive(const logs::MrclamLog& log, const MrclamNoise& noise);
 
   const std::vector<std::uint64_t>& vehicles() const override { return numbers_; }
@@ -32,7 +32,7 @@ class MrclamDrive : public TeamDrive {
 
  private:
   struct Place {  // of one robot in its files
-    double time;  // up to which it has moved
+    double time;  // the robot has moved up to here
     std::size_t odometry = 0, measurement = 0;
   };
   void move(const logs::MrclamLog::Robot& robot, double time, Place& place, VehicleStep& step) const;

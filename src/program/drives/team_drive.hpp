@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a team is driven with, step by step, whether it was recorded or is simulated.
+// The input of a team, step by step, recorded or simulated.
 #pragma once
 
 #include <cairn/cairn.h>

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "program/library.hpp"
-#include "program/options/option_table.hpp"
+#include "program/usage_error.hpp"
 
 namespace cairn::program {
 

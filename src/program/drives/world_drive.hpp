@@ -10,8 +10,8 @@ namespace cairn::program {
 
 class WorldDrive : public Drive {
  public:
-  // `by_wheels`: the filter gets the rates of the wheels alone, instead of the world's twists. Throws UsageError
-  // where the options contradict each other, and LibraryError.
+  // `by_wheels`: the filter gets only the rates of the wheels, instead of the world's twists. Throws UsageError if the
+  // options contradict each other, and LibraryError.
   WorldDrive(const cairn_world_options& options, bool by_wheels);
 
   std::size_t steps() const override { return steps_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the command line wants the filter.
+// The filter that a command line asks for.
 #pragma once
 
 #include <cairn/cairn.h>
@@ -7,41 +7,30 @@
 #include <cstdint>
 #include <optional>
 
+#include "program/options/option.hpp"
+
 namespace cairn::program {
 
 constexpr std::uint32_t kUsualSubmap = 60;  // landmarks
 
-// What is not set stays as the library has it.
+// One member for each option of the filter that is a number or a choice, with its name in cairn_filter_options. An
+// option that is not set keeps the library's default, or gets the value that the drive needs.
 struct FilterChoices {
-  std::int32_t error = CAIRN_ERROR_INVARIANT;
-  std::optional<std::uint32_t> submap_landmarks;  // 0: a single map
-  double submap_distance = 0;                     // m; 0: no matter
-  double submap_extent = 0;                       // m; 0: no matter
-  double submap_sigma = 0;                        // m; 0: no matter
-  std::int32_t join = CAIRN_JOIN_AUTO;
-  std::int32_t association = CAIRN_ASSOCIATION_KNOWN;
-  std::int32_t association_distance = CAIRN_DISTANCE_MAHALANOBIS;
-  std::optional<std::uint32_t> deferred_sightings, deferred_frames;
-  std::uint64_t forget_after = 0;  // frames; 0: never
-  std::optional<double> error_persistence;
-  std::optional<double> gate;
-  std::optional<double> batch_gate;
-  std::optional<std::uint32_t> iterations;
-  std::optional<std::uint32_t> max_landmarks;
+#define FILTER_CHOICE(field, constants, words, flag) std::optional<std::int32_t> field;
+#define FILTER_WHOLE(field, initial, lower, upper, flag) std::optional<std::uint32_t> field;
+#define FILTER_REAL(field, initial, bounds, flag) std::optional<double> field;
+#include "options/filter_options.def"
 
-  // But for what the drive has a say in: capacities and submaps.
-  void apply(cairn_filter_options& options) const {
-    options.error = error;
-    options.iterations = iterations.value_or(options.iterations);
-    options.gate_probability = gate.value_or(options.gate_probability);
-    options.batch_gate_probability = batch_gate.value_or(options.batch_gate_probability);
-    options.error_persistence = error_persistence.value_or(options.error_persistence);
-    options.association = association;
-    options.association_distance = association_distance;
-    options.deferred_sightings = deferred_sightings.value_or(options.deferred_sightings);
-    options.deferred_frames = deferred_frames.value_or(options.deferred_frames);
+  std::uint64_t forget_after = 0;  // frames; 0: never
+
+  // Writes the options that are set.
+  void apply(cairn_filter_options& options) const;
+  bool names_known() const {
+    return association.value_or(CAIRN_ASSOCIATION_KNOWN) == CAIRN_ASSOCIATION_KNOWN;
   }
-  bool names_known() const { return association == CAIRN_ASSOCIATION_KNOWN; }
 };
+
+// `choices` has to live as long as the group.
+OptionGroup filter_options(FilterChoices& choices);
 
 }  // namespace cairn::program

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the command lines of teams ask for.
+// The command lines of teams: `cairn simulate usv`, and `cairn run` of a MRCLAM folder.
 #pragma once
 
 #include <cairn/fleet.h>
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "program/drives/mrclam_drive.hpp"
-#include "program/options/option_table.hpp"
+#include "program/options/common_options.hpp"
 #include "program/runners/team_runner.hpp"
 
 namespace cairn::program {
@@ -13,7 +17,7 @@ namespace cairn::program {
 struct UsvOptions {
   CommonChoices common;
   TeamChoices team;
-  cairn_fleet_options fleet;  // but for its seed
+  cairn_fleet_options fleet;  // all but its seed
   bool compare = false;
   std::uint32_t runs = 1;
 };
@@ -22,14 +26,20 @@ struct MrclamOptions {
   CommonChoices common;
   TeamChoices team;
   MrclamNoise noise;
+  std::optional<double> range_noise, bearing_noise;  // as asked for; `noise` holds the values that count
   std::string folder;
 };
 
-// `arguments` are what follows the command's word. Throw UsageError.
-bool asks_for_usv(const std::vector<std::string>& arguments);
+// Throws LibraryError.
+UsvOptions default_usv_options();
+
+// The argument has to live as long as the group, and holds the defaults that its texts tell.
+OptionGroup team_options(TeamChoices& team);
+OptionGroup boat_options(UsvOptions& options);
+OptionGroup robot_options(MrclamOptions& options);
+
+// `arguments` are the words after the command. Throw UsageError.
 UsvOptions parse_usv_options(const std::vector<std::string>& arguments);
-// The folder among the arguments of `run`; empty where there is none.
-std::string mrclam_folder(const std::vector<std::string>& arguments);
 MrclamOptions parse_mrclam_options(const std::vector<std::string>& arguments);
 
 }  // namespace cairn::program

@@ -25,9 +25,9 @@ std::string row(const std::string& name, const std::string& paper_standard, cons
 
 }  // namespace
 
-// The paper counts 700 and 440 features in a world of 200, and does not say how: they can't be the states of one
-// filter. What they are to show is the work, by the size of the filter that takes the frames in; so that is what is
-// measured.
+// The paper counts 700 and 440 features in a world of 200, and does not say how: they cannot be the states of one
+// filter. They are meant to show the work, by the size of the filter that processes the frames. That size is measured
+// here.
 std::string compare_table(const std::vector<Figure>& standard, const std::vector<Figure>& submaps) {
   const auto both = [&](const std::string& name, const char* key, const char* paper_standard,
                         const char* paper_submaps) {

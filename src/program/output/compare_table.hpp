@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Mars paper's Table 2, with what was measured beside what is printed there.
+// Table 2 of the Mars paper, with the measured figures beside the printed ones.
 #pragma once
 
 #include <string>

@@ -13,11 +13,11 @@ struct Figure {
   bool whole;  // a count
 };
 
-// NaN where there is none of that key.
+// NaN if no figure has the key.
 double value_of(const std::vector<Figure>& figures, const std::string& key);
 
-// Means over runs of the same kind; behind each its standard deviation over the runs. Figures that not all runs have
-// are left out.
+// Means over runs of the same kind, each followed by its standard deviation over the runs. A figure that some run lacks
+// is left out.
 std::vector<Figure> means(const std::vector<std::vector<Figure>>& runs);
 
 std::string json(const std::vector<Figure>& figures);  // one object, no line end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a long run has come, on stderr: a bar on a terminal, elsewhere a line now and then.
+// The progress of a long run, on stderr: a bar on a terminal, otherwise one line every ten seconds.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ namespace cairn::program {
 class Progress {
  public:
   Progress(std::size_t steps, bool quiet);
-  ~Progress();  // takes the bar away
+  ~Progress();  // removes the bar
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 

@@ -112,7 +112,7 @@ void Summary::add_closing(const cairn_closing_report& closing) {
 }
 
 void Summary::measure(const char* key, double value) {
-  if (std::isfinite(value)) figures_.push_back({key, value, false});  // JSON knows no other numbers
+  if (std::isfinite(value)) figures_.push_back({key, value, false});  // JSON has no other numbers
 }
 
 void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing,
@@ -174,7 +174,7 @@ void Summary::finish_pose(const cairn_filter* filter) {
   measure("attitude_final_deg", kDegreesPerRadian * attitude_last_);
   measure("attitude_axis_max_deg", kDegreesPerRadian * attitude_worst_axis_);
   if (!last_truth_) return;
-  cairn_pose pose;  // once all submaps are closed
+  cairn_pose pose;  // after all submaps are closed
   double error[6];
   check(cairn_filter_pose(filter, &pose, nullptr));
   check(cairn_pose_error(&*last_truth_, &pose, error));

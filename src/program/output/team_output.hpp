@@ -11,7 +11,7 @@ namespace cairn::program {
 
 class TeamOutput {
  public:
-  // Creates the folder where there is none, and the files. Throws UsageError.
+  // Creates the files, and the folder if it does not exist. Throws UsageError.
   TeamOutput(const TeamDrive& drive, const std::string& folder);
 
   void add(const TeamStep& step, const std::vector<VehicleEstimate>& estimates);

@@ -11,7 +11,7 @@ namespace cairn::program {
 namespace {
 
 constexpr std::size_t kLandmarkMargin = 8;
-constexpr std::size_t kMostLandmarks = 10000000, kMostObservations = 4096;  // that the library takes
+constexpr std::size_t kMostLandmarks = 10000000, kMostObservations = 4096;  // limits of the library
 
 }  // namespace
 
@@ -29,20 +29,15 @@ void Runner::create() {
   check(cairn_filter_options_init(&options, sizeof options));
   const std::size_t needed =
       std::min(kMostLandmarks, drive_.landmarks_at_once(choices_.forget_after) + kLandmarkMargin);
-  // Without names some landmarks may be placed twice.
+  // Without known ids some landmarks may be placed twice.
   const std::size_t room = std::min(kMostLandmarks, choices_.names_known() ? needed : 2 * needed);
-  options.max_landmarks = choices_.max_landmarks.value_or(static_cast<std::uint32_t>(room));
+  options.max_landmarks = static_cast<std::uint32_t>(room);
   options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
-  // A submap that one frame fills is not worth its closing.
+  // A submap that one frame fills costs more to close than it saves.
   constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
+  options.submap_landmarks = std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations));
   choices_.apply(options);
-  options.submap_landmarks = choices_.submap_landmarks.value_or(
-      std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations)));
   has_submaps_ = options.submap_landmarks > 0;
-  options.submap_distance = choices_.submap_distance;
-  options.submap_extent = choices_.submap_extent;
-  options.submap_sigma = choices_.submap_sigma;
-  options.join = choices_.join;
   options.initial_pose = drive_.start();
   cairn_filter* filter = nullptr;
   check(cairn_filter_create(&options, &filter));
@@ -85,8 +80,8 @@ void Runner::update() {
   check(cairn_filter_update(filter_.get(), sensor_, step_.observations, step_.count, result_.matches.data()));
 }
 
-// A refused observation does not count: a landmark that only gives those is lost, and a track that went astray may then
-// start anew.
+// A refused observation does not count. A landmark whose observations are all refused is removed; its track may then
+// place it anew.
 void Runner::forget() {
   if (choices_.forget_after == 0) return;
   for (const cairn_match& match : result_.matches) {
@@ -95,7 +90,7 @@ void Runner::forget() {
   for (auto entry = last_seen_.begin(); entry != last_seen_.end();) {
     if (step_.index - entry->second >= choices_.forget_after) {
       const cairn_status status = cairn_filter_remove_landmark(filter_.get(), entry->first);
-      // A closing may have refused it before.
+      // A closing may have refused the landmark before.
       if (status != CAIRN_ERROR_NOT_FOUND || !has_submaps_) check(status);
       entry = last_seen_.erase(entry);
     } else {

@@ -16,19 +16,19 @@
 
 namespace cairn::program {
 
-// A landmark's name and when the filter last took in an observation of it.
+// A landmark's id, and the step of its last accepted observation.
 using LastSeen = std::map<std::uint64_t, std::size_t>;
 
-// What one step did. Its arrays are valid until the next step.
+// The result of one step. Its arrays are valid until the next step.
 struct StepResult {
   double seconds = 0;  // prediction, update with any closing of a submap, and forgetting; nothing else
   cairn_pose pose{};
-  double covariance[36] = {};        // of [dp; dtheta]
-  double local_covariance[36] = {};  // the same of the pose in the open submap
-  std::size_t landmarks = 0;         // in the map after the step
-  std::size_t filter_landmarks = 0;  // in the filter that took the frame in: of the open submap, before any closing
-  std::vector<cairn_match> matches;  // one for each observation
-  cairn_update_report report{};      // zeros where the step had no observations
+  double covariance[36] = {};                   // of [dp; dtheta]
+  double local_covariance[36] = {};             // the same of the pose in the open submap
+  std::size_t landmarks = 0;                    // in the map after the step
+  std::size_t filter_landmarks = 0;             // in the filter that processed the frame, before any closing
+  std::vector<cairn_match> matches;             // one for each observation
+  cairn_update_report report{};                 // zeros if the step had no observations
   std::optional<cairn_closing_report> closing;  // of the submap that was closed after it
 };
 
@@ -41,7 +41,7 @@ class Runner {
   using Observer = std::function<void(const cairn_filter*, const DriveStep&, const StepResult&)>;
   void run(const Observer& observe);
 
-  // Closes the submap that is still open, so that the map is whole; nothing where there is none to close.
+  // Closes the open submap, so that the map is complete. Empty if no submap is open.
   std::optional<cairn_closing_report> finish();
 
   const cairn_filter* filter() const { return filter_.get(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run from its drive to its figures and files.
+// One run: from a drive to figures and files.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace cairn::program {
 
 struct Session {
   std::string output;         // folder; empty: none
-  double seconds_before = 0;  // that the run had taken before
+  double seconds_before = 0;  // time that the run took before
   std::function<void()> on_step;
 };
 

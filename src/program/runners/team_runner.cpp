@@ -59,17 +59,18 @@ TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
   filter.vehicle = CAIRN_VEHICLE_PLANAR;
   // Without names some landmarks may be placed twice.
   const std::uint32_t room = drive_.landmarks() * (choices.names_known() ? 1 : 4);
-  filter.max_landmarks = choices.max_landmarks.value_or(std::max<std::uint32_t>(1, room));
+  filter.max_landmarks = std::max<std::uint32_t>(1, room);
   filter.max_observations = std::max<std::uint32_t>(1, drive_.largest_frame());
   choices.apply(filter);
   filter.initial_pose = drive_.start(vehicle);
   if (choices_.mode == CAIRN_TEAM_SUBMAPS) {
     // By the way driven: one frame may hold all landmarks that there are.
-    filter.submap_landmarks = choices.submap_landmarks.value_or(std::min<std::uint32_t>(4096, 2 * room + 1));
-    filter.submap_distance = choices.submap_distance > 0 ? choices.submap_distance : drive_.submap_distance();
-    filter.submap_extent = choices.submap_extent;
-    filter.submap_sigma = choices.submap_sigma;
+    if (!choices.submap_landmarks) filter.submap_landmarks = std::min<std::uint32_t>(4096, 2 * room + 1);
+    if (!(filter.submap_distance > 0)) filter.submap_distance = drive_.submap_distance();
     filter.join = CAIRN_JOIN_DENSE;
+  } else {
+    filter.submap_landmarks = 0;
+    filter.submap_distance = filter.submap_extent = filter.submap_sigma = 0;
   }
   const cairn_range_bearing radar = drive_.radar();
   cairn_team* team = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A team over a drive: every vehicle with its own view, packets carried between them.
+// Runs a team through a drive: each vehicle keeps an estimate of its own, and the runner carries the packets.
 #pragma once
 
 #include <functional>
