@@ -25,7 +25,10 @@ find "$work/clone" -name __pycache__ -prune -exec rm -rf {} +
 # numpy, cffi, matplotlib and setuptools are Debian's; plotly comes from the package index.
 /usr/bin/python3 -m venv --system-site-packages "$work/venv"
 export PKG_CONFIG_PATH=$libdir/pkgconfig PATH=$work/venv/bin:$work/prefix/bin:$PATH
-export PIP_CONSTRAINT=$root/tests/python/constraints.txt PIP_NO_BUILD_ISOLATION=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_RETRIES=5
+# pip splits the value of this variable at spaces, which the project's path may have: a URL has none.
+PIP_CONSTRAINT=$(/usr/bin/python3 -c 'import pathlib, sys; print(pathlib.Path(sys.argv[1]).as_uri())' \
+  "$root/tests/python/constraints.txt")
+export PIP_CONSTRAINT PIP_NO_BUILD_ISOLATION=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_RETRIES=5
 export PYTHONDONTWRITEBYTECODE=1
 unset PYTHONPATH CAIRN_LIBRARY CAIRN_INCLUDE_DIR
 
