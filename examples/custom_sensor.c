@@ -99,7 +99,7 @@ int main(void) {
   check(cairn_filter_add_cartesian(filter, &lidar, &lidar_number));
   check(cairn_filter_add_custom(filter, &sensor, &radio_number));
 
-  /* The survey: the lidar places the beacons. The vehicle stands at the origin, so body frame and map frame are equal. */
+  /* The survey: the lidar places the beacons. The vehicle stands at the origin: body frame and map frame are equal. */
   cairn_observation observations[BEACONS] = {{0}};
   for (int frame = 0; frame < 10; ++frame) {
     for (int i = 0; i < BEACONS; ++i) {

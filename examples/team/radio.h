@@ -20,9 +20,9 @@ typedef struct radio_counts {
   uint64_t doubled;   /* ... that were passed on twice */
 } radio_counts;
 
-/* Boats are numbered from 1 to `vehicles`. The share `loss` of all arriving packets is dropped, half as many are delayed,
- * and half as many are doubled. Returns NULL if there is not enough memory. Neither the other boats nor the broker need
- * to run yet. */
+/* Boats are numbered from 1 to `vehicles`. The share `loss` of all arriving packets is dropped, half as many are
+ * delayed, and half as many are doubled. Returns NULL if there is not enough memory. Neither the other boats nor the
+ * broker need to run yet. */
 radio *radio_open(uint64_t vehicle, uint64_t vehicles, int port, double loss, uint64_t seed, radio_handler handler,
                   void *user);
 void radio_close(radio *r);
