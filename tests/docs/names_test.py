@@ -261,6 +261,8 @@ def wrong_identifiers(page):
         if re.fullmatch(r"[a-z]{3,}(?:_[a-z]{3,})+|[a-z]\w*_", text):
             names.append(text)
         for name in names:
+            if name.startswith("cairn_"):
+                continue  # wrong_names judges it
             if name not in code_words() and name not in ALLOWED and not is_stem(name):
                 yield page.line(at), f"the code has no {name}"
     if page.kind == "code":
