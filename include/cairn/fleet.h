@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** \file A simulated fleet of boats for cooperative filters: the measurements of each boat and the truth.
+/** \file
+ *  A simulated fleet of boats for cooperative filters: the measurements of each boat and the truth.
  *
  *  These functions are in libcairn_sim, like those of cairn/sim.h. This header is not part of cairn.h. It needs no
  *  filter: any estimator that uses odometry, ranges and bearings can be driven by it.

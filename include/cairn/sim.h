@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** \file Simulated worlds for filters: terrain, landmarks, a rover, its sensors with their noise, and the truth.
+/** \file
+ *  Simulated worlds for filters: terrain, landmarks, a rover, its sensors with their noise, and the truth.
  *
  *  These functions are in a separate library, libcairn_sim (pkg-config cairn-sim, CMake target cairn::cairn_sim).
  *  This header is not part of cairn.h. It has the types, conventions and rules of libcairn. It needs no filter: any
