@@ -39,7 +39,7 @@ struct Log {
   std::map<std::uint64_t, Vector3> landmarks;
 };
 
-// What the logs' noise was drawn with: every driver tells its filter the same.
+// The noise with which the logs were made. Every driver gives it to its filter.
 struct Noise {
   static constexpr double kDegree = 0.017453292519943295;
   static constexpr double kIncrementMetres = 0.02, kIncrementRadians = 0.1 * kDegree;
@@ -72,7 +72,7 @@ class LogReader {
       current.time = numbers<1>(fields)[0];
       current.truth = numbers<6>(fields);
     } else if (kind == "O") {
-      Step& current = step(fields);  // first: the right side of an assignment is evaluated before the left one
+      Step& current = step(fields);  // read first: the right side of an assignment is evaluated before the left side
       current.increment = numbers<6>(fields);
     } else if (kind == "Z") {
       Step& current = step(fields);
@@ -86,7 +86,7 @@ class LogReader {
     }
   }
 
-  // The step that the record names; a new one where it is the next.
+  // The step that the record names. It is created if it is the next one.
   Step& step(std::istringstream& fields) {
     const std::uint64_t number = whole(fields);
     if (number == log_.steps.size()) log_.steps.emplace_back();

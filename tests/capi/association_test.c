@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Observations without names: which landmark the filter takes them for, and when it rather takes them for none. */
+/* Observations without ids: which landmark each one is matched with, and when it is refused instead. */
 #include "support.h"
 
 static cairn_filter_options unnamed(int32_t association) {
@@ -16,8 +16,9 @@ static cairn_observation at(double x, double y, double z) {
   return o;
 }
 
-/* A rig that stands at the origin, knows it, and has seen `count` points; then it is pushed along x, by `sigma`. */
-static void open_pushed(rig *r, cairn_filter_options options, const cairn_observation *points, size_t count,
+/* A rig that stands at the origin with a known pose and has seen `count` points. Then its x position becomes uncertain
+ * by `sigma`. */
+static void open_pushed(rig* r, cairn_filter_options options, const cairn_observation* points, size_t count,
                         double sigma) {
   const cairn_pose stay = {{0, 0, 0}, {1, 0, 0, 0}};
   double covariance[36];
@@ -31,7 +32,7 @@ static void open_pushed(rig *r, cairn_filter_options options, const cairn_observ
   assert_ok(cairn_filter_predict_increment(r->filter, &stay, covariance));
 }
 
-static void without_ids_a_filter_decides_as_with_ids(void **state) {
+static void without_ids_a_filter_decides_as_with_ids(void** state) {
   const int32_t ways[] = {CAIRN_ASSOCIATION_NEAREST, CAIRN_ASSOCIATION_JOINT};
   (void)state;
   for (size_t k = 0; k < LENGTH(ways); ++k) {
@@ -69,7 +70,7 @@ static void without_ids_a_filter_decides_as_with_ids(void **state) {
   }
 }
 
-static void pairs_that_contradict_each_other_are_not_accepted_together(void **state) {
+static void pairs_that_contradict_each_other_are_not_accepted_together(void** state) {
   const cairn_observation points[] = {{0, {10, -50, 0}, {0}}, {0, {10, 50, 0}, {0}}};
   const cairn_observation looked[] = {{0, {12.5, -50, 0}, {0}}, {0, {7.5, 50, 0}, {0}}};
   cairn_match m[2];
@@ -88,7 +89,7 @@ static void pairs_that_contradict_each_other_are_not_accepted_together(void **st
   assert_true(report.association_nodes >= 2 && report.association_exhausted == 0);
   assert_true(report.association_seconds > 0);
   rig_close(&r);
-  /* Nearest neighbour takes both; the gate of the batch finds that they do not fit. */
+  /* Nearest neighbour matches both. The batch gate finds that they contradict each other. */
   open_pushed(&r, unnamed(CAIRN_ASSOCIATION_NEAREST), points, 2, 1.0);
   assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, 2, m));
   assert_true((m[0].reason == CAIRN_REASON_BATCH_GATE) != (m[1].reason == CAIRN_REASON_BATCH_GATE));
@@ -96,7 +97,7 @@ static void pairs_that_contradict_each_other_are_not_accepted_together(void **st
   rig_close(&r);
 }
 
-static void an_ambiguous_observation_needs_the_support_of_others(void **state) {
+static void an_ambiguous_observation_needs_the_support_of_others(void** state) {
   const cairn_observation points[] = {{0, {10, 0, 0}, {0}}, {0, {12, 0.5, 0}, {0}}, {0, {13, -0.5, 0}, {0}}};
   cairn_observation looked[3];
   cairn_match m[3];
@@ -118,9 +119,10 @@ static void an_ambiguous_observation_needs_the_support_of_others(void **state) {
   }
 }
 
-static void a_new_landmark_keeps_its_distance_from_known_ones(void **state) {
+static void a_new_landmark_keeps_its_distance_from_known_ones(void** state) {
   const cairn_observation point = at(10, 0, 0);
-  /* one axis at noise 0.1, twice: squared distance d^2 / 0.02; bounds of 0.99 and 0.9999 at 11.34 and 21.11 */
+  /* Both sightings have noise 0.1, so the squared distance is d^2 / 0.02. The bounds of 0.99 and 0.9999 are 11.34 and
+   * 21.11. */
   const struct {
     double offset;
     int32_t result, reason;
@@ -145,11 +147,12 @@ static void a_new_landmark_keeps_its_distance_from_known_ones(void **state) {
   }
 }
 
-/* Two observations of a frame are of two landmarks: what noise sets apart from one that was paired is new, though it
- * lies too near the mapped one to be new by itself. */
-static void one_landmark_is_seen_once_a_frame(void **state) {
+/* Two observations of one frame belong to two landmarks. An observation that noise clearly separates from a matched one
+ * is new, although it is too near the mapped landmark to be new otherwise. */
+static void one_landmark_is_seen_once_a_frame(void** state) {
   const cairn_observation point = at(10, 0, 0);
-  /* one axis at noise 0.1: of the second to the landmark d^2 / 0.02, bounds 11.34 and 21.11; to the first d^2 / 0.02 */
+  /* Noise 0.1 on one axis. The second observation has squared distance d^2 / 0.02 to the landmark (bounds 11.34 and
+   * 21.11), and d^2 / 0.02 to the first observation. */
   const struct {
     double offset;
     int32_t result, reason;
@@ -168,7 +171,7 @@ static void one_landmark_is_seen_once_a_frame(void **state) {
     assert_int_equal(m[0].landmark, 0);
     assert_int_equal(m[1].result, looks[k].result);
     assert_int_equal(m[1].reason, looks[k].reason);
-    if (looks[k].result == CAIRN_NEW) { /* each finds its own */
+    if (looks[k].result == CAIRN_NEW) { /* each observation is matched with its own landmark */
       assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], both, 2, m));
       for (size_t i = 0; i < 2; ++i) {
         assert_int_equal(m[i].result, CAIRN_MATCHED);
@@ -177,7 +180,8 @@ static void one_landmark_is_seen_once_a_frame(void **state) {
     }
     rig_close(&r);
   }
-  /* Each of two would do by itself, and the gate of the batch refuses one: beside that one nothing is new. */
+  /* Each of two observations passes alone, and the batch gate refuses one of them. No landmark is placed next to the
+   * refused one. */
   const cairn_observation two[] = {at(10, -50, 0), at(10, 50, 0)};
   cairn_observation known[2], four[] = {at(10.72, -50, 0), at(11.25, -50, 0), at(9.28, 50, 0), at(8.75, 50, 0)};
   cairn_match of_four[4];
@@ -197,7 +201,7 @@ static void one_landmark_is_seen_once_a_frame(void **state) {
   assert_int_equal(of_four[taken + 1].result, CAIRN_NEW);
   assert_int_equal(of_four[taken + 1].landmark, 2);
   rig_close(&refusing);
-  /* Where the one beside it is doubtful itself, nothing is placed. */
+  /* No landmark is placed next to an observation that is itself doubtful. */
   const cairn_observation apart[] = {at(10, 0, 0), at(12, 0, 0)};
   cairn_match m[2];
   rig r;
@@ -207,8 +211,8 @@ static void one_landmark_is_seen_once_a_frame(void **state) {
   rig_close(&r);
 }
 
-/* Sightings whose errors last: an update believes them as much less, association and placing as they are. */
-static void errors_that_last_count_in_updates_alone(void **state) {
+/* Sightings with persistent errors: an update gives them less weight, association and placing do not. */
+static void persistent_errors_count_in_updates_only(void** state) {
   cairn_observation point = at(10, 0, 0);
   cairn_filter_options lasting = test_options(), plain = test_options();
   rig a, b;
@@ -233,7 +237,7 @@ static void errors_that_last_count_in_updates_alone(void **state) {
   rig_close(&a);
   rig_close(&b);
 
-  /* 0.6 m off at noise 0.1, twice: beyond the gate of 0.99, whatever lasts of it. */
+  /* 0.6 m off at noise 0.1 for both sightings: beyond the gate of 0.99, whatever the persistence. */
   cairn_observation first = point, off;
   cairn_match m;
   for (int i = 0; i < 3; ++i) first.covariance[4 * i] = 0.01;
@@ -248,7 +252,7 @@ static void errors_that_last_count_in_updates_alone(void **state) {
   rig_close(&a);
 }
 
-static void the_limit_of_joint_tests_is_kept_and_reported(void **state) {
+static void the_limit_of_joint_tests_is_kept_and_reported(void** state) {
   cairn_filter_options options = unnamed(CAIRN_ASSOCIATION_JOINT);
   cairn_observation points[WORLD_LANDMARKS];
   cairn_match m[WORLD_LANDMARKS];
@@ -257,7 +261,8 @@ static void the_limit_of_joint_tests_is_kept_and_reported(void **state) {
   options.association_nodes = 1;
   for (int i = 0; i < WORLD_LANDMARKS; ++i) points[i] = at(10 + 0.9 * (i % 4), 0.9 * (i / 4), 0.1 * i);
   open_pushed(&r, options, points, WORLD_LANDMARKS, 2.0);
-  for (int i = 0; i < WORLD_LANDMARKS; ++i) points[i].z[0] += i % 3 == 0 ? 1.3 : i % 3 == 1 ? 0.4 : -0.7; /* no push */
+  for (int i = 0; i < WORLD_LANDMARKS; ++i)
+    points[i].z[0] += i % 3 == 0 ? 1.3 : i % 3 == 1 ? 0.4 : -0.7; /* offsets that no shift along x explains */
   assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], points, WORLD_LANDMARKS, m));
   const cairn_update_report report = last_update(r.filter);
   assert_int_equal(report.association_exhausted, 1);
@@ -266,8 +271,8 @@ static void the_limit_of_joint_tests_is_kept_and_reported(void **state) {
   rig_close(&r);
 }
 
-/* Twice over the same ground in submaps: what the second pass closes is found in the map. */
-static void closings_find_what_the_map_knows(void **state) {
+/* Drives over the same ground twice in submaps. The closings of the second pass must find the landmarks of the map. */
+static void closings_find_the_landmarks_of_the_map(void** state) {
   const int32_t joins[] = {CAIRN_JOIN_DENSE, CAIRN_JOIN_SPARSE};
   (void)state;
   for (size_t k = 0; k < LENGTH(joins); ++k) {
@@ -300,9 +305,9 @@ static void closings_find_what_the_map_knows(void **state) {
       assert_int_equal(report.status, CAIRN_OK);
       if (report.submaps == closings) continue;
       closings = report.submaps;
-      assert_int_equal(report.landmarks_new + report.landmarks_fused + report.landmarks_refused +
-                           report.landmarks_ambiguous,
-                       report.landmarks);
+      assert_int_equal(
+          report.landmarks_new + report.landmarks_fused + report.landmarks_refused + report.landmarks_ambiguous,
+          report.landmarks);
       assert_int_equal(report.landmarks_ambiguous, 0);
       assert_int_equal(report.association_exhausted, 0);
       fused += report.landmarks_fused;
@@ -311,12 +316,12 @@ static void closings_find_what_the_map_knows(void **state) {
     if (size > 0) assert_ok(cairn_filter_close_submap(r.filter));
     assert_true(closings >= 4 && fused >= 8);
     assert_ok(cairn_map_size(cairn_filter_map(r.filter), &size));
-    assert_int_equal(size, 11); /* that were in sight, each once */
+    assert_int_equal(size, 11); /* the landmarks that were in sight, each once */
     rig_close(&r);
   }
 }
 
-static void a_frame_that_does_not_fit_changes_nothing(void **state) {
+static void a_frame_that_does_not_fit_changes_nothing(void** state) {
   cairn_filter_options options = unnamed(CAIRN_ASSOCIATION_JOINT);
   snapshot before = {0, NULL}, after = {0, NULL};
   cairn_observation o[3];
@@ -335,14 +340,14 @@ static void a_frame_that_does_not_fit_changes_nothing(void **state) {
   snapshot_take(&after, r.filter);
   assert_true(snapshot_same(&before, &after));
   assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 1, &m));
-  assert_int_equal(m.landmark, 0); /* no number was used up */
+  assert_int_equal(m.landmark, 0); /* the failed calls used no number */
   snapshot_free(&before);
   snapshot_free(&after);
   rig_close(&r);
 }
 
-static void options_that_cannot_be(void **state) {
-  cairn_filter *filter = NULL;
+static void options_out_of_range_are_refused(void** state) {
+  cairn_filter* filter = NULL;
   (void)state;
   const int32_t ways[] = {-1, 3, 77};
   for (size_t i = 0; i < LENGTH(ways); ++i) {
@@ -377,11 +382,11 @@ int main(void) {
       cmocka_unit_test(an_ambiguous_observation_needs_the_support_of_others),
       cmocka_unit_test(a_new_landmark_keeps_its_distance_from_known_ones),
       cmocka_unit_test(one_landmark_is_seen_once_a_frame),
-      cmocka_unit_test(errors_that_last_count_in_updates_alone),
+      cmocka_unit_test(persistent_errors_count_in_updates_only),
       cmocka_unit_test(the_limit_of_joint_tests_is_kept_and_reported),
-      cmocka_unit_test(closings_find_what_the_map_knows),
+      cmocka_unit_test(closings_find_the_landmarks_of_the_map),
       cmocka_unit_test(a_frame_that_does_not_fit_changes_nothing),
-      cmocka_unit_test(options_that_cannot_be),
+      cmocka_unit_test(options_out_of_range_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls every function of the library with good and bad arguments mixed, as a seed says, and holds what has to hold
- * after any call: a status of the pinned set, a line for each failure, a failed call that changes nothing, and a state
- * of finite numbers whose variances are not negative.
+/* Calls every function of the library with a random mix of good and bad arguments, determined by a seed. After each
+ * call it checks: the status is one of the pinned set, a failure has a one-line message, a failed call changes nothing,
+ * and the state has finite numbers and variances that are not negative.
  *
  *   api_fuzz SEED CALLS [LIMIT [loose]]
  *
- * Buffers are exactly as long as the library is told, so that a sanitizer sees each byte too far. Half of the filters
- * are "sane": numbers of everyday size and arguments that are wrong in kind (NaN, negative noise, unknown ids), after
- * which the covariance has to stay positive definite to rounding; the others are given numbers of any size, or of sizes
- * up to LIMIT and down to 1 / LIMIT. `loose` asks nothing of the numbers of those others: all else has to hold for them
- * too. */
+ * Buffers are exactly as long as the library is told, so that a sanitizer detects each byte beyond them. Half of the
+ * filters are "sane": they get numbers of ordinary size and arguments that are wrong in kind (NaN, negative noise,
+ * unknown ids), and their covariance must stay positive definite up to rounding. The other filters get numbers of any
+ * size, or of sizes up to LIMIT and down to 1 / LIMIT. With `loose` the numbers of these other filters are not checked;
+ * all other conditions must hold for them too. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,15 +18,15 @@
 #include "fuzz.h"
 
 typedef struct slot {
-  cairn_filter *filter;
+  cairn_filter* filter;
   bool wild, planar;
   uint32_t max_landmarks, max_observations;
   int32_t sensors;
-  uint32_t rows[64]; /* of an observation, by sensor */
+  uint32_t rows[64]; /* number of values of an observation, by sensor */
 } slot;
 
 static slot slots[3];
-static slot *now;
+static slot* now;
 static unsigned long long refused_by_audit;
 
 static bool loose;
@@ -35,12 +35,12 @@ static bool loose;
     if (!loose || !(s)->wild) HOLDS((condition), (value)); \
   } while (0)
 
-static void check_numbers(const slot *s, const double *values, size_t count) {
+static void check_numbers(const slot* s, const double* values, size_t count) {
   for (size_t i = 0; i < count; ++i) HOLDS_OF_NUMBERS(s, isfinite(values[i]), values[i]);
 }
 
-/* What may be said of a filter after any call. */
-static void check_state(const slot *s, bool whole) {
+/* Conditions that a filter must meet after any call. */
+static void check_state(const slot* s, bool whole) {
   cairn_pose pose;
   double covariance[36], length = 0, pivot = NAN;
   size_t n = 0, needed = 0;
@@ -52,10 +52,10 @@ static void check_state(const slot *s, bool whole) {
   check_numbers(s, covariance, 36);
   for (int i = 0; i < 6; ++i) HOLDS_OF_NUMBERS(s, covariance[7 * i] >= 0, covariance[7 * i]);
   for (int i = 0; i < 36; ++i) HOLDS_OF_NUMBERS(s, covariance[i] == covariance[6 * (i % 6) + i / 6], covariance[i]);
-  const cairn_map *map = cairn_filter_map(s->filter);
+  const cairn_map* map = cairn_filter_map(s->filter);
   HOLDS(map != NULL && cairn_map_size(map, &n) == CAIRN_OK && n <= s->max_landmarks, n);
   if (!whole) return;
-  cairn_landmark *all = calloc(n + 1, sizeof *all);
+  cairn_landmark* all = calloc(n + 1, sizeof *all);
   HOLDS(cairn_map_landmarks(map, all, n, &needed) == CAIRN_OK && needed == n, needed);
   for (size_t i = 0; i < n; ++i) {
     check_numbers(s, all[i].position, 3);
@@ -71,17 +71,23 @@ static void check_state(const slot *s, bool whole) {
   refused_by_audit += !(pivot > 0);
 }
 
-static uint64_t id(void) { return fuzz_one_in(60) ? fuzz_id() : fuzz_below(now->max_landmarks + 3u); }
-static int32_t sensor(void) { return fuzz_one_in(40) ? fuzz_int() : (int32_t)fuzz_below((uint64_t)now->sensors + 1); }
+static uint64_t id(void) {
+  return fuzz_one_in(60) ? fuzz_id() : fuzz_below(now->max_landmarks + 3u);
+}
+static int32_t sensor(void) {
+  return fuzz_one_in(40) ? fuzz_int() : (int32_t)fuzz_below((uint64_t)now->sensors + 1);
+}
 
-static void hear(void *payload, const char *line) { *(size_t *)payload += strlen(line); }
+static void hear(void* payload, const char* line) {
+  *(size_t*)payload += strlen(line);
+}
 static size_t heard;
 
 /* --- operations --- */
 
-static void create(slot *s) {
+static void create(slot* s) {
   cairn_filter_options o;
-  cairn_filter *filter = NULL;
+  cairn_filter* filter = NULL;
   size_t bytes = 0;
   fuzz_operation = "create";
   fuzz_wild = true;
@@ -118,10 +124,11 @@ static void create(slot *s) {
   fuzz_wild = fresh.wild;
   if (fuzz_one_in(2)) fuzz_covariance(o.initial_covariance, 6, 0.01);
   if (fuzz_one_in(2)) fuzz_pose(&o.initial_pose);
-  void *given = fuzz_one_in(4) ? fuzz_resized(&o, sizeof o) : NULL;
+  void* given = fuzz_one_in(4) ? fuzz_resized(&o, sizeof o) : NULL;
   uint32_t stated;
   if (given != NULL) memcpy(&stated, given, sizeof stated);
-  if (given == NULL || stated < offsetof(cairn_filter_options, iterations)) { /* the old caller's default is large */
+  if (given == NULL ||
+      stated < offsetof(cairn_filter_options, iterations)) { /* the old caller gets the default, which is large */
     free(given);
     given = malloc(sizeof o);
     memcpy(given, &o, sizeof o);
@@ -140,17 +147,17 @@ static void create(slot *s) {
   now = s;
 }
 
-static void draw_radar(cairn_range_bearing *r) {
+static void draw_radar(cairn_range_bearing* r) {
   fuzz_check_status(cairn_range_bearing_init(r, sizeof *r));
   if (fuzz_one_in(3)) r->T_body_sensor.position[fuzz_below(2)] = fuzz_number(1);
   r->range_sigma = fuzz_positive(0.5), r->bearing_sigma = fuzz_positive(0.1);
   if (fuzz_one_in(4)) r->near_range = fuzz_positive(0.1);
 }
 
-static void add_sensor(slot *s) {
+static void add_sensor(slot* s) {
   int32_t added = -77, *out = fuzz_maybe_out(&added);
   cairn_status status = CAIRN_OK;
-  void *given = NULL;
+  void* given = NULL;
   uint32_t rows = 3;
   const int kind = s->planar && !fuzz_one_in(9) ? 2 + (int)fuzz_below(4) : (int)fuzz_below(fuzz_one_in(9) ? 6 : 5);
   if (kind == 0) {
@@ -211,8 +218,8 @@ static void add_sensor(slot *s) {
   s->rows[s->sensors++] = rows;
 }
 
-static void motion(slot *s) {
-  cairn_filter *f = fuzz_one_in(100) ? NULL : s->filter;
+static void motion(slot* s) {
+  cairn_filter* f = fuzz_one_in(100) ? NULL : s->filter;
   double v[3], w[3], c[36];
   cairn_pose T;
   const double dt = fuzz_bad() ? fuzz_garbage() : fuzz_uniform(0.01, 0.5);
@@ -226,7 +233,7 @@ static void motion(slot *s) {
     cairn_wheels wheels;
     fuzz_check_status(cairn_wheels_init(&wheels, sizeof wheels));
     wheels.radius = fuzz_positive(0.5), wheels.track = fuzz_positive(1), wheels.slip_sigma = fuzz_positive(0.1);
-    void *given = fuzz_resized(&wheels, sizeof wheels);
+    void* given = fuzz_resized(&wheels, sizeof wheels);
     fuzz_check_status(cairn_filter_set_wheels(f, fuzz_maybe(given)));
     free(given);
   }
@@ -234,16 +241,16 @@ static void motion(slot *s) {
     cairn_twist_noise noise;
     fuzz_check_status(cairn_twist_noise_init(&noise, sizeof noise));
     noise.velocity_sigma[fuzz_below(3)] = fuzz_positive(0.1), noise.rate_sigma[fuzz_below(3)] = fuzz_positive(0.1);
-    void *given = fuzz_resized(&noise, sizeof noise);
+    void* given = fuzz_resized(&noise, sizeof noise);
     fuzz_check_status(cairn_filter_set_twist_noise(f, fuzz_maybe(given)));
     free(given);
   }
 }
 
-static void observe(slot *s) {
+static void observe(slot* s) {
   const size_t count = fuzz_one_in(40) ? fuzz_below(30) : fuzz_below(s->max_observations + 1u);
-  cairn_observation *o = malloc(count * sizeof *o + 1); /* + 1: never NULL */
-  cairn_match *m = malloc(count * sizeof *m + 1);
+  cairn_observation* o = malloc(count * sizeof *o + 1); /* + 1: never NULL */
+  cairn_match* m = malloc(count * sizeof *m + 1);
   memset(m, 0x5a, count * sizeof *m);
   const int32_t by = sensor();
   const uint64_t first = id();
@@ -271,13 +278,17 @@ static void observe(slot *s) {
   free(o), free(m);
 }
 
-/* What becomes of landmarks beside being seen. */
-static void life(slot *s) {
+/* Removal, merging, splitting and deferral of landmarks. */
+static void life(slot* s) {
   double lower[3], upper[3], c[9];
   cairn_match m, *out = fuzz_one_in(3) ? NULL : &m;
   switch (fuzz_below(4)) {
-    case 0: fuzz_check_status(cairn_filter_remove_landmark(s->filter, id())); break;
-    case 1: fuzz_check_status(cairn_filter_merge_landmarks(s->filter, id(), id(), out)); break;
+    case 0:
+      fuzz_check_status(cairn_filter_remove_landmark(s->filter, id()));
+      break;
+    case 1:
+      fuzz_check_status(cairn_filter_merge_landmarks(s->filter, id(), id(), out));
+      break;
     case 2:
       fuzz_covariance(c, 3, 0.1);
       fuzz_check_status(cairn_filter_split_landmark(s->filter, id(), id(), fuzz_maybe(c)));
@@ -289,7 +300,7 @@ static void life(slot *s) {
   }
 }
 
-static void absolute(slot *s) {
+static void absolute(slot* s) {
   double z[3], c[9], lever[3], q[4];
   cairn_match m, *out = fuzz_one_in(3) ? NULL : &m;
   fuzz_numbers(z, 3, 5), fuzz_covariance(c, 3, 0.1), fuzz_numbers(lever, 3, 1), fuzz_numbers(q, 4, 1);
@@ -301,12 +312,12 @@ static void absolute(slot *s) {
   if (kind == 2) fuzz_check_status(cairn_filter_update_heading(s->filter, fuzz_number(4), fuzz_positive(0.2), out));
 }
 
-static void linear(slot *s) {
+static void linear(slot* s) {
   const size_t rows = fuzz_one_in(30) ? fuzz_below(60) : 1 + fuzz_below(6),
                count = fuzz_below(fuzz_one_in(30) ? 20 : 4);
   double *r = malloc(rows * sizeof *r + 1), *c = malloc(rows * rows * sizeof *c + 1);
   double *jp = malloc(6 * rows * sizeof *jp + 1), *jl = malloc(3 * count * rows * sizeof *jl + 1);
-  uint64_t *ids = malloc(count * sizeof *ids + 1);
+  uint64_t* ids = malloc(count * sizeof *ids + 1);
   cairn_match m;
   fuzz_numbers(r, rows, 0.3), fuzz_numbers(jp, 6 * rows, 1), fuzz_numbers(jl, 3 * count * rows, 1);
   if (rows > 0) fuzz_covariance(c, rows, 0.1);
@@ -318,8 +329,8 @@ static void linear(slot *s) {
   free(r), free(c), free(jp), free(jl), free(ids);
 }
 
-static void ask(slot *s) {
-  const cairn_map *map = fuzz_one_in(60) ? NULL : cairn_filter_map(s->filter);
+static void ask(slot* s) {
+  const cairn_map* map = fuzz_one_in(60) ? NULL : cairn_filter_map(s->filter);
   const size_t capacity = fuzz_below(30), count = fuzz_below(6);
   cairn_landmark *out = malloc(capacity * sizeof *out + 1), one;
   double *matrix = malloc(capacity * 12 * sizeof *matrix + 1), a[3], b[3], nees;
@@ -330,8 +341,12 @@ static void ask(slot *s) {
   for (int i = 0; i < 3 && fuzz_one_in(2); ++i) b[i] = a[i] + fabs(b[i]);
   for (size_t i = 0; i < count; ++i) ids[i] = id();
   switch (fuzz_below(9)) {
-    case 0: fuzz_check_status(cairn_map_landmark(map, id(), fuzz_maybe_out(&one))); break;
-    case 1: fuzz_check_status(cairn_map_landmarks(map, fuzz_maybe_out(out), capacity, fuzz_maybe_out(&needed))); break;
+    case 0:
+      fuzz_check_status(cairn_map_landmark(map, id(), fuzz_maybe_out(&one)));
+      break;
+    case 1:
+      fuzz_check_status(cairn_map_landmarks(map, fuzz_maybe_out(out), capacity, fuzz_maybe_out(&needed)));
+      break;
     case 2:
       fuzz_check_status(
           cairn_map_within(map, fuzz_maybe(a), fuzz_positive(10), out, capacity, fuzz_maybe_out(&needed)));
@@ -350,11 +365,13 @@ static void ask(slot *s) {
       fuzz_check_status(
           cairn_filter_joint_covariance(s->filter, fuzz_maybe(ids), count, matrix, capacity * 12, &needed));
       break;
-    case 7: fuzz_check_status(cairn_filter_pose_nees(s->filter, fuzz_maybe(&truth), fuzz_maybe_out(&nees))); break;
+    case 7:
+      fuzz_check_status(cairn_filter_pose_nees(s->filter, fuzz_maybe(&truth), fuzz_maybe_out(&nees)));
+      break;
     default: {
       cairn_update_report report;
       memset(&report, 0, sizeof report);
-      void *given = fuzz_resized(&report, sizeof report);
+      void* given = fuzz_resized(&report, sizeof report);
       fuzz_check_status(cairn_filter_last_update(s->filter, fuzz_maybe_out(given)));
       free(given);
     }
@@ -362,22 +379,22 @@ static void ask(slot *s) {
   free(out), free(matrix);
 }
 
-/* What the calls about submaps tell has to agree with itself. */
-static void ask_submaps(slot *s) {
-  const cairn_filter *f = fuzz_one_in(40) ? NULL : s->filter;
+/* The calls about submaps must agree with each other. */
+static void ask_submaps(slot* s) {
+  const cairn_filter* f = fuzz_one_in(40) ? NULL : s->filter;
   cairn_pose pose, base, local, composed;
   double covariance[36];
   size_t count = 0, needed = 0, open = 0;
   cairn_closing_report report;
   memset(&report, 0, sizeof report);
-  void *given = fuzz_resized(&report, sizeof report);
+  void* given = fuzz_resized(&report, sizeof report);
   fuzz_check_status(cairn_filter_last_closing(f, fuzz_maybe_out(given)));
   free(given);
   fuzz_check_status(cairn_filter_local_pose(f, fuzz_maybe_out(&local), fuzz_maybe_out(covariance)));
   fuzz_check_status(cairn_filter_base_pose(f, fuzz_maybe_out(&base), fuzz_maybe_out(covariance)));
   fuzz_check_status(cairn_filter_submap_count(f, fuzz_maybe_out(&count)));
   const size_t capacity = fuzz_below(20), index = fuzz_one_in(9) ? (size_t)fuzz_id() : fuzz_below(count + 1);
-  uint64_t *ids = malloc(capacity * sizeof *ids + 1);
+  uint64_t* ids = malloc(capacity * sizeof *ids + 1);
   fuzz_check_status(cairn_filter_submap(f, index, fuzz_maybe_out(&pose), fuzz_maybe_out(ids), capacity, &needed));
   free(ids);
   if (f == NULL) return;
@@ -387,8 +404,8 @@ static void ask_submaps(slot *s) {
   HOLDS(report.status <= 0 && report.status >= CAIRN_ERROR_STATE, report.status);
   HOLDS(report.reason >= CAIRN_CLOSED_BY_NONE && report.reason <= CAIRN_CLOSED_BY_FIX, report.reason);
   if (report.status == CAIRN_OK)
-    HOLDS(report.landmarks == report.landmarks_new + report.landmarks_fused + report.landmarks_refused +
-                                      report.landmarks_ambiguous,
+    HOLDS(report.landmarks ==
+              report.landmarks_new + report.landmarks_fused + report.landmarks_refused + report.landmarks_ambiguous,
           report.landmarks);
   HOLDS(cairn_map_size(cairn_filter_local_map(f), &open) == CAIRN_OK, open);
   HOLDS(cairn_filter_local_pose(f, &local, covariance) == CAIRN_OK, 0);
@@ -406,7 +423,7 @@ static void ask_submaps(slot *s) {
   }
 }
 
-static void submaps(slot *s) {
+static void submaps(slot* s) {
   if (fuzz_one_in(3)) {
     fuzz_check_status(cairn_filter_close_submap(fuzz_one_in(40) ? NULL : s->filter));
     return;
@@ -415,10 +432,10 @@ static void submaps(slot *s) {
 }
 
 static void call_one(void) {
-  static const char *const names[] = {"add_sensor", "motion", "observe", "absolute", "linear",
+  static const char* const names[] = {"add_sensor", "motion", "observe", "absolute", "linear",
                                       "ask",        "life",   "helpers", "submaps"};
   static const unsigned char weights[] = {3, 22, 38, 9, 7, 9, 4, 3, 5};
-  slot *s = &slots[fuzz_below(3)];
+  slot* s = &slots[fuzz_below(3)];
   uint64_t pick = fuzz_below(100);
   size_t kind = 0;
   if (s->filter == NULL || fuzz_one_in(400)) create(s);
@@ -433,23 +450,41 @@ static void call_one(void) {
   const unsigned long long failures = fuzz_counts[0];
   fuzz_shadow_take(&before, s->filter);
   switch (kind) {
-    case 0: add_sensor(s); break;
-    case 1: motion(s); break;
-    case 2: observe(s); break;
-    case 3: absolute(s); break;
-    case 4: linear(s); break;
-    case 5: ask(s); break;
-    case 6: life(s); break;
-    case 7: fuzz_helpers(fuzz_check_status); break;
-    default: submaps(s); break;
+    case 0:
+      add_sensor(s);
+      break;
+    case 1:
+      motion(s);
+      break;
+    case 2:
+      observe(s);
+      break;
+    case 3:
+      absolute(s);
+      break;
+    case 4:
+      linear(s);
+      break;
+    case 5:
+      ask(s);
+      break;
+    case 6:
+      life(s);
+      break;
+    case 7:
+      fuzz_helpers(fuzz_check_status);
+      break;
+    default:
+      submaps(s);
+      break;
   }
   fuzz_shadow_take(&after, s->filter);
-  if (fuzz_counts[0] == failures || kind == 5) /* all of its calls failed, or it only asked */
+  if (fuzz_counts[0] == failures || kind == 5) /* all its calls failed, or were queries */
     HOLDS(memcmp(&before, &after, sizeof before) == 0, 0);
   check_state(s, fuzz_one_in(16));
 }
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   if (argc < 3 || argc > 5 || (argc == 5 && strcmp(argv[4], "loose") != 0)) {
     fprintf(stderr, "usage: api_fuzz SEED CALLS [LIMIT [loose]]\n");
     return 2;
@@ -467,6 +502,6 @@ int main(int argc, char **argv) {
   printf("seed %llu: %llu calls", (unsigned long long)seed, calls);
   for (int i = 0; i < 9; ++i) printf(", %s %llu", cairn_status_name(-i), fuzz_counts[i]);
   printf("; %llu wild states without a positive pivot\n", refused_by_audit);
-  /* A run that never gets anywhere proves nothing. */
+  /* A run in which no call succeeds proves nothing. */
   return calls >= 1000 && fuzz_counts[0] < calls / 4;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Scenarios that drive the filter and its reference.
 #include "reference_scenario.hpp"
 
 #include <algorithm>
@@ -202,7 +203,7 @@ void Drive::move(Pair& pair) {
     if (kind < 1) {
       const Vector3 v = noisy(random_, tau.head<3>() / dt, twist.velocity_sigma);
       pair.predict_twist(v, noisy(random_, tau.tail<3>() / dt, twist.rate_sigma), dt);
-    } else if (kind < 2) {  // no slip: left and right wheels that give this forward velocity and yaw rate
+    } else if (kind < 2) {  // no slip: the rates of the left and right wheels for this forward velocity and yaw rate
       const double forward = tau[0] / dt / wheels.radius;
       const double turn = (wheels.yaw_left_minus_right ? -0.5 : 0.5) * tau[5] / dt * wheels.track / wheels.radius;
       tau << tau[0], 0, 0, 0, 0, tau[5];
@@ -233,11 +234,12 @@ std::vector<Seen> Drive::look(const Sensor<SE3>& sensor, std::size_t most, doubl
     if (distance < 2 || distance > 25 || !sensor.predict(truth_, landmarks_[i], mount, seen)) continue;
     Seen one{i + 100, seen.z, sensor.noise()};
     one.z = noisy(random_, seen.z, scale * Vector3(sensor.noise().diagonal().cwiseSqrt()));
-    if (!sensor.place(truth_, one.z, mount, placed)) continue;  // a camera's point too far to be of use
-    // Nor what lies so near an image's edge or the zenith that the differences' steps lead beyond.
+    if (!sensor.place(truth_, one.z, mount, placed))
+      continue;  // a point of the camera that is too far away to be useful
+    // Nor points so near the edge of an image or the zenith that the steps of the differences lead beyond it.
     if (dynamic_cast<const StereoCamera*>(&sensor) != nullptr && (seen.z[0] < 0 || seen.z[0] > 640)) continue;
     if (dynamic_cast<const StereoHead*>(&sensor) != nullptr && std::abs(seen.z[2]) > 1.2) continue;
-    if (random_.uniform(0, 1) < 0.2) {  // noise of its own, correlated, in place of the sensor's
+    if (random_.uniform(0, 1) < 0.2) {  // correlated noise of the observation replaces the noise of the sensor
       Matrix3 A = Matrix3::Identity();
       A(0, 1) = 0.3, A(2, 0) = -0.2;
       const Vector3 sigma = sensor.noise().diagonal().cwiseSqrt();

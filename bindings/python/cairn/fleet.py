@@ -5,14 +5,9 @@ import types
 import numpy as np
 
 from . import _structs
-from ._handle import Handle
 from ._library import ffi, lib
-from .error import CairnError, check
+from ._simulation import Simulation, check_sim
 from .pose import planar_pose
-
-
-def _check(status):
-    check(status, "cairn_sim_last_message")
 
 
 class Boat(types.SimpleNamespace):
@@ -24,7 +19,7 @@ class FleetStep(types.SimpleNamespace):
     """One step of a fleet: number, time (s), dt (s, 0 at the start) and vehicles, a list of Boat."""
 
 
-class Fleet(Handle):
+class Fleet(Simulation):
     """Boats in a square of sea. Features and boats are numbered from 1.
 
     Options are the fields of cairn_fleet_options, by name: Fleet(seed=3, features=6, layout="coast").
@@ -41,34 +36,13 @@ class Fleet(Handle):
     def __init__(self, **options):
         struct = _structs.new("cairn_fleet_options", options)
         created = ffi.new("cairn_fleet **")
-        _check(lib.cairn_fleet_create(struct, created))
+        check_sim(lib.cairn_fleet_create(struct, created))
         self.options = _structs.as_dict(struct[0])
         super().__init__(created[0], lib.cairn_fleet_destroy)
 
-    def __len__(self):
-        """Number of steps, the start included."""
-        steps = ffi.new("size_t *")
-        with self._use() as handle:
-            _check(lib.cairn_fleet_steps(handle, steps))
-        return steps[0]
-
-    def __iter__(self):
-        self.rewind()
-        for _ in range(len(self)):
-            yield self.next()
-
-    def next(self):
-        """The next FleetStep. Raises StopIteration after the last step."""
-        struct = _structs.sized("cairn_fleet_step")
-        with self._use() as handle:
-            try:
-                _check(lib.cairn_fleet_next(handle, struct))
-            except CairnError as error:
-                if error.status == lib.CAIRN_ERROR_STATE:
-                    raise StopIteration from None
-                raise
-            boats = [self._boat(struct.vehicles[i]) for i in range(struct.vehicle_count)]
-            return FleetStep(number=struct.number, time=struct.time, dt=struct.dt, vehicles=boats)
+    def _step(self, struct):
+        boats = [self._boat(struct.vehicles[i]) for i in range(struct.vehicle_count)]
+        return FleetStep(number=struct.number, time=struct.time, dt=struct.dt, vehicles=boats)
 
     @staticmethod
     def _boat(boat):
@@ -79,11 +53,6 @@ class Fleet(Handle):
         return Boat(speed=boat.speed, rate=boat.rate, truth=planar_pose(boat.x, boat.y, boat.heading),
                     features=observations(boat.features, boat.feature_count),
                     vehicles=observations(boat.vehicles, boat.vehicle_count))
-
-    def rewind(self):
-        """Goes back to the first step. The same drive follows again, to the bit."""
-        with self._use() as handle:
-            _check(lib.cairn_fleet_rewind(handle))
 
     def radar(self):
         """The radar of all boats: Team(radar=fleet.radar()), or filter.add_range_bearing(**fleet.radar())."""
@@ -96,10 +65,10 @@ class Fleet(Handle):
     def _points(self, function):
         needed = ffi.new("size_t *")
         with self._use() as handle:
-            _check(function(handle, ffi.NULL, 0, needed))
+            check_sim(function(handle, ffi.NULL, 0, needed))
             points = np.zeros((needed[0], 2))
             if len(points):
-                _check(function(handle, _structs.doubles(points), len(points), needed))
+                check_sim(function(handle, _structs.doubles(points), len(points), needed))
         return points
 
     def features(self):

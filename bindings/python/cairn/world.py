@@ -5,14 +5,9 @@ import types
 import numpy as np
 
 from . import _structs
-from ._handle import Handle
 from ._library import ffi, lib
-from .error import CairnError, check
+from ._simulation import Simulation, check_sim
 from .pose import Pose
-
-
-def _check(status):
-    check(status, "cairn_sim_last_message")
 
 
 class Step(types.SimpleNamespace):
@@ -20,7 +15,7 @@ class Step(types.SimpleNamespace):
     (rad), motions (an array with the fields dt, velocity, rate, wheels, ...) and observations (id, z, covariance)."""
 
 
-class World(Handle):
+class World(Simulation):
     """A rover that drives over rolling ground, and its measurements.
 
     Options are the fields of cairn_world_options, by name: World(seed=3, course="laps", landmarks=500). `preset` names
@@ -39,49 +34,26 @@ class World(Handle):
         struct = _structs.new("cairn_world_options", {})
         if preset is not None:
             number = _structs.constant("preset", preset) if isinstance(preset, str) else preset
-            _check(lib.cairn_world_options_preset(struct, number, ffi.NULL))
+            check_sim(lib.cairn_world_options_preset(struct, number, ffi.NULL))
         _structs.set_fields(struct, ffi.typeof("cairn_world_options"), options)
         created = ffi.new("cairn_world **")
-        _check(lib.cairn_world_create(struct, created))
+        check_sim(lib.cairn_world_create(struct, created))
         super().__init__(created[0], lib.cairn_world_destroy)
 
     def _ask(self, type_name, function, *arguments):
         """The value that a function writes to its last argument."""
         answer = ffi.new(type_name)
         with self._use() as handle:
-            _check(function(handle, *arguments, answer))
+            check_sim(function(handle, *arguments, answer))
         return answer
 
-    def __len__(self):
-        """Number of steps, the start included."""
-        return self._ask("size_t *", lib.cairn_world_steps)[0]
-
-    def __iter__(self):
-        self.rewind()
-        for _ in range(len(self)):
-            yield self.next()
-
-    def next(self):
-        """The next Step. Raises StopIteration after the last step."""
-        struct = _structs.sized("cairn_world_step")
-        with self._use() as handle:
-            try:
-                _check(lib.cairn_world_next(handle, struct))
-            except CairnError as error:
-                if error.status == lib.CAIRN_ERROR_STATE:
-                    raise StopIteration from None
-                raise
-            step = _structs.as_dict(struct[0])
-            for name, type_name in (("motions", "cairn_world_motion"), ("observations", "cairn_observation")):
-                layout, count = _structs.dtype(type_name), step.pop(name[:-1] + "_count")
-                copied = ffi.buffer(getattr(struct, name), count * layout.itemsize)[:] if count else b""
-                step[name] = np.frombuffer(copied, layout).copy()
+    def _step(self, struct):
+        step = _structs.as_dict(struct[0])
+        for name, type_name in (("motions", "cairn_world_motion"), ("observations", "cairn_observation")):
+            layout, count = _structs.dtype(type_name), step.pop(name[:-1] + "_count")
+            copied = ffi.buffer(getattr(struct, name), count * layout.itemsize)[:] if count else b""
+            step[name] = np.frombuffer(copied, layout).copy()
         return Step(**step)
-
-    def rewind(self):
-        """Goes back to the first step. The same drive follows again, to the bit."""
-        with self._use() as handle:
-            _check(lib.cairn_world_rewind(handle))
 
     @property
     def most_observations(self):
@@ -91,7 +63,7 @@ class World(Handle):
     def _description(self, type_name, function):
         struct = _structs.sized(type_name)
         with self._use() as handle:
-            _check(function(handle, struct))
+            check_sim(function(handle, struct))
         return _structs.as_dict(struct[0])
 
     def head(self):
@@ -121,7 +93,7 @@ class World(Handle):
         """The rectangle that holds the course and all landmarks: lower and upper corner (2 each, m)."""
         lower, upper = np.zeros(2), np.zeros(2)
         with self._use() as handle:
-            _check(lib.cairn_world_extent(handle, _structs.doubles(lower), _structs.doubles(upper)))
+            check_sim(lib.cairn_world_extent(handle, _structs.doubles(lower), _structs.doubles(upper)))
         return lower, upper
 
     def landmark(self, id):
@@ -133,8 +105,8 @@ class World(Handle):
         """True positions of all landmarks (n x 3, m), by ascending id: row i is landmark i."""
         needed = ffi.new("size_t *")
         with self._use() as handle:
-            _check(lib.cairn_world_landmarks(handle, ffi.NULL, 0, needed))
+            check_sim(lib.cairn_world_landmarks(handle, ffi.NULL, 0, needed))
             positions = np.zeros((needed[0], 3))
             if len(positions):
-                _check(lib.cairn_world_landmarks(handle, _structs.doubles(positions), len(positions), needed))
+                check_sim(lib.cairn_world_landmarks(handle, _structs.doubles(positions), len(positions), needed))
         return positions

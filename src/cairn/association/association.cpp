@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Nearest neighbour and joint compatibility (docs/association.md).
 #include "association/association.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Chi-square distribution by the incomplete gamma function.
 #include "core/chi_square.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The chi-square distribution.
 #pragma once
 
 namespace cairn {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Pi, and angles wrapped to one turn.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Motion by a measured twist and by wheel rates.
 #include "motion/motion.hpp"
 
 #include "geometry/embedding.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A sensor that measures points.
 #pragma once
 
 #include "sensor/sensor.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Calls of the functions of a custom sensor, and the check of its Jacobians.
 #include "sensor/custom.hpp"
 
 #include <algorithm>

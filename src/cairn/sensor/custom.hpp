@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A sensor that the caller defines by functions.
 #pragma once
 
 #include <cstdint>

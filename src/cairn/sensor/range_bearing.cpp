@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Range and bearing, and extended observations (docs/sensors.md, docs/team.md).
 #include "sensor/range_bearing.hpp"
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Range and bearing in the plane, and extended observations through a teammate.
 #pragma once
 
 #include "sensor/sensor.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Projection, triangulation and Jacobians of a rectified stereo camera (docs/sensors.md).
 #include "sensor/stereo_camera.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A rectified stereo camera that observes pixels.
 #pragma once
 
 #include "sensor/sensor.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Kinematics and Jacobians of the stereo head (docs/stereo_head.md).
 #include "sensor/stereo_head.hpp"
 
 #include <cmath>

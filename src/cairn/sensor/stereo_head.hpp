@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A stereo head on a pan and tilt mount.
 #pragma once
 
 #include "sensor/sensor.hpp"
