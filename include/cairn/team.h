@@ -159,6 +159,12 @@ CAIRN_API cairn_status cairn_team_receive(cairn_team *team, const uint8_t *packe
  *  or its pose is unknown). \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle, cairn_pose *pose, double covariance[36]);
 
+/** Normalised estimation error squared of the own pose, as \ref cairn_team_pose gives it, against a true one, in the
+ *  filter's own error coordinates: about 3 on average for a consistent filter. On an error `*nees` is not written.
+ *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL (the covariance of the
+ *  own pose is singular, as at a known start). \since 0.1.0 */
+CAIRN_API cairn_status cairn_team_pose_nees(const cairn_team *team, const cairn_pose *truth, double *nees);
+
 /** The team's map. It lives as long as the team and follows it. Never fails but for NULL, which gives NULL.
  *  Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
 CAIRN_API const cairn_map *cairn_team_map(const cairn_team *team);
