@@ -175,33 +175,33 @@ typedef struct cairn_team_report {
   uint64_t sent;              /**< own steps that became packets */
   uint64_t resent;            /**< packets sent again because a teammate asked */
   uint64_t requested;         /**< questions asked */
-  uint64_t received;          /**< packets received; of these: */
-  uint64_t taken;             /**< ... are part of the estimate */
-  uint64_t reordered;         /**< ... arrived after a later packet of the same sender */
-  uint64_t repeated;          /**< ... had been received before */
-  uint64_t own;               /**< ... were own packets */
-  uint64_t ignored;           /**< ... were not for this vehicle or its mode */
-  uint64_t unknown;           /**< ... had a sender that is not in the team */
-  uint64_t past;              /**< ... had a time that does not agree with their number */
-  uint64_t conflict;          /**< ... contradicted a packet that was received before */
-  uint64_t full;              /**< ... found no room to wait */
-  uint64_t foreign;           /**< ... were not packets of a team */
-  uint64_t version;           /**< ... had another version */
-  uint64_t cut;               /**< ... had bytes missing, or too many */
-  uint64_t corrupt;           /**< ... had a wrong checksum */
-  uint64_t nonsense;          /**< ... were complete, but not a valid step */
+  uint64_t received;          /**< packets received */
+  uint64_t taken;             /**< received packets that are part of the estimate */
+  uint64_t reordered;         /**< received packets that arrived after a later packet of the same sender */
+  uint64_t repeated;          /**< received packets that had been received before */
+  uint64_t own;               /**< received packets that were own packets */
+  uint64_t ignored;           /**< received packets that were not for this vehicle or its mode */
+  uint64_t unknown;           /**< received packets whose sender is not in the team */
+  uint64_t past;              /**< received packets whose time does not agree with their number */
+  uint64_t conflict;          /**< received packets that contradict a packet that was received before */
+  uint64_t full;              /**< received packets that found no room to wait */
+  uint64_t foreign;           /**< received packets that were not packets of a team */
+  uint64_t version;           /**< received packets of another version */
+  uint64_t cut;               /**< received packets with bytes missing, or too many */
+  uint64_t corrupt;           /**< received packets with a wrong checksum */
+  uint64_t nonsense;          /**< received packets that were complete, but not a valid step */
   uint64_t lost;              /**< packets that never arrived and were given up after max_lag */
   uint64_t matched;           /**< observations, own and teammates', that updated a landmark */
-  uint64_t placed;            /**< ... that placed a new landmark */
-  uint64_t rejected;          /**< ... that were refused */
+  uint64_t placed;            /**< observations that placed a new landmark */
+  uint64_t rejected;          /**< observations that were refused */
   uint64_t sightings_used;    /**< sightings of vehicles that were used */
-  uint64_t sightings_refused; /**< ... that were refused: the pose of the seen vehicle is unknown, or it has no step
-                                   at this time */
+  uint64_t sightings_refused; /**< sightings of vehicles that were refused: the pose of the seen vehicle is unknown,
+                                   or it has no step at this time */
   uint64_t vehicles_found;    /**< starts solved from mutual sightings */
   uint64_t failed;            /**< motions and scans by which the filter could not be updated */
   uint64_t scored;            /**< calls of \ref cairn_team_score */
-  uint64_t scored_nees;       /**< ... with a covariance that is not singular (at a known start it is singular): the
-                                   steps of `anees_per_dof` */
+  uint64_t scored_nees;       /**< scored steps with a covariance that is not singular (at a known start it is
+                                   singular): the steps of `anees_per_dof` */
   double position_rmse;       /**< root mean square position error of the own vehicle, m */
   double anees_per_dof;       /**< average NEES of its pose over the degrees of freedom: 1 for an honest covariance */
   double claimed_improvement; /**< (||C_mono|| - ||C||) / ||C_mono||: Frobenius norms of the position's covariance,
