@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** \file
- *  Teams of planar vehicles that exchange packets of measurements and map together (docs/team.md). */
+ *  Teams of planar vehicles that exchange packets of measurements and map together (docs/team.md). The *own vehicle* is
+ *  the vehicle that a handle belongs to. The other vehicles are its *teammates*. */
 #ifndef CAIRN_TEAM_H
 #define CAIRN_TEAM_H
 
@@ -114,7 +115,7 @@ CAIRN_API cairn_status cairn_team_decisions(const cairn_team *team, cairn_match 
 CAIRN_API cairn_status cairn_team_leave(cairn_team *team);
 
 /** Takes the next packet that is to be sent to all teammates: an own step, a repetition that a teammate asked for, or a
- *  question for missing packets. `*needed` gets its size in bytes, 0 if there is no packet. The packet leaves the queue
+ *  request for missing packets. `*needed` gets its size in bytes, 0 if there is no packet. The packet leaves the queue
  *  when it was copied. NULL with capacity 0 asks for its size.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_take_packet(cairn_team *team, uint8_t *packet, size_t capacity, size_t *needed);
@@ -174,7 +175,7 @@ typedef struct cairn_team_report {
   uint32_t unsettled;         /**< own steps that still wait for teammates */
   uint64_t sent;              /**< own steps that became packets */
   uint64_t resent;            /**< packets sent again because a teammate asked */
-  uint64_t requested;         /**< questions asked */
+  uint64_t requested;         /**< requests sent */
   uint64_t received;          /**< packets received */
   uint64_t taken;             /**< received packets that are part of the estimate */
   uint64_t reordered;         /**< received packets that arrived after a later packet of the same sender */
