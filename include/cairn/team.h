@@ -110,8 +110,8 @@ CAIRN_API cairn_status cairn_team_decisions(const cairn_team *team, cairn_match 
 
 /** Leaves the team: makes a last packet, the farewell, after which the teammates do not wait for this vehicle any
  *  more. Own steps are then refused. Packets of teammates are still used.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (the vehicle has already left). \since
- *  0.1.0 */
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (the vehicle has already left).
+ *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_leave(cairn_team *team);
 
 /** Takes the next packet that is to be sent to all teammates: an own step, a repetition that a teammate asked for, or a
