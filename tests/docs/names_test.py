@@ -229,9 +229,12 @@ def wrong_options(page):
     if page.kind == "code":
         return
     if page.kind == "manual":
-        for match in re.finditer(r"--[a-z][a-z-]*[a-z]", page.text):
-            if match.group(0) not in program_options() | script_options():
-                yield page.line(match.start()), f"the program has no option {match.group(0)}"
+        for number, line in enumerate(page.text.splitlines(), 1):
+            if line.startswith('.\\"'):
+                continue  # a comment: it is about scripts
+            for word in re.findall(r"--[a-z][a-z-]*[a-z]", line):
+                if word not in program_options() | script_options():
+                    yield number, f"the program has no option {word}"
         return
     for at, text, is_block in page.spans():
         calls = re.search(r"(?:^|\s|;)cairn (?:run|simulate)\b(.*)", text)
