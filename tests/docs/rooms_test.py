@@ -7,8 +7,8 @@ import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 # From the top. The rooms of one floor may include each other only where the map's folders do.
-FLOORS = [{"capi"}, {"team"}, {"slam"}, {"map", "map/join/dense", "map/join/sparse", "map/merge"}, {"association", "ekf"},
-          {"motion", "sensor"}, {"linear"}, {"geometry"}, {"core"}]
+FLOORS = [{"capi"}, {"team"}, {"slam"}, {"map", "map/join/dense", "map/join/sparse", "map/merge"},
+          {"association", "ekf"}, {"motion", "sensor"}, {"linear"}, {"geometry"}, {"core"}]
 OPEN_FLOOR = FLOORS[3]
 FLOOR = {room: number for number, floor in enumerate(FLOORS) for room in floor}
 
@@ -48,7 +48,8 @@ class RoomsTest(unittest.TestCase):
         self.assertEqual(found, [])
 
     def test_wrong_includes_are_found(self):
-        self.assertEqual(list(wrong_includes("ekf", '#include "slam/filter.hpp"\n#include "core/error.hpp"\n')), ["slam/filter.hpp"])
+        self.assertEqual(list(wrong_includes("ekf", '#include "slam/filter.hpp"\n#include "core/error.hpp"\n')),
+                         ["slam/filter.hpp"])
         self.assertEqual(list(wrong_includes("ekf", '#include "association/doubt.hpp"\n#include "ekf/batch.hpp"\n')),
                          ["association/doubt.hpp"])
 
