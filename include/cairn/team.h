@@ -158,10 +158,17 @@ CAIRN_API cairn_status cairn_team_receive(cairn_team *team, const uint8_t *packe
  *  CAIRN_TEAM_JOINT and CAIRN_TEAM_SUBMAPS have it.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND (not in the team,
  *  or its pose is unknown). \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle, cairn_pose *pose, double covariance[36]);
+CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle, cairn_pose *pose,
+                                       double covariance[36]);
 
-/** The team's map. It lives as long as the team and follows it. Never fails but for NULL, which gives NULL.
- *  Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
+/** Normalised estimation error squared (NEES) of the own pose, which \ref cairn_team_pose returns, against the true pose,
+ *  in the error coordinates of the filter. A consistent filter has 3 on average. On an error `*nees` is not written.
+ *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL (the covariance of the
+ *  own pose is singular, as at a known start). \since 0.1.0 */
+CAIRN_API cairn_status cairn_team_pose_nees(const cairn_team *team, const cairn_pose *truth, double *nees);
+
+/** The team's map. The team owns this map; it lives as long as the team and follows it. Fails only for NULL, and then
+ *  returns NULL. Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
 CAIRN_API const cairn_map *cairn_team_map(const cairn_team *team);
 
 /** Compares the present own pose with the true pose. With the option `baseline` it compares the pose of the second
@@ -169,7 +176,7 @@ CAIRN_API const cairn_map *cairn_team_map(const cairn_team *team);
  *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_score(cairn_team *team, const cairn_pose *truth);
 
-/** What a team did so far. */
+/** Report of a team. */
 typedef struct cairn_team_report {
   uint32_t struct_size;       /**< sizeof(cairn_team_report) of the caller; set it before the call */
   uint32_t unsettled;         /**< own steps that still wait for teammates */

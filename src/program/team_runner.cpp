@@ -139,25 +139,21 @@ std::uint64_t TeamRunner::name_of(std::size_t vehicle, std::uint64_t landmark) c
 
 // Returns the step's normalised error squared, NaN where the covariance is singular.
 double TeamRunner::score(std::size_t vehicle, const cairn_pose& truth, VehicleScore& score) {
-  const std::uint64_t number = drive_.vehicles()[vehicle];
   cairn_team* team = teams_[vehicle].get();
-  cairn_team_report before{}, after{};
-  before.struct_size = after.struct_size = sizeof before;
-  check(cairn_team_last_report(team, &before));
-  check(cairn_team_score(team, &truth));
-  check(cairn_team_last_report(team, &after));
   cairn_pose pose;
   double P[36];
-  check(cairn_team_pose(team, number, &pose, P));
+  check(cairn_team_pose(team, drive_.vehicles()[vehicle], &pose, P));
   ++score.steps;
   score.claimed += std::sqrt(P[0] * P[0] + 2 * P[1] * P[1] + P[7] * P[7]);
   score.square_error +=
       std::pow(truth.position[0] - pose.position[0], 2) + std::pow(truth.position[1] - pose.position[1], 2);
-  const auto sum = [](const cairn_team_report& r) { return 3 * r.anees_per_dof * static_cast<double>(r.scored_nees); };
-  if (after.scored_nees == before.scored_nees) return std::numeric_limits<double>::quiet_NaN();
+  double nees = 0;
+  const cairn_status status = cairn_team_pose_nees(team, &truth, &nees);
+  if (status == CAIRN_ERROR_NUMERICAL) return std::numeric_limits<double>::quiet_NaN();
+  check(status);
   ++score.nees_steps;
-  score.nees += sum(after) - sum(before);
-  return sum(after) - sum(before);
+  score.nees += nees;
+  return nees;
 }
 
 std::vector<cairn_landmark> TeamRunner::map(std::size_t vehicle) const {

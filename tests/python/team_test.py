@@ -65,6 +65,10 @@ class TeamTest(unittest.TestCase):
             self.assertEqual(set(results), {cairn.PACKET_TAKEN})
             for team, boat in zip(boats.teams, step.vehicles):
                 team.score(boat.truth)
+                if step.time == 0:
+                    with self.assertRaisesRegex(cairn.CairnError, "singular"):  # the start is known exactly
+                        team.pose_nees(boat.truth)
+        self.assertLess(boats.teams[0].pose_nees(step.vehicles[0].truth), 20)
         a, b = boats.teams
         np.testing.assert_array_equal(a.map.landmarks()["id"], b.map.landmarks()["id"])
         for vehicle in (1, 2):  # the same but for rounding: a looks from its own vehicle where b looks from another

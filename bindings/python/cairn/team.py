@@ -137,6 +137,13 @@ class Team(Handle):
         self._call(lib.cairn_team_pose, self.vehicle if vehicle is None else vehicle, pose, _structs.doubles(covariance))
         return (*Pose.of(pose), covariance)
 
+    def pose_nees(self, truth):
+        """Normalised estimation error squared of the own pose against a true one, (position, quaternion): about 3 on average.
+        CairnError (CAIRN_ERROR_NUMERICAL) where the covariance of the own pose is singular."""
+        nees = ffi.new("double *")
+        self._call(lib.cairn_team_pose_nees, _structs.new_pose("truth", truth), nees)
+        return nees[0]
+
     @property
     def map(self):
         """The team's map. It follows the team."""
