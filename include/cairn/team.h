@@ -164,7 +164,7 @@ CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle,
 /** Normalised estimation error squared (NEES) of the own pose, which \ref cairn_team_pose returns, against the true pose,
  *  in the error coordinates of the filter. A consistent filter has 3 on average. On an error `*nees` is not written.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL (the covariance of the
- *  own pose is singular, as at a known start). \since 0.1.0 */
+ *  own pose is singular, as at a known start). \since 0.1.1 */
 CAIRN_API cairn_status cairn_team_pose_nees(const cairn_team *team, const cairn_pose *truth, double *nees);
 
 /** The team's map. The team owns this map; it lives as long as the team and follows it. Fails only for NULL, and then
