@@ -119,7 +119,7 @@ static void tell_step(boat *b) {
   check(cairn_team_observe(b->team, b->now.time, b->landmarks, own->feature_count, b->vehicles, own->vehicle_count));
 }
 
-/* Own steps, repetitions and questions. The radio need not distinguish them. */
+/* Own steps, repetitions and requests. The radio need not distinguish them. */
 static void send_packets(boat *b) {
   for (;;) {
     size_t size = 0;

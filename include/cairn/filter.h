@@ -78,11 +78,12 @@ typedef struct cairn_filter_options {
   uint32_t submap_landmarks;     /**< a submap is closed when it holds this many landmarks, up to 4096; 0, the
                                       default: no submaps, one single map */
   int32_t join;                  /**< CAIRN_JOIN_AUTO, CAIRN_JOIN_DENSE or CAIRN_JOIN_SPARSE; default CAIRN_JOIN_AUTO */
-  double submap_distance;        /**< ... or when the vehicle has driven this far in it, m; 0, the default: no limit */
-  double submap_extent;          /**< ... or when a landmark lies this far from its origin, m; 0, the default: no
-                                      limit */
-  double submap_sigma;           /**< ... or when the largest standard deviation of the vehicle's position in it
-                                      exceeds this, m; 0, the default: no limit */
+  double submap_distance;        /**< a submap is also closed when the vehicle has driven this far in it, m; 0, the
+                                      default: no limit */
+  double submap_extent;          /**< a submap is also closed when a landmark lies this far from its origin, m; 0,
+                                      the default: no limit */
+  double submap_sigma;           /**< a submap is also closed when the largest standard deviation of the vehicle's
+                                      position in it exceeds this, m; 0, the default: no limit */
   int32_t association;           /**< CAIRN_ASSOCIATION_KNOWN, CAIRN_ASSOCIATION_NEAREST or CAIRN_ASSOCIATION_JOINT;
                                       default CAIRN_ASSOCIATION_KNOWN */
   uint32_t association_nodes;    /**< joint tests of one frame at most, 1 to 1000000; after this number the best set
@@ -96,8 +97,8 @@ typedef struct cairn_filter_options {
                                       CAIRN_DISTANCE_MAHALANOBIS */
   uint32_t deferred_sightings;   /**< a new landmark is deferred until it was observed this often, 1 to 1000: until
                                       then it is part of the estimate, but no map shows it; default 1 */
-  uint32_t deferred_frames;      /**< ... and is removed if it does not reach this number within so many frames, 1 to
-                                      1000000; default 20 */
+  uint32_t deferred_frames;      /**< a deferred landmark is removed if it is not observed often enough within this
+                                      many frames, 1 to 1000000; default 20 */
   uint32_t missed_frames;        /**< a landmark is removed if it lay in a sensor's view
                                       (\ref cairn_filter_set_view), but was not seen, in this many consecutive frames
                                       of this sensor; 0, the default: never */
@@ -287,9 +288,10 @@ typedef struct cairn_closing_report {
   uint32_t submaps;               /**< submaps closed so far */
   int32_t reason;                 /**< CAIRN_CLOSED_BY_... */
   uint32_t landmarks;             /**< landmarks of the submap */
-  uint32_t landmarks_new;         /**< ... that are new to the map */
-  uint32_t landmarks_fused;       /**< ... that the map knows, and that were fused with it */
-  uint32_t landmarks_refused;     /**< ... that the map knows with a contradicting estimate, and that were left out */
+  uint32_t landmarks_new;         /**< landmarks of the submap that are new to the map */
+  uint32_t landmarks_fused;       /**< landmarks of the submap that the map knows, and that were fused with it */
+  uint32_t landmarks_refused;     /**< landmarks of the submap that contradict the map's estimates, and that were
+                                       left out */
   uint32_t relinearised;          /**< submaps linearised again (sparse) */
   uint32_t refactored;            /**< blocks of the factor computed again (sparse) */
   uint32_t iterations;            /**< linear solutions */

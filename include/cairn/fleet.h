@@ -120,8 +120,8 @@ typedef struct cairn_fleet_step {
  *  `radar_range` (true distance, not 0). Each measurement has its own noise: two boats that see each other have
  *  independent errors. Nothing is stored, so memory does not grow with the drive.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (there are no more steps),
- *  CAIRN_ERROR_MEMORY (the next call returns the same step). Complexity: O(vehicles (features + vehicles)). \since
- *  0.1.0 */
+ *  CAIRN_ERROR_MEMORY (the next call returns the same step). Complexity: O(vehicles (features + vehicles)).
+ *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_fleet_next(cairn_fleet *fleet, cairn_fleet_step *step);
 
 /** Goes back to before the first step. The same steps follow, bit for bit. Threads: one a handle. Errors:

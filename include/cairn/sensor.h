@@ -41,10 +41,10 @@ typedef struct cairn_stereo_head {
   double elevation_sigma;      /**< rad, > 0; default 3 degrees (Table 1) */
   double pan_sigma;            /**< encoder noise of pan, rad, >= 0; default 0 */
   double stick_sigma;          /**< encoder noise of the stick, rad, >= 0; default 0 */
-  double near_range;           /**< an observation is refused if the predicted range, or the observed range of a
-                                    new landmark, is below this, m, > 0; default 0.1 */
-  double max_elevation;        /**< the same above this elevation, where the azimuth is nearly undefined, rad, in (0,
-                                    pi/2); default 85 degrees */
+  double near_range;           /**< an observation is refused if the predicted range, or the observed range of a new
+                                    landmark, is below this, m, > 0; default 0.1 */
+  double max_elevation;        /**< an observation is also refused above this elevation, where the azimuth is nearly
+                                    undefined, rad, in (0, pi/2); default 85 degrees */
 } cairn_stereo_head;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
@@ -67,9 +67,9 @@ typedef struct cairn_stereo_camera {
   double near_depth;           /**< a landmark whose predicted depth is below this has no image, m, > 0; default 0.1 */
   double min_disparity;        /**< an observation places a landmark only if its disparity u_left - u_right is at
                                     least this, pixels, > 0; default 1 */
-  double min_disparity_sigmas; /**< ... and at least this many standard deviations of the disparity (from `sigma`),
-                                    >= 0; default 2.5: the depth is known to 40 %. A landmark that is farther away is
-                                    placed when it is seen from nearer */
+  double min_disparity_sigmas; /**< and only if its disparity is at least this many of its standard deviations (from
+                                    `sigma`), >= 0; default 2.5: the depth is known to 40 %. A landmark that is
+                                    farther away is placed when it is seen from nearer */
 } cairn_stereo_camera;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.

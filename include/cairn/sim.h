@@ -117,7 +117,8 @@ typedef struct cairn_world_options {
                                   (Table 1) */
   double gravity;            /**< m/s^2, >= 0; default 3.71. Only CAIRN_ACCELEROMETER_ACCELERATION uses it */
   double wheel_rate_sigma;   /**< white noise of each side's wheel rate per sample, rad/s, >= 0; default 0.01 */
-  double wheel_slip_sigma;   /**< ... and noise in proportion to this rate, >= 0; default 0.02 */
+  double wheel_slip_sigma;   /**< white noise of each side's wheel rate in proportion to this rate, >= 0; default
+                                  0.02 */
   double lateral_sigma;      /**< noise that a step states for the velocity along y, which wheels do not measure,
                                   m/s, >= 0; default 0.01 */
   double vertical_sigma;     /**< the same along z, m/s, >= 0; default 0.01 */

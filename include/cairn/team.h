@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** \file
- *  Teams of planar vehicles that exchange packets of measurements and map together (docs/team.md). */
+ *  Teams of planar vehicles that exchange packets of measurements and map together (docs/team.md). The *own vehicle* is
+ *  the vehicle that a handle belongs to. The other vehicles are its *teammates*. */
 #ifndef CAIRN_TEAM_H
 #define CAIRN_TEAM_H
 
@@ -109,12 +110,12 @@ CAIRN_API cairn_status cairn_team_decisions(const cairn_team *team, cairn_match 
 
 /** Leaves the team: makes a last packet, the farewell, after which the teammates do not wait for this vehicle any
  *  more. Own steps are then refused. Packets of teammates are still used.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (the vehicle has already left). \since
- *  0.1.0 */
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (the vehicle has already left).
+ *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_leave(cairn_team *team);
 
 /** Takes the next packet that is to be sent to all teammates: an own step, a repetition that a teammate asked for, or a
- *  question for missing packets. `*needed` gets its size in bytes, 0 if there is no packet. The packet leaves the queue
+ *  request for missing packets. `*needed` gets its size in bytes, 0 if there is no packet. The packet leaves the queue
  *  when it was copied. NULL with capacity 0 asks for its size.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_take_packet(cairn_team *team, uint8_t *packet, size_t capacity, size_t *needed);
@@ -157,16 +158,17 @@ CAIRN_API cairn_status cairn_team_receive(cairn_team *team, const uint8_t *packe
  *  CAIRN_TEAM_JOINT and CAIRN_TEAM_SUBMAPS have it.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND (not in the team,
  *  or its pose is unknown). \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle, cairn_pose *pose, double covariance[36]);
+CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle, cairn_pose *pose,
+                                       double covariance[36]);
 
-/** Normalised estimation error squared of the own pose, as \ref cairn_team_pose gives it, against a true one, in the
- *  filter's own error coordinates: about 3 on average for a consistent filter. On an error `*nees` is not written.
+/** Normalised estimation error squared (NEES) of the own pose, which \ref cairn_team_pose returns, against the true pose,
+ *  in the error coordinates of the filter. A consistent filter has 3 on average. On an error `*nees` is not written.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL (the covariance of the
- *  own pose is singular, as at a known start). \since 0.1.0 */
+ *  own pose is singular, as at a known start). \since 0.1.1 */
 CAIRN_API cairn_status cairn_team_pose_nees(const cairn_team *team, const cairn_pose *truth, double *nees);
 
-/** The team's map. It lives as long as the team and follows it. Never fails but for NULL, which gives NULL.
- *  Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
+/** The team's map. The team owns this map; it lives as long as the team and follows it. Fails only for NULL, and then
+ *  returns NULL. Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
 CAIRN_API const cairn_map *cairn_team_map(const cairn_team *team);
 
 /** Compares the present own pose with the true pose. With the option `baseline` it compares the pose of the second
@@ -174,40 +176,40 @@ CAIRN_API const cairn_map *cairn_team_map(const cairn_team *team);
  *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_score(cairn_team *team, const cairn_pose *truth);
 
-/** What a team did so far. */
+/** Report of a team. */
 typedef struct cairn_team_report {
   uint32_t struct_size;       /**< sizeof(cairn_team_report) of the caller; set it before the call */
   uint32_t unsettled;         /**< own steps that still wait for teammates */
   uint64_t sent;              /**< own steps that became packets */
   uint64_t resent;            /**< packets sent again because a teammate asked */
-  uint64_t requested;         /**< questions asked */
-  uint64_t received;          /**< packets received; of these: */
-  uint64_t taken;             /**< ... are part of the estimate */
-  uint64_t reordered;         /**< ... arrived after a later packet of the same sender */
-  uint64_t repeated;          /**< ... had been received before */
-  uint64_t own;               /**< ... were own packets */
-  uint64_t ignored;           /**< ... were not for this vehicle or its mode */
-  uint64_t unknown;           /**< ... had a sender that is not in the team */
-  uint64_t past;              /**< ... had a time that does not agree with their number */
-  uint64_t conflict;          /**< ... contradicted a packet that was received before */
-  uint64_t full;              /**< ... found no room to wait */
-  uint64_t foreign;           /**< ... were not packets of a team */
-  uint64_t version;           /**< ... had another version */
-  uint64_t cut;               /**< ... had bytes missing, or too many */
-  uint64_t corrupt;           /**< ... had a wrong checksum */
-  uint64_t nonsense;          /**< ... were complete, but not a valid step */
+  uint64_t requested;         /**< requests sent */
+  uint64_t received;          /**< packets received */
+  uint64_t taken;             /**< received packets that are part of the estimate */
+  uint64_t reordered;         /**< received packets that arrived after a later packet of the same sender */
+  uint64_t repeated;          /**< received packets that had been received before */
+  uint64_t own;               /**< received packets that were own packets */
+  uint64_t ignored;           /**< received packets that were not for this vehicle or its mode */
+  uint64_t unknown;           /**< received packets whose sender is not in the team */
+  uint64_t past;              /**< received packets whose time does not agree with their number */
+  uint64_t conflict;          /**< received packets that contradict a packet that was received before */
+  uint64_t full;              /**< received packets that found no room to wait */
+  uint64_t foreign;           /**< received packets that were not packets of a team */
+  uint64_t version;           /**< received packets of another version */
+  uint64_t cut;               /**< received packets with bytes missing, or too many */
+  uint64_t corrupt;           /**< received packets with a wrong checksum */
+  uint64_t nonsense;          /**< received packets that were complete, but not a valid step */
   uint64_t lost;              /**< packets that never arrived and were given up after max_lag */
   uint64_t matched;           /**< observations, own and teammates', that updated a landmark */
-  uint64_t placed;            /**< ... that placed a new landmark */
-  uint64_t rejected;          /**< ... that were refused */
+  uint64_t placed;            /**< observations that placed a new landmark */
+  uint64_t rejected;          /**< observations that were refused */
   uint64_t sightings_used;    /**< sightings of vehicles that were used */
-  uint64_t sightings_refused; /**< ... that were refused: the pose of the seen vehicle is unknown, or it has no step
-                                   at this time */
+  uint64_t sightings_refused; /**< sightings of vehicles that were refused: the pose of the seen vehicle is unknown,
+                                   or it has no step at this time */
   uint64_t vehicles_found;    /**< starts solved from mutual sightings */
   uint64_t failed;            /**< motions and scans by which the filter could not be updated */
   uint64_t scored;            /**< calls of \ref cairn_team_score */
-  uint64_t scored_nees;       /**< ... with a covariance that is not singular (at a known start it is singular): the
-                                   steps of `anees_per_dof` */
+  uint64_t scored_nees;       /**< scored steps with a covariance that is not singular (at a known start it is
+                                   singular): the steps of `anees_per_dof` */
   double position_rmse;       /**< root mean square position error of the own vehicle, m */
   double anees_per_dof;       /**< average NEES of its pose over the degrees of freedom: 1 for an honest covariance */
   double claimed_improvement; /**< (||C_mono|| - ||C||) / ||C_mono||: Frobenius norms of the position's covariance,

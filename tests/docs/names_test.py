@@ -44,7 +44,8 @@ def tree():
     files, folders = set(), set()
     for folder, names, leaves in os.walk(ROOT):
         here = os.path.relpath(folder, ROOT)
-        names[:] = [n for n in names if n not in (".git", "__pycache__") and not (here == "." and n.startswith("build"))]
+        names[:] = [n for n in names
+                    if n not in (".git", "__pycache__") and not (here == "." and n.startswith("build"))]
         folders.update(os.path.normpath(os.path.join(here, n)) for n in names)
         files.update(os.path.normpath(os.path.join(here, n)) for n in leaves)
     return files, folders
@@ -139,7 +140,8 @@ def public_names():
 def build_names():
     """Targets, variables of the build and of the environment, and the library's own macros and files."""
     paths = files_under("CMakeLists.txt", "CMakePresets.json", "*/**/CMakeLists.txt", "**/*.cmake", "**/*.cmake.in",
-                        "**/*.pc.in", "**/*.map", "**/*.sh", "bindings/**/*.py", "tests/**/*.py", "src/**/*.[ch]pp", "src/**/*.def")
+                        "**/*.pc.in", "**/*.map", "**/*.sh", "bindings/**/*.py", "tests/**/*.py", "src/**/*.[ch]pp",
+                        "src/**/*.def")
     words = set()
     for path in paths:
         text = read(path)
@@ -214,7 +216,7 @@ def wrong_paths(page):
 def wrong_names(page):
     spans = [(at, text) for at, text, _ in page.spans()] if page.kind == "markdown" else [(0, page.text)]
     for at, text in spans:
-        for match in re.finditer(r"(?<![\w/-])(?:cairn|CAIRN)_\w*\w(?:\.\.\.|\*)?|(?<![\w/-])CAIRN_\w+_(?![A-Za-z])", text):
+        for match in re.finditer(r"(?<![\w/-])(?:cairn|CAIRN)_\w+(?:\.\.\.|\*)?", text):
             name = match.group(0).rstrip(".*")
             known = public_names() | build_names()
             if name in known or name in ALLOWED or exists_anywhere(name):
@@ -229,9 +231,12 @@ def wrong_options(page):
     if page.kind == "code":
         return
     if page.kind == "manual":
-        for match in re.finditer(r"--[a-z][a-z-]*[a-z]", page.text):
-            if match.group(0) not in program_options() | script_options():
-                yield page.line(match.start()), f"the program has no option {match.group(0)}"
+        for number, line in enumerate(page.text.splitlines(), 1):
+            if line.startswith('.\\"'):
+                continue  # a comment: it is about scripts
+            for word in re.findall(r"--[a-z][a-z-]*[a-z]", line):
+                if word not in program_options() | script_options():
+                    yield number, f"the program has no option {word}"
         return
     for at, text, is_block in page.spans():
         calls = re.search(r"(?:^|\s|;)cairn (?:run|simulate)\b(.*)", text)
@@ -300,7 +305,8 @@ class SelfTest(unittest.TestCase):
     def test_right_names(self):
         self.assertEqual(self.messages("docs/made_up.md", """
 `src/cairn/core/error.hpp`, `error.hpp`, `src/cairn/*`, [a page](notation.md), [a file](../README.md#try-it),
-`cairn_filter_update`, `CAIRN_REASON_...`, `CAIRN_OK`, `CAIRN_BUILD_DOCS`, `--submap-landmarks 60`, `cairn run LOG --quiet`,
+`cairn_filter_update`, `CAIRN_REASON_...`, `CAIRN_OK`, `CAIRN_BUILD_DOCS`, `--submap-landmarks 60`,
+`cairn run LOG --quiet`,
 `SpatialIndex`, `SE3::exp`, `Exp`, `cairn/sensor.h`
 
 ```sh
@@ -309,17 +315,19 @@ cairn simulate mars --runs 3   # --nonsense is a comment
 
 `SpatialIndex`
 """), [])
-        self.assertEqual(self.messages("src/made_up.cpp", "// See docs/notation.md and SE3::exp.\nint not_a_name = cairn_x;\n"), [])
+        code = "// See docs/notation.md and SE3::exp.\nint not_a_name = cairn_x;\n"
+        self.assertEqual(self.messages("src/made_up.cpp", code), [])
 
     def test_wrong_paths(self):
-        for text in ("`src/nowhere/file.cpp`", "see tests/nothing", "[link](nothing.md)", "`nothing.hpp`", "`cairn/nothing.h`",
-                     "src/nowhere/*"):
+        for text in ("`src/nowhere/file.cpp`", "see tests/nothing", "[link](nothing.md)", "`nothing.hpp`",
+                     "`cairn/nothing.h`", "src/nowhere/*"):
             self.assertTrue(self.messages("docs/made_up.md", text), text)
         self.assertTrue(self.messages("src/made_up.cpp", "/* as docs/nothing.md says */"))
         self.assertTrue(self.messages("src/made_up.cpp", "// nothing.cpp does that"))
 
     def test_wrong_names(self):
-        for text in ("`cairn_filter_fly`", "`CAIRN_REASON_WEATHER`", "`CAIRN_NOTHING_...`", "```c\ncairn_filter_fly(f);\n```"):
+        for text in ("`cairn_filter_fly`", "`CAIRN_REASON_WEATHER`", "`CAIRN_NOTHING_...`",
+                     "```c\ncairn_filter_fly(f);\n```"):
             self.assertTrue(self.messages("docs/made_up.md", text), text)
         self.assertTrue(self.messages("include/cairn/made_up.h", "/** As \\ref cairn_filter_fly does. */"))
 
