@@ -47,7 +47,7 @@ static void without_ids_a_filter_decides_as_with_ids(void** state) {
     w.noise = 0.2;
     for (int step = 0; step < 80; ++step) {
       frame f;
-      cairn_match told[WORLD_LANDMARKS], found[WORLD_LANDMARKS];
+      cairn_match known_matches[WORLD_LANDMARKS], found_matches[WORLD_LANDMARKS];
       world_frame(&w, &f);
       f.sensor = CARTESIAN;
       f.count = 0;
@@ -58,10 +58,10 @@ static void without_ids_a_filter_decides_as_with_ids(void** state) {
         o.id = i + 1;
         f.observations[f.count++] = o;
       }
-      assert_ok(rig_take(&known, &f, told));
+      assert_ok(rig_take(&known, &f, known_matches));
       for (size_t i = 0; i < f.count; ++i) f.observations[i].id = step % 2 == 0 ? CAIRN_ID_NONE : 5;
-      assert_ok(rig_take(&unknown, &f, found));
-      matched += check_same_matches(told, found, f.count, name_of);
+      assert_ok(rig_take(&unknown, &f, found_matches));
+      matched += check_same_matches(known_matches, found_matches, f.count, name_of);
     }
     assert_true(matched > 300);
     check_same_pose(known.filter, unknown.filter);

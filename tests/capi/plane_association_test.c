@@ -26,7 +26,7 @@ static void without_ids_a_filter_decides_as_with_ids(void** state) {
     for (int step = 0; step < 60; ++step) {
       const cairn_pose moved = pose_at(0.5, 0, 0, 0, 0, 0.1);
       cairn_observation o[POINTS];
-      cairn_match told[POINTS], found[POINTS];
+      cairn_match known_matches[POINTS], found_matches[POINTS];
       double c[36];
       size_t count = 0;
       assert_ok(cairn_pose_compose(&truth, &moved, &truth));
@@ -40,10 +40,10 @@ static void without_ids_a_filter_decides_as_with_ids(void** state) {
       }
       assert_ok(cairn_filter_predict_increment(known, &moved, c));
       assert_ok(cairn_filter_predict_increment(unknown, &moved, c));
-      assert_ok(cairn_filter_update(known, sensor, o, count, told));
+      assert_ok(cairn_filter_update(known, sensor, o, count, known_matches));
       for (size_t i = 0; i < count; ++i) o[i].id = step % 2 == 0 ? CAIRN_ID_NONE : 5;
-      assert_ok(cairn_filter_update(unknown, sensor, o, count, found));
-      matched += check_same_matches(told, found, count, name_of);
+      assert_ok(cairn_filter_update(unknown, sensor, o, count, found_matches));
+      matched += check_same_matches(known_matches, found_matches, count, name_of);
     }
     assert_true(matched > 150);
     check_same_pose(known, unknown);
