@@ -41,7 +41,7 @@ void Fleet::next(cairn_fleet_step& step) {
   if (step_ >= steps_)
     throw Error(ErrorCode::state, "all %zu steps of the fleet were handed out; rewind it or create another one",
                 steps_);
-  // Whatever fails does so before the state changes.
+  // Everything that can fail comes before the state changes.
   for (std::size_t boat = 0; boat < moved_.size(); ++boat)
     moved_[boat] = step_ == 0 ? scene_.starts[boat] : moved(poses_[boat], boat);
   sightings_.clear();

@@ -102,7 +102,7 @@ void World::next(cairn_world_step& step) {
   step.number = step_;
   step.time = static_cast<double>(step_) * options_.frame_period;
   capi::write_pose(pose_, &step.truth);
-  tell_noise(step);
+  write_noise(step);
   step.pan = scan(options_.pan_amplitude, options_.pan_period, step.time);
   step.stick = scan(options_.stick_amplitude, options_.stick_period, step.time);
   step.motions = motions_.data();
@@ -198,7 +198,7 @@ cairn_world_motion World::compose(const std::vector<Sample>& samples, const SE3&
   return motion;
 }
 
-void World::tell_noise(cairn_world_step& step) const {
+void World::write_noise(cairn_world_step& step) const {
   const cairn_world_options& o = options_;
   const double mean =
       1 / std::sqrt(static_cast<double>(samples_per_motion_));  // factor of the noise of a mean of white samples

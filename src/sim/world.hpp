@@ -51,7 +51,7 @@ class World {
   Vector3 reckon(const SE3& before, const SE3& after, const Vector3& noise, const Vector3& rate);
   cairn_world_motion compose(const std::vector<Sample>& samples, const SE3& T_before_after) const;
   void look(const SE3& T_map_body);
-  void tell_noise(cairn_world_step& step) const;
+  void write_noise(cairn_world_step& step) const;
 
   cairn_world_options options_;
   Terrain terrain_;

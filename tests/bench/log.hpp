@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reader of the neutral log, for the benchmark drivers alone. One record a line, SI units, radians, in time order:
+// Reader of the neutral log for the benchmark programs. One record per line, SI units, radians, in order of time:
 //   T k t x y z roll pitch yaw           true pose at step k
 //   O k dx dy dz droll dpitch dyaw       measured motion from step k-1 to k, in the body of k-1
 //   Z k id range azimuth elevation       measured landmark, in the body of k
 //   L id x y z                           true landmark
-// Other lines are refused; empty ones and those that begin with # are skipped.
+// Empty lines and lines that begin with # are skipped. All other lines are refused.
 #pragma once
 
 #include <array>

@@ -190,7 +190,6 @@ static void an_absolute_outlier_is_gated(void** state) {
   cairn_pose pose;
   double covariance[9], far[3], q[4], residual[1] = {100}, one[1] = {1}, J[6] = {1, 0, 0, 0, 0, 0};
   double angle[3] = {0, 0, 3};
-  cairn_update_report report;
   diagonal(covariance, 3, 1e-4);
   for (int call = 0; call < 4; ++call) {
     cairn_pose after;
@@ -210,9 +209,7 @@ static void an_absolute_outlier_is_gated(void** state) {
     assert_int_equal(m.result, CAIRN_REJECTED);
     assert_true(m.reason == CAIRN_REASON_GATE || m.reason == CAIRN_REASON_BATCH_GATE);
     assert_true(m.distance > m.threshold && m.threshold > 0);
-    memset(&report, 0, sizeof report);
-    report.struct_size = sizeof report;
-    assert_ok(cairn_filter_last_update(b->main.filter, &report));
+    const cairn_update_report report = last_update(b->main.filter);
     assert_true(report.rejected == 1 && report.matched == 0 && report.rows == 0);
     assert_ok(cairn_filter_pose(b->main.filter, &after, cb));
     assert_memory_equal(&pose, &after, sizeof pose);

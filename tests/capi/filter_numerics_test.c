@@ -131,7 +131,6 @@ static void a_sensor_that_changes_its_behaviour_harms_nothing(void** state) {
       cairn_custom custom = test_point();
       cairn_observation o[POINTS];
       cairn_match matches[POINTS];
-      cairn_update_report report;
       const cairn_pose stay = {{0, 0, 0}, {1, 0, 0, 0}};
       double noise[36], before[36], after[36];
       int32_t sensor;
@@ -155,9 +154,7 @@ static void a_sensor_that_changes_its_behaviour_harms_nothing(void** state) {
       assert_true(pivot_of(r.filter) > 0);
       if (status == CAIRN_OK) { /* a match that says it updated did update */
         uint32_t matched = 0;
-        memset(&report, 0, sizeof report);
-        report.struct_size = sizeof report;
-        assert_ok(cairn_filter_last_update(r.filter, &report));
+        const cairn_update_report report = last_update(r.filter);
         for (int i = 0; i < POINTS; ++i) matched += matches[i].result == CAIRN_MATCHED;
         assert_int_equal(report.matched, matched);
         assert_int_equal(report.rows, 3 * matched);

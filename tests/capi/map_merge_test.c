@@ -325,7 +325,7 @@ static void refusals_change_nothing(void** state) {
     cairn_merge_options options = new_options(CAIRN_MERGE_BY_ID);
     cairn_merge_report report = new_report();
     cairn_map *copy = NULL, *empty = NULL;
-    rover nobody, foreign;
+    rover empty_rover, foreign;
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_merge(NULL, d.other, NULL, NULL));
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "other", cairn_map_merge(d.map, NULL, NULL, NULL));
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "other", cairn_map_merge(d.map, d.map, NULL, NULL));
@@ -347,15 +347,15 @@ static void refusals_change_nothing(void** state) {
     assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "other", cairn_map_merge(d.map, copy, NULL, &report));
     assert_true(report.common == 0 && report.broken_id == CAIRN_ID_NONE);
     cairn_map_destroy(copy), rover_close(&foreign);
-    rover_open(&nobody, kind, 1, pose_at(0, 0, 0, 0, 0, 0), 1);
-    assert_ok(cairn_map_copy(cairn_filter_map(nobody.filter), &empty));
+    rover_open(&empty_rover, kind, 1, pose_at(0, 0, 0, 0, 0, 0), 1);
+    assert_ok(cairn_map_copy(cairn_filter_map(empty_rover.filter), &empty));
     for (int32_t by = CAIRN_MERGE_BY_ID; by <= CAIRN_MERGE_BY_GEOMETRY; ++by) {
       options.association = by;
       assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "other", cairn_map_merge(d.map, empty, &options, NULL));
       assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "map", cairn_map_merge(empty, d.other, &options, NULL));
     }
     assert_int_equal(size_of(empty), 0);
-    cairn_map_destroy(empty), rover_close(&nobody);
+    cairn_map_destroy(empty), rover_close(&empty_rover);
     /* max_landmarks */
     options = new_options(CAIRN_MERGE_BY_ID);
     options.max_landmarks = size_of(d.map) + size_of(d.other) - count_common(d.map, d.other) - 1;

@@ -131,12 +131,9 @@ static void append_map(snapshot* s, const cairn_map* map, const cairn_filter* jo
 void submaps_take(snapshot* s, const cairn_filter* filter) {
   cairn_pose pose;
   double covariance[36];
-  cairn_update_report report;
+  const cairn_update_report report = last_update(filter);
   size_t count = 0;
   snapshot_free(s);
-  memset(&report, 0, sizeof report);
-  report.struct_size = sizeof report;
-  assert_ok(cairn_filter_last_update(filter, &report));
   append(s, &report, sizeof report);
   cairn_status (*const poses[])(const cairn_filter*, cairn_pose*, double*) = {
       cairn_filter_pose, cairn_filter_local_pose, cairn_filter_base_pose};

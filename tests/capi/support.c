@@ -97,6 +97,17 @@ size_t check_same_matches(const cairn_match* known, const cairn_match* found, si
   return matched;
 }
 
+int check_one_of_two_matches(const cairn_match matches[2]) {
+  const int matched = matches[0].result == CAIRN_MATCHED ? 0 : 1, refused = 1 - matched;
+  assert_int_equal(matches[matched].result, CAIRN_MATCHED);
+  assert_int_equal(matches[matched].landmark, matched);
+  assert_int_equal(matches[refused].result, CAIRN_REJECTED);
+  assert_int_equal(matches[refused].reason, CAIRN_REASON_AMBIGUOUS);
+  assert_int_equal(matches[refused].landmark, refused);
+  assert_true(matches[refused].distance < matches[refused].threshold);
+  return refused;
+}
+
 void check_same_pose(const cairn_filter* a, const cairn_filter* b) {
   cairn_pose pose_a, pose_b;
   double covariance_a[36], covariance_b[36];
@@ -120,11 +131,8 @@ void snapshot_take(snapshot* s, const cairn_filter* filter) {
 
   cairn_pose pose;
   double covariance[36];
-  cairn_update_report report;
-  memset(&report, 0, sizeof report);
-  report.struct_size = sizeof report;
+  const cairn_update_report report = last_update(filter);
   assert_ok(cairn_filter_pose(filter, &pose, covariance));
-  assert_ok(cairn_filter_last_update(filter, &report));
   memcpy(s->bytes, &pose, sizeof pose);
   memcpy(s->bytes + sizeof pose, covariance, sizeof covariance);
   memcpy(s->bytes + sizeof pose + sizeof covariance, &report, sizeof report);

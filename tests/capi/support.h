@@ -115,6 +115,9 @@ cairn_update_report last_update(const cairn_filter* filter);
  * decided alike. `name_of` maps the landmark numbers of the second filter to the ids of the first; new landmarks are
  * added to it. Returns the number of matched observations. */
 size_t check_same_matches(const cairn_match* known, const cairn_match* found, size_t count, uint64_t* name_of);
+/* Joint compatibility must match one of two observations, number k with landmark k, and refuse the other as ambiguous.
+ * Returns the number of the refused one. */
+int check_one_of_two_matches(const cairn_match matches[2]);
 /* Pose and covariance are the same to the bit. */
 void check_same_pose(const cairn_filter* a, const cairn_filter* b);
 

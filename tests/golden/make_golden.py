@@ -318,14 +318,14 @@ def main():
     print("// SPDX-License-Identifier: BSD-3-Clause")
     print(f"// Written by make_golden.py with numpy {np.__version__}: change the script, not this file.\n#pragma once\n")
     print("namespace golden {")
-    array("Poses", np.array(poses()).ravel(), "Tangent [rho; theta], then rotation by rows and translation of its Exp; 18 a pose.")
-    array("Quantiles", np.array(quantiles()).ravel(), "Degrees of freedom, probability, chi-square quantile; 3 a row.")
+    array("Poses", np.array(poses()).ravel(), "Tangent [rho; theta], then rotation by rows and translation of its Exp: 18 numbers for each pose.")
+    array("Quantiles", np.array(quantiles()).ravel(), "Degrees of freedom, probability, chi-square quantile: 3 numbers in each row.")
     run = tiny_run()
     comments = {
-        "start": "The start: position, then rotation by rows.",
-        "covariance": "Its ordinary covariance, 6 x 6.",
+        "start": "The initial pose: position, then rotation by rows.",
+        "covariance": "Ordinary covariance of the initial pose, 6 x 6.",
         "twists": "Velocity, rate and time of each of three steps.",
-        "frames": "Observations of each step: three landmarks, range, azimuth and elevation; the first step has but two.",
+        "frames": "Observations of each step: three landmarks, range, azimuth and elevation; the first step has only two.",
     }
     for name, values in run.items():
         kind, _, what = name.partition("_")

@@ -128,7 +128,7 @@ static void wheel_noise(void** state) {
   cairn_world* w;
   tally left = {0, 0, 0}, right = {0, 0, 0}, both = {0, 0, 0}, forward = {0, 0, 0};
   size_t k, i;
-  double told = 0, rate = 0, size;
+  double stated = 0, rate = 0, size;
   (void)state;
   o.drive = CAIRN_DRIVE_WHEELS_GYRO;
   o.motion_period = o.imu_period;
@@ -145,14 +145,14 @@ static void wheel_noise(void** state) {
       assert_near(m->velocity[2], 0, 0);
       rate = m->true_wheels[0];
     }
-    if (step.motion_count > 0) told = step.velocity_sigma[0];
+    if (step.motion_count > 0) stated = step.velocity_sigma[0];
     assert_near(step.velocity_sigma[1], 0.01, 0);
   }
   size = hypot(0.01, 0.02 * rate);
   assert_near(tally_sigma(&left), size, 0.05 * size);
   assert_near(tally_sigma(&right), size, 0.05 * size);
   assert_near(tally_mean(&both) / (size * size), 0, 4 / sqrt(both.count));
-  assert_near(tally_sigma(&forward), told, 0.05 * told);
+  assert_near(tally_sigma(&forward), stated, 0.05 * stated);
   cairn_world_destroy(w);
 }
 

@@ -47,8 +47,8 @@ class Fleet(Simulation):
     @staticmethod
     def _boat(boat):
         def observations(sightings, count):
-            told = [sightings[i] for i in range(count)]
-            return _structs.observations([s.id for s in told], np.reshape([(s.range, s.bearing) for s in told], (-1, 2)))
+            seen = [sightings[i] for i in range(count)]
+            return _structs.observations([s.id for s in seen], np.reshape([(s.range, s.bearing) for s in seen], (-1, 2)))
 
         return Boat(speed=boat.speed, rate=boat.rate, truth=planar_pose(boat.x, boat.y, boat.heading),
                     features=observations(boat.features, boat.feature_count),

@@ -25,7 +25,7 @@ Association::Association(Arena& arena, const Capacity& capacity)
       queue_(arena.take<Index>(static_cast<std::size_t>(capacity.candidates))),
       joint_(arena.take<double>(static_cast<std::size_t>(capacity.candidates))),
       taken_(arena.take<char>(static_cast<std::size_t>(capacity.landmarks))),
-      now_(arena.take<Index>(static_cast<std::size_t>(capacity.observations))),
+      current_(arena.take<Index>(static_cast<std::size_t>(capacity.observations))),
       best_(arena.take<Index>(static_cast<std::size_t>(capacity.observations))),
       factor_(arena.take<double>(static_cast<std::size_t>(row_start(kMostRows * capacity.observations)))),
       whitened_(arena.take<double>(static_cast<std::size_t>(kMostRows * capacity.observations))) {}
@@ -87,11 +87,11 @@ void Association::joint_compatibility(const PairCandidate* candidates, Index cou
 //   L' = [L 0; X^T L_c],  X = L^-1 S_set,c,  L_c L_c^T = S_cc - X^T X,  y_c = L_c^-1 (nu_c - X^T y),
 // and the distance grows by |y_c|^2 (docs/association.md). The rows of L are packed, so that the rows of the set stay
 // in place.
-double Association::border(Index candidate, Index pairs) {
+double Association::extend(Index candidate, Index pairs) {
   const Index k = rows_, n = k * pairs;
   double block[kMostRows * kMostRows], nu[kMostRows];
   for (Index p = 0; p < pairs; ++p) {
-    innovations_->covariance(candidate, now_[p], block);
+    innovations_->covariance(candidate, current_[p], block);
     for (Index r = 0; r < k; ++r)
       for (Index c = 0; c < k; ++c) factor_[row_start(n + r) + k * p + c] = block[c * k + r];
   }
@@ -120,7 +120,7 @@ void Association::search(Index depth, Index pairs, double distance) {
   if (depth == observations_) {
     if (!better(pairs, distance)) return;
     for (Index d = 0; d < observations_; ++d) best_[order_[d]] = kUnpaired;
-    for (Index p = 0; p < pairs; ++p) best_[candidates_[now_[p]].observation] = now_[p];
+    for (Index p = 0; p < pairs; ++p) best_[candidates_[current_[p]].observation] = current_[p];
     best_pairs_ = pairs;
     best_distance_ = distance;
     return;
@@ -129,11 +129,11 @@ void Association::search(Index depth, Index pairs, double distance) {
   const Index begin = first_[o], end = first_[o + 1];
   const double bound = innovations_->threshold(rows_ * (pairs + 1));
   Index* fitting = queue_ + begin;  // each observation has its own part of the queue
-  Index count = 0, bordered = kUnpaired;
+  Index count = 0, extended = kUnpaired;
   for (Index c = begin; c < end; ++c) {
     if (taken_[candidates_[c].landmark] != 0) continue;
-    joint_[c] = distance + border(c, pairs);
-    bordered = c;
+    joint_[c] = distance + extend(c, pairs);
+    extended = c;
     ++nodes_;
     if (joint_[c] <= bound) fitting[count++] = c;
   }
@@ -148,9 +148,9 @@ void Association::search(Index depth, Index pairs, double distance) {
       exhausted_ = true;
       return;
     }
-    if (c != bordered) border(c, pairs);
-    bordered = kUnpaired;  // deeper calls overwrite the rows of this candidate
-    now_[pairs] = c;
+    if (c != extended) extend(c, pairs);
+    extended = kUnpaired;  // deeper calls overwrite the rows of this candidate
+    current_[pairs] = c;
     taken_[candidates_[c].landmark] = 1;
     search(depth + 1, pairs + 1, joint_[c]);
     taken_[candidates_[c].landmark] = 0;

@@ -61,12 +61,12 @@ class Association {
   void demand_support(Index support, Doubtful&& doubtful) {
     Index count = 0;
     for (Index o = 0; o < all_observations_; ++o) {
-      now_[o] = best_[o] != kUnpaired && doubtful(o, best_[o]) ? 1 : 0;
-      count += now_[o];
+      current_[o] = best_[o] != kUnpaired && doubtful(o, best_[o]) ? 1 : 0;
+      count += current_[o];
     }
     if (count >= support) return;
     for (Index o = 0; o < all_observations_; ++o)
-      if (now_[o] != 0) {
+      if (current_[o] != 0) {
         best_[o] = kUnpaired;
         --best_pairs_;
       }
@@ -82,7 +82,7 @@ class Association {
  private:
   void begin(const PairCandidate* candidates, Index count, Index observations);
   void search(Index depth, Index pairs, double distance);
-  double border(Index candidate, Index pairs);
+  double extend(Index candidate, Index pairs);
   bool better(Index pairs, double distance) const {
     return pairs > best_pairs_ || (pairs == best_pairs_ && distance < best_distance_);
   }
@@ -96,9 +96,9 @@ class Association {
   Index* queue_;      // candidates: those of each observation together, or all of them by distance
   double* joint_;     // by candidate: joint distance of the current set with the candidate
   char* taken_;       // by landmark: 1 if it is matched
-  Index* now_;        // pairs of the current set: candidates
+  Index* current_;    // pairs of the current set: candidates
   Index* best_;       // by observation: candidate of the best set
-  double* factor_;    // L of the joint covariance, packed by rows; see border()
+  double* factor_;    // L of the joint covariance, packed by rows; see extend()
   double* whitened_;  // L^-1 nu
   Index best_pairs_ = 0, nodes_ = 0;
   double best_distance_ = 0.0;

@@ -99,15 +99,15 @@ ExtendedObservation::ExtendedObservation(const RangeBearingParameters& radar, co
 
 bool ExtendedObservation::predict(const SE2& T_map_body, const Vector2& p_map, const Vector3& mount,
                                   Prediction<SE2>& out) const {
-  const SE2 T_body_mate = mate_in_body(sighting_, mount);
-  const Matrix2 R_mate_body = T_body_mate.rotation().inverse().matrix();
-  const Vector2 y = T_body_mate.inverse() * (T_map_body.inverse() * p_map);
+  const SE2 T_body_teammate = mate_in_body(sighting_, mount);
+  const Matrix2 R_teammate_body = T_body_teammate.rotation().inverse().matrix();
+  const Vector2 y = T_body_teammate.inverse() * (T_map_body.inverse() * p_map);
   ByPoint J_z_y;
   if (!to_polar(y, radar_.near_range, out.z, J_z_y)) return false;
-  map_jacobians(T_map_body, p_map, (J_z_y * R_mate_body).eval(), out);
-  // y = R(delta)^T (y_body - p_mate) is the landmark in the teammate's frame. It moves against a point that is fixed to
-  // the teammate.
-  out.J_z_mount = -J_z_y * R_mate_body * point_by_sighting(sighting_, mount, T_body_mate.rotation() * y);
+  map_jacobians(T_map_body, p_map, (J_z_y * R_teammate_body).eval(), out);
+  // y = R(delta)^T (y_body - p_teammate) is the landmark in the teammate's frame. It moves against a point that is
+  // fixed to the teammate.
+  out.J_z_mount = -J_z_y * R_teammate_body * point_by_sighting(sighting_, mount, T_body_teammate.rotation() * y);
   return true;
 }
 
@@ -116,11 +116,11 @@ bool ExtendedObservation::place(const SE2& T_map_body, const Vector3& z, const V
   Vector2 y;
   ByObservation J_y_z;
   if (!from_polar(z, radar_.near_range, y, J_y_z)) return false;
-  const SE2 T_body_mate = mate_in_body(sighting_, mount);
-  const ByObservation J_body_z = T_body_mate.rotation().matrix() * J_y_z;
-  place_body_point(T_map_body, Vector2(T_body_mate * y), J_body_z, out);
+  const SE2 T_body_teammate = mate_in_body(sighting_, mount);
+  const ByObservation J_body_z = T_body_teammate.rotation().matrix() * J_y_z;
+  place_body_point(T_map_body, Vector2(T_body_teammate * y), J_body_z, out);
   out.J_landmark_mount =
-      T_map_body.rotation().matrix() * point_by_sighting(sighting_, mount, T_body_mate.rotation() * y);
+      T_map_body.rotation().matrix() * point_by_sighting(sighting_, mount, T_body_teammate.rotation() * y);
   return out.landmark.allFinite();
 }
 

@@ -13,6 +13,7 @@
 #include "geometry/angle.hpp"
 #include "numerical.hpp"
 #include "sensor/cartesian.hpp"
+#include "sensor/jacobian_check.hpp"
 
 using namespace cairn;
 using namespace cairn::test;
@@ -20,11 +21,6 @@ using namespace cairn::test;
 namespace {
 
 const Vector3 kNone = Vector3::Zero();
-
-template <class A, class B>
-double relative(const A& analytic, const B& numerical) {
-  return (analytic - numerical).norm() / (1 + numerical.norm());
-}
 
 // All Jacobians of a prediction and of a placement. Errors are relative to the distance, because bearings of near
 // points change fast.
@@ -40,31 +36,7 @@ void check_sensor(const Sensor<SE2>& sensor, const SE2& T, const Vector3& z, con
   // A coordinate is rounded to 1e-16 of its size; this is divided by the step of 1e-4 and by the distance.
   const double tolerance = 1e-8 + 1e-11 * placed.landmark.norm() / std::min(z[0], 1.0);
   CHECK(sensor.residual(z, seen.z).norm() < tolerance);
-
-  const auto z_of = [&](const SE2& pose, const Vector2& landmark, const Vector3& at) {
-    Prediction<SE2> p;
-    REQUIRE(sensor.predict(pose, landmark, at, p));
-    return p.z;
-  };
-  const auto minus = [&](const Vector3& a, const Vector3& b) { return sensor.residual(a, b); };
-  const Vector2& l = placed.landmark;
-  CHECK(relative(seen.J_z_pose, pose_jacobian([&](const SE2& X) { return z_of(X, l, mount); }, T, minus)) < tolerance);
-  CHECK(relative(seen.J_z_landmark, jacobian<2>([&](const Vector2& x) { return z_of(T, x, mount); }, l, minus)) <
-        tolerance);
-  CHECK(relative(seen.J_z_mount, jacobian<3>([&](const Vector3& x) { return z_of(T, l, x); }, mount, minus)) <
-        tolerance);
-
-  const auto landmark_of = [&](const SE2& pose, const Vector3& value, const Vector3& at) {
-    Placement<SE2> p;
-    REQUIRE(sensor.place(pose, value, at, p));
-    return p.landmark;
-  };
-  CHECK(relative(placed.J_landmark_pose, pose_jacobian([&](const SE2& X) { return landmark_of(X, z, mount); }, T)) <
-        tolerance);
-  CHECK(relative(placed.J_landmark_z, jacobian<3>([&](const Vector3& x) { return landmark_of(T, x, mount); }, z)) <
-        tolerance);
-  CHECK(relative(placed.J_landmark_mount, jacobian<3>([&](const Vector3& x) { return landmark_of(T, z, x); }, mount)) <
-        tolerance);
+  check_jacobians<SE2>(sensor, T, z, mount, placed, seen, tolerance);
 }
 
 const double kBearings[] = {0, 1e-9, 0.7, kPi / 2, -kPi / 2, 3, kPi - 1e-9, -kPi + 1e-9, kPi, 5};

@@ -8,17 +8,13 @@
 #include "geometry/angle.hpp"
 #include "numerical.hpp"
 #include "sensor/cartesian.hpp"
+#include "sensor/jacobian_check.hpp"
 #include "sensor/sensors.hpp"
 
 using namespace cairn;
 using namespace cairn::test;
 
 namespace {
-
-template <class A, class B>
-double relative(const A& analytic, const B& numerical) {
-  return (analytic - numerical).norm() / (1 + numerical.norm());
-}
 
 // Compares all Jacobians of a prediction and of a placement with central differences, and checks that both invert each
 // other. The differences are accurate to 1e-9 of a Jacobian at the nearest points (numerical.hpp). A coordinate x,
@@ -30,31 +26,7 @@ void check_sensor(const Sensor<SE3>& sensor, const SE3& T, const Vector3& z, con
   Prediction<SE3> seen;
   REQUIRE(sensor.predict(T, placed.landmark, mount, seen));
   CHECK(sensor.residual(z, seen.z).norm() < tolerance * (1 + z.norm()));
-
-  const auto z_of = [&](const SE3& pose, const Vector3& landmark, const Vector2& angles) {
-    Prediction<SE3> p;
-    REQUIRE(sensor.predict(pose, landmark, angles, p));
-    return p.z;
-  };
-  const auto minus = [&](const Vector3& a, const Vector3& b) { return sensor.residual(a, b); };
-  const Vector3& l = placed.landmark;
-  CHECK(relative(seen.J_z_pose, pose_jacobian([&](const SE3& X) { return z_of(X, l, mount); }, T, minus)) < tolerance);
-  CHECK(relative(seen.J_z_landmark, jacobian<3>([&](const Vector3& x) { return z_of(T, x, mount); }, l, minus)) <
-        tolerance);
-  CHECK(relative(seen.J_z_mount, jacobian<2>([&](const Vector2& x) { return z_of(T, l, x); }, mount, minus)) <
-        tolerance);
-
-  const auto landmark_of = [&](const SE3& pose, const Vector3& value, const Vector2& angles) {
-    Placement<SE3> p;
-    REQUIRE(sensor.place(pose, value, angles, p));
-    return p.landmark;
-  };
-  CHECK(relative(placed.J_landmark_pose, pose_jacobian([&](const SE3& X) { return landmark_of(X, z, mount); }, T)) <
-        tolerance);
-  CHECK(relative(placed.J_landmark_z, jacobian<3>([&](const Vector3& x) { return landmark_of(T, x, mount); }, z)) <
-        tolerance);
-  CHECK(relative(placed.J_landmark_mount, jacobian<2>([&](const Vector2& x) { return landmark_of(T, z, x); }, mount)) <
-        tolerance);
+  check_jacobians<SE3>(sensor, T, z, mount, placed, seen, tolerance);
 }
 
 // Whether a sensor at the identity pose observes `landmark`, and whether it places a landmark from z.

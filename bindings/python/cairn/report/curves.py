@@ -132,10 +132,10 @@ def held(runs):
     """Landmarks in the state of the filter."""
     traces = []
     for run in runs:
-        told = run.held_landmarks()
-        if told is None:
+        counts = run.held_landmarks()
+        if counts is None:
             continue
-        key, (times, count) = key_of(runs, run), told
+        key, (times, count) = key_of(runs, run), counts
         kept = thin.envelope(count, MOST)
         traces.append(line(times[kept], count[kept], COLOURS[key], "landmarks" if key == "only" else key))
     if not traces:

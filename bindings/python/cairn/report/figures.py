@@ -141,13 +141,13 @@ def local_deviation(run):
 
 
 def held(runs):
-    told = {run: run.held_landmarks() for run in runs}
-    if not any(told.values()):
+    counts = {run: run.held_landmarks() for run in runs}
+    if not any(counts.values()):
         return None
     figure, axes = pyplot.subplots(figsize=(6.4, 4.2))
     for run in runs:
-        if told[run]:
-            axes.step(*told[run], where="post", linewidth=1.3, color=SIDES.get(run.name, ESTIMATE),
+        if counts[run]:
+            axes.step(*counts[run], where="post", linewidth=1.3, color=SIDES.get(run.name, ESTIMATE),
                       label={"standard": "standard EKF-SLAM", "submaps": "SLAM with submaps"}.get(run.name, run.name))
     axes.set_xlabel("time (s)")
     axes.set_ylabel("landmarks")

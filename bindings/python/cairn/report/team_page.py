@@ -65,7 +65,7 @@ def _of_comparison(comparison):
     blocks = _section("Improvement on a vehicle by itself, vehicle 1", team_curves.improvement(comparison), found,
                       "Claimed: by how much the norm of the position’s covariance is smaller. True: by how much the mean "
                       "squared error is. A claim above the truth is overconfidence.")
-    blocks += _section("Honesty, accuracy and cost", team_curves.comparisons(comparison), found)
+    blocks += _section("Consistency, accuracy and cost", team_curves.comparisons(comparison), found)
     lead = "modes of a team beside each other: " + ", ".join(comparison.modes)
     return page.assemble(comparison.folder, comparison.name, lead, "", blocks, _comparison_table(comparison), found)
 
