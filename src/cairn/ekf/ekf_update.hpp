@@ -71,7 +71,7 @@ class EkfUpdate {
   // Leaves these blocks of `rows` rows, in rising order, and their S; the window stays.
   void keep(const Index* blocks, Index count, Index rows);
   void form_innovation();              // S once more, from the H P that stands
-  InverseInnovation invert(Index rows);  // of the S that stands; throws where it is not positive definite
+  InverseInnovation invert();          // of the S that stands; throws where it is not positive definite
   Index* kept() { return workspace_.kept; }
   bool* refused() { return workspace_.refused; }
   // S = L L^T, and nis(). Throws where S is not positive definite.

@@ -20,7 +20,7 @@ class UpdateGates {
     update_.factor();
     return update_.nis() <= bound(update_.batch().rows());
   }
-  InverseInnovation invert() { return update_.invert(rows_); }
+  InverseInnovation invert() { return update_.invert(); }
   void refactor() { update_.factor(); }
   Index* kept() { return update_.kept(); }
   bool* refused() { return update_.refused(); }

@@ -336,7 +336,7 @@ class Filter final : public Landmarks {
   void update_map_by_fix(const AbsoluteFix<Pose>& fix);
   ClosedBy full() const;
   Submap<Pose> take_submap() const;
-  void join_submap(ClosedBy reason, FixRequest<Pose>* fix = nullptr);
+  FixReport join_submap(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
   void close_if_full();
   void forget_local(std::int32_t slot);
   static std::unique_ptr<GlobalMap<Pose>> make_map(const FilterOptions<Pose>& options);

@@ -105,9 +105,10 @@ Submap<Pose> Filter<Pose>::take_submap() const {
   return submap;
 }
 
-// Closes the open submap, whatever it holds, and starts anew at the vehicle's pose (Mars paper, eq. 14-16).
+// Closes the open submap, whatever it holds, and starts anew at the vehicle's pose (Mars paper, eq. 14-16). A fix is
+// applied to the new base: both or neither.
 template <class Pose>
-void Filter<Pose>::join_submap(ClosedBy reason, FixRequest<Pose>* fix) {
+FixReport Filter<Pose>::join_submap(ClosedBy reason, const AbsoluteFix<Pose>* fix, double threshold) {
   ClosingReport next;
   const auto begin = std::chrono::steady_clock::now();
   next.reason = reason;
@@ -119,7 +120,11 @@ void Filter<Pose>::join_submap(ClosedBy reason, FixRequest<Pose>* fix) {
       say("closing: association stopped at %td joint tests, with %zu of %td landmarks named", next.naming.nodes,
           next.naming.named, next.landmarks);
   }
-  next.join = map_->join_and_fix(submap, fix);
+  const auto transaction = map_->begin();
+  FixReport fixed;
+  transaction->join(submap);
+  if (fix != nullptr) fixed = transaction->fix(*fix, threshold);
+  next.join = transaction->commit();
   ekf_.start(Pose(), Square::Zero());
   slots_.clear();
   deferred_ = 0;  // those that do not count yet have to be found again
@@ -132,6 +137,7 @@ void Filter<Pose>::join_submap(ClosedBy reason, FixRequest<Pose>* fix) {
   if (next.join.refused > 0)
     say("closing: %zu of %zu known landmarks contradict the map and were left out", next.join.refused,
         next.join.refused + next.join.fused);
+  return fixed;
 }
 
 template <class Pose>
@@ -159,7 +165,8 @@ void Filter<Pose>::close_if_full() {
   failed.reason = reason;
   failed.landmarks = counting();
   try {
-    return join_submap(reason);
+    join_submap(reason);
+    return;
   } catch (const Error& error) {
     failed.error = error.code();
     say("closing: put off: %s", error.what());
@@ -181,12 +188,7 @@ void Filter<Pose>::update_map_by_fix(const AbsoluteFix<Pose>& fix) {
   Match& match = next_matches_[0];
   match.landmark = kNoId;
   match.threshold = single_threshold(fix.rows());
-  FixRequest<Pose> request{fix, match.threshold, {}};
-  if (moved)
-    join_submap(ClosedBy::fix, &request);
-  else
-    request.report = map_->fix(fix, match.threshold);
-  const FixReport& done = request.report;
+  const FixReport done = moved ? join_submap(ClosedBy::fix, &fix, match.threshold) : map_->fix(fix, match.threshold);
   match.distance = done.distance;
   if (done.accepted) {
     match.decision = Decision::matched;
