@@ -113,8 +113,7 @@ bool FrameAssociator<Pose>::confusable(const Frame<Pose>& frame, Index observati
   const Doubt doubt(innovation, noise, rows, thresholds_.new_landmark(rows));
   if (!doubt.stale()) return false;
   for (Index e = 0; e < pairs_.images(); ++e)
-    if (e != pairs_.pair(pair).image &&
-        doubt.confuses(sensor.residual(pairs_.image(e).prediction.z, own.prediction.z)))
+    if (e != pairs_.pair(pair).image && doubt.confuses(sensor.residual(pairs_.image(e).prediction.z, own.prediction.z)))
       return true;
   for (Index o = 0; o < frame.landmarks; ++o)
     if (o != observation && doubt.confuses(sensor.residual(frame.z(o), own.prediction.z))) return true;
@@ -122,8 +121,8 @@ bool FrameAssociator<Pose>::confusable(const Frame<Pose>& frame, Index observati
 }
 
 // Whether the observation is of a landmark that the map lacks, though it lies near some landmarks. It is where each of
-// those was paired in this frame, for a sensor sees a landmark once a frame, and where no other observation lies so near
-// that noise could have made two observations of one.
+// those was paired in this frame, for a sensor sees a landmark once a frame, and where no other observation lies so
+// near that noise could have made two observations of one.
 template <class Pose>
 bool FrameAssociator<Pose>::is_new(const Frame<Pose>& frame, Index observation) const {
   const Sensor<Pose>& sensor = frame.sensor;
@@ -137,8 +136,8 @@ bool FrameAssociator<Pose>::is_new(const Frame<Pose>& frame, Index observation) 
       return false;
   }
   for (Index o = 0; o < frame.landmarks; ++o)
-    if (o != observation && within_bound(sensor.residual(z, frame.z(o)), noise + pairs_.noise(o), rows,
-                                         thresholds_.single(rows)))
+    if (o != observation &&
+        within_bound(sensor.residual(z, frame.z(o)), noise + pairs_.noise(o), rows, thresholds_.single(rows)))
       return false;
   return true;
 }

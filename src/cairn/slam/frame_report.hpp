@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The outcome of an update: one match for each observation, and a summary. The outcome of the last update stays readable
-// until the next update has succeeded.
+// The outcome of an update: one match for each observation, and a summary. The outcome of the last update stays
+// readable until the next update has succeeded.
 #pragma once
 
 #include "core/arena.hpp"

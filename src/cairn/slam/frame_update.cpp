@@ -36,8 +36,7 @@ bool FrameUpdate<Pose>::fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
   for (Index a = 0; a < sorted.candidates(); ++a) {
     const Candidate<Pose>& candidate = sorted.candidate(a);
     Prediction<Pose> moved;
-    if (update.iterating() &&
-        !sensor.predict(update.pose(), update.landmark(candidate.number), update.mount(), moved))
+    if (update.iterating() && !sensor.predict(update.pose(), update.landmark(candidate.number), update.mount(), moved))
       return false;
     const Prediction<Pose>& prediction = update.iterating() ? moved : candidate.prediction;
     const Vector3 residual = sensor.residual(frame.z(candidate.observation), prediction.z);

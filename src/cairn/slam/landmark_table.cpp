@@ -74,6 +74,8 @@ void LandmarkTable::remove_companion(Index number) {
   if (end > last) move(end, last);
 }
 
-void LandmarkTable::look_from(Index companion) { std::swap(ids_[companion], vehicle_); }
+void LandmarkTable::look_from(Index companion) {
+  std::swap(ids_[companion], vehicle_);
+}
 
 }  // namespace cairn

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The names of a filter's points: which landmark or companion stands in which slot, and how often it was seen.
 //
-// The slots are in three parts: companions, landmarks that count, deferred landmarks. A deferred landmark does not count
-// yet: it was not observed often enough. The table moves names only; LocalMap moves the values of the state in step.
+// The slots are in three parts: companions, landmarks that count, deferred landmarks. A deferred landmark does not
+// count yet: it was not observed often enough. The table moves names only; LocalMap moves the values of the state in
+// step.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +17,9 @@ namespace cairn {
 
 class LandmarkTable {
  public:
-  struct Sightings {              // of a landmark, by frames
+  struct Sightings {             // of a landmark, by frames
     std::uint64_t placed, seen;  // numbers of frames
-    Index missed;                 // frames in a row
+    Index missed;                // frames in a row
   };
 
   LandmarkTable(Arena& arena, Index slots, Index landmarks);
@@ -49,7 +50,7 @@ class LandmarkTable {
   // --- slots --- for LocalMap, which moves the state's values in step
   void clear();
   void append(std::uint64_t id, bool deferred);  // observed once
-  void remove(Index slot);                       // the last landmark moves there; a slot of those that count is the last one
+  void remove(Index slot);  // the last landmark moves there; a slot of those that count is the last one
   void exchange(Index a, Index b);
   void count_first_deferred() { --deferred_; }
   void add_companion(std::uint64_t id);  // the first landmark moves behind the last one

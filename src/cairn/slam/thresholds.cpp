@@ -16,8 +16,7 @@ Thresholds::Thresholds(Arena& arena, const Probabilities& probabilities, Index m
 }
 
 double Thresholds::single(Index rows) const {
-  return rows <= kMostSingle ? single_[rows]
-                             : chi_square_quantile(static_cast<double>(rows), probabilities_.single);
+  return rows <= kMostSingle ? single_[rows] : chi_square_quantile(static_cast<double>(rows), probabilities_.single);
 }
 
 double Thresholds::joint(Index rows) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "ekf/ekf.hpp"
+#include "ekf/state.hpp"
 
 namespace cairn {
 

@@ -180,8 +180,7 @@ void Team::observe(double time, std::vector<Observation> landmarks, std::vector<
   if (baseline_)
     quietly([&] {
       const std::vector<Observation>& scan = self.waiting[number].landmarks;
-      std::copy(scan.begin(), scan.end(), baseline_->filter.staging());
-      baseline_->filter.update(0, static_cast<Index>(scan.size()));
+      baseline_->filter.update(0, scan.data(), static_cast<Index>(scan.size()));
     });
   settle();
   const bool gap = std::any_of(members_.begin(), members_.end(), [&](const Member& member) {
@@ -425,7 +424,7 @@ void Team::score(const SE2& truth) {
   ++score_.steps;
   score_.claimed += now.covariance.topLeftCorner<2, 2>().norm();
   score_.squared_error += (truth.translation() - now.pose.translation()).squaredNorm();
-  const double nees = Ekf<SE2>::nees(options_.filter.error, options_.filter.initial_pose.translation(), truth, now.pose,
+  const double nees = State<SE2>::nees(options_.filter.error, options_.filter.initial_pose.translation(), truth, now.pose,
                                      now.covariance);
   if (nees >= 0.0) {
     ++score_.nees_steps;

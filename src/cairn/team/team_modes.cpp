@@ -37,14 +37,14 @@ bool Team::scan(Filter<SE2>& filter, int sensor, const std::vector<Observation>&
     if (count > static_cast<std::size_t>(options_.filter.max_observations))
       throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %td", count,
                   options_.filter.max_observations);
-    std::copy(landmarks.begin(), landmarks.end(), filter.staging());
-    std::copy(vehicles.begin(), vehicles.end(), filter.staging() + landmarks.size());
-    filter.update(sensor, static_cast<Index>(landmarks.size()), static_cast<Index>(vehicles.size()));
+    std::vector<Observation> frame(landmarks);
+    frame.insert(frame.end(), vehicles.begin(), vehicles.end());
+    filter.update(sensor, frame.data(), static_cast<Index>(landmarks.size()), static_cast<Index>(vehicles.size()));
     counts_.matched += static_cast<std::uint64_t>(filter.report().matched);
     counts_.placed += static_cast<std::uint64_t>(filter.report().placed);
     counts_.rejected += static_cast<std::uint64_t>(filter.report().rejected);
     counts_.sightings_used += vehicles.size();
-    if (own) decisions_.insert(decisions_.end(), filter.decisions(), filter.decisions() + count);
+    if (own) decisions_.insert(decisions_.end(), filter.matches(), filter.matches() + count);
   });
 }
 
@@ -89,7 +89,7 @@ void Team::take_in_joint(std::vector<Turn>& turns) {
   std::size_t unused = 0;
   for (std::size_t t = 0; named && turns.size() > 1 && t < turns.size(); ++t)
     for (const Observation& o : turns[t].packet.landmarks)
-      if (!filter.find(o.id, unused)) {
+      if (!filter.local_landmarks().find(o.id, unused)) {
         const auto entry = nearest.emplace(o.id, std::make_pair(o.z[0], turns[t].member->id)).first;
         if (o.z[0] < entry->second.first) entry->second = {o.z[0], turns[t].member->id};
       }
@@ -110,7 +110,7 @@ void Team::take_in_joint(std::vector<Turn>& turns) {
     if (!nearest.empty()) {
       const auto waits = [&](const Observation& o) {
         const auto entry = nearest.find(o.id);
-        return entry != nearest.end() && entry->second.second != vehicle && !filter.find(o.id, unused);
+        return entry != nearest.end() && entry->second.second != vehicle && !filter.local_landmarks().find(o.id, unused);
       };
       std::copy_if(packet.landmarks.begin(), packet.landmarks.end(), std::back_inserter(later[t]), waits);
       packet.landmarks.erase(std::remove_if(packet.landmarks.begin(), packet.landmarks.end(), waits),
