@@ -50,10 +50,10 @@ class EkfUpdate {
   }
   Batch& batch() { return workspace_.batch; }
   const Batch& batch() const { return workspace_.batch; }
-  // Add blocks given Jacobians by ordinary errors, of rows that the batch has: first the pose's block, then those of the
-  // landmarks that the rows depend on (numbers in the window); each gets what the pose's call returned. `relative`: the
-  // rows see points R^T (l - p) and nothing else of the pose, so that the attitude's columns of the invariant error are
-  // exactly zero.
+  // Add blocks given Jacobians by ordinary errors, of rows that the batch has: first the pose's block, then those of
+  // the landmarks that the rows depend on (numbers in the window); each gets what the pose's call returned. `relative`:
+  // the rows see points R^T (l - p) and nothing else of the pose, so that the attitude's columns of the invariant error
+  // are exactly zero.
   struct PoseBlock {
     double* value;
     bool turns;  // it has columns for the attitude
@@ -70,8 +70,8 @@ class EkfUpdate {
   double distance(Index block, Index rows) const;
   // Leaves these blocks of `rows` rows, in rising order, and their S; the window stays.
   void keep(const Index* blocks, Index count, Index rows);
-  void form_innovation();              // S once more, from the H P that stands
-  InverseInnovation invert();          // of the S that stands; throws where it is not positive definite
+  void form_innovation();      // S once more, from the H P that stands
+  InverseInnovation invert();  // of the S that stands; throws where it is not positive definite
   Index* kept() { return workspace_.kept; }
   bool* refused() { return workspace_.refused; }
   // S = L L^T, and nis(). Throws where S is not positive definite.
@@ -80,9 +80,9 @@ class EkfUpdate {
   }
   double nis() const { return nis_; }  // r^T S^-1 r of the last factor()
 
-  // --- iterate --- Gauss-Newton on the factored batch (iterated EKF, Bell and Cathey 1993); returns how often the batch
-  // was linearised. It ends where the linearisation foresaw the residual. Rows that are not relative have Jacobians that
-  // turn with the position, of which a residual tells nothing: they are linearised at least twice.
+  // --- iterate --- Gauss-Newton on the factored batch (iterated EKF, Bell and Cathey 1993); returns how often the
+  // batch was linearised. It ends where the linearisation foresaw the residual. Rows that are not relative have
+  // Jacobians that turn with the position, of which a residual tells nothing: they are linearised at least twice.
   template <class Fill>
   int iterate(const Iterations& end, Fill&& fill) {
     int i = 1;
@@ -102,15 +102,16 @@ class EkfUpdate {
   void step();                                  // iterate <- estimate retracted by that error
   double misfit(const double* residual) const;  // how far residuals at the iterate are from the foreseen ones, sigmas
 
-  // --- commit --- P and every variable. Throws, with nothing changed, where a variance of P would not stay positive or a
-  // value not finite. That costs O(n m) and tells that P would lose definiteness; State::smallest_pivot() tells surely.
+  // --- commit --- P and every variable. Throws, with nothing changed, where a variance of P would not stay positive or
+  // a value not finite. That costs O(n m) and tells that P would lose definiteness; State::smallest_pivot() tells
+  // surely.
   void commit() {
     if (!try_commit()) throw_not_definite();
   }
 
-  // --- place --- after the commit, or where the batch is empty: appends a new landmark that depends on the pose, on the
-  // window's mount (J_mount may be null) and on noise of its own. False, with nothing changed, where a result is not
-  // finite. The caller minds the capacity.
+  // --- place --- after the commit, or where the batch is empty: appends a new landmark that depends on the pose, on
+  // the window's mount (J_mount may be null) and on noise of its own. False, with nothing changed, where a result is
+  // not finite. The caller minds the capacity.
   bool place(const Point& position, const PointByPose& J_pose, const PointByMount* J_mount, const PointSquare& noise,
              bool relative);
 

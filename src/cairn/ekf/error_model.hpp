@@ -80,13 +80,6 @@ class ErrorModel {
     return J * ordinary * J.transpose();
   }
 
-  // A quantity whose error is J [e_p; e_R] by the ordinary error of a pose at `position` is J' [xi_p; xi_R] by the own
-  // one. With e_p = xi_p + G(p) xi_R, J'_R = J_R + J_p G(p).
-  template <class JPose>
-  void to_own_columns(const JPose& J_pose, const Point& position, JPose& J) const {
-    if (invariant()) J.template rightCols<kTurn>() += J_pose.template leftCols<kDim>() * arm(position);
-  }
-
   // The columns of xi_R of a Jacobian's rows, for rows that depend on the point x by J_point: block(:, R) += J_point
   // G(x). `block` is column-major, `rows` rows a column, its first column that of xi_p.
   template <class JPoint>
@@ -98,8 +91,8 @@ class ErrorModel {
         for (Index r = 0; r < rows; ++r) block[(kDim + c) * rows + r] += J_point(r, d) * G(d, c);
   }
 
-  // A M A^T for e = A xi, in place: M is the covariance of [pose; points], both triangles, leading dimension `ld`. Point
-  // number i stands at point(i); number -1 is the vehicle itself.
+  // A M A^T for e = A xi, in place: M is the covariance of [pose; points], both triangles, leading dimension `ld`.
+  // Point number i stands at point(i); number -1 is the vehicle itself.
   template <class PointOf>
   void to_ordinary(Index points, PointOf&& point, double* matrix, Index ld) const {
     if (!invariant()) return;
@@ -116,6 +109,16 @@ class ErrorModel {
     }
     for (Index c = 0; c < size; ++c)  // both triangles, bit for bit
       for (Index r = c + 1; r < size; ++r) matrix[r * ld + c] = matrix[c * ld + r];
+  }
+
+  // The same for one point of a larger covariance: its rows and columns, from `at` on, become those of the ordinary
+  // error; all others stay. xi_R has the rows from kDim on.
+  template <class Matrix>
+  void to_ordinary_point(const Point& x, Index at, Matrix& covariance) const {
+    if (!invariant()) return;
+    const Arm G = arm(x);
+    covariance.template middleRows<kDim>(at) += G * covariance.template middleRows<kTurn>(kDim);
+    covariance.template middleCols<kDim>(at) += covariance.template middleCols<kTurn>(kDim) * G.transpose();
   }
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Motion since the last update, held back so that a step of motion costs O(1): P_now = F P F^T + U N U^T.
 //
-// F turns only the pose block, and only with the standard error. N is the noise of the pose. With the invariant error it
-// reaches the point x through U_x = [0, -G(x)]: a landmark's part of P changes by products of rank kTurn, which the next
-// update adds in the same pass as its own downdate.
+// F turns only the pose block, and only with the standard error. N is the noise of the pose. With the invariant error
+// it reaches the point x through U_x = [0, -G(x)]: a landmark's part of P changes by products of rank kTurn, which the
+// next update adds in the same pass as its own downdate.
 #pragma once
 
 #include "core/arena.hpp"

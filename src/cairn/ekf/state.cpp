@@ -74,8 +74,7 @@ bool State<Pose>::propagate(const Increment<Pose>& increment) {
 template <class Pose>
 void State<Pose>::write_covariance(Index rank, const double* pose_columns) {
   const Index n = states();
-  for (Index c = 0; c < kDof; ++c)
-    std::copy(pose_columns + c * ld_ + c, pose_columns + c * ld_ + n, P_.column(c) + c);
+  for (Index c = 0; c < kDof; ++c) std::copy(pose_columns + c * ld_ + c, pose_columns + c * ld_ + n, P_.column(c) + c);
   const TriangleTerm terms[] = {{workspace_.W, ld_, workspace_.W, ld_, rank, -1.0}, motion_.term()};
   if (rank + motion_.rank() > 0) update_triangle(P_.column(0), ld_, n, terms, 2, workspace_.scratch);
   motion_.clear();
@@ -204,8 +203,8 @@ void State<Pose>::remove(Index slot) {
 template <class Pose>
 typename State<Pose>::Backup State<Pose>::backup() const {
   const Index n = states();
-  Backup backup{pose_, {points_, points_ + kDim * size()}, {}, {attitudes_, attitudes_ + companions()},
-                motion_.snapshot()};
+  Backup backup{
+      pose_, {points_, points_ + kDim * size()}, {}, {attitudes_, attitudes_ + companions()}, motion_.snapshot()};
   backup.triangle.reserve(n * (n + 1) / 2);
   for (Index c = 0; c < n; ++c) backup.triangle.insert(backup.triangle.end(), P_.column(c) + c, P_.column(c) + n);
   return backup;

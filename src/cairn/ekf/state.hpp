@@ -87,8 +87,9 @@ class State {
     const MountSquare<Pose>& covariance;
     double* cross;  // of every state with it; gets the new point's rows
   };
-  // Appends a landmark that depends on the pose (ordinary Jacobian), on a shared mount (J_mount and `mount` may be null),
-  // and on noise of its own. False, with nothing changed, where a result is not finite. The caller minds the capacity.
+  // Appends a landmark that depends on the pose (ordinary Jacobian), on a shared mount (J_mount and `mount` may be
+  // null), and on noise of its own. False, with nothing changed, where a result is not finite. The caller minds the
+  // capacity.
   bool augment(const Point& position, const PointByPose& J_pose, const PointSquare& noise, bool relative,
                const PointByMount* J_mount = nullptr, const SharedMount* mount = nullptr);
   // Removes a landmark; the last one moves into its slot.

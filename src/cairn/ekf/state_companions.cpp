@@ -62,9 +62,7 @@ bool State<Pose>::add_companion(const Pose& pose, const Square& J_pose, const Sq
   Index rows[kDof];  // of [position; attitude]
   for (Index d = 0; d < kDim; ++d) rows[d] = at + d;
   for (Index t = 0; t < kTurn; ++t) rows[kDim + t] = heading + t;
-  const auto is_new = [&](Index i) {
-    return (i >= at && i < at + kDim) || (i >= heading && i < heading + kTurn);
-  };
+  const auto is_new = [&](Index i) { return (i >= at && i < at + kDim) || (i >= heading && i < heading + kTurn); };
   for (Index i = 0; i < states(); ++i) {
     if (is_new(i)) continue;
     for (Index r = 0; r < kDof; ++r) {

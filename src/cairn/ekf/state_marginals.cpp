@@ -133,7 +133,8 @@ double State<Pose>::nees(ErrorKind error, const Point& origin, const Pose& truth
 
 template <class Pose>
 double State<Pose>::smallest_pivot() {
-  // R^T R = D P D with R in the strict upper triangle of P's storage, its diagonal and D elsewhere: no memory is needed.
+  // R^T R = D P D with R in the strict upper triangle of P's storage, its diagonal and D elsewhere: no memory is
+  // needed.
   apply_pending();
   const Index n = states();
   double smallest = 1.0;

@@ -139,8 +139,8 @@ void DenseTransaction<Pose>::hand_over(const Submap<Pose>& submap, typename Stat
   for (const Pair& pair : pairs_) slots.push_back(pair.slot);
   std::vector<Point> landmarks;
   for (std::size_t a = 0; a < fresh_.size(); ++a)
-    landmarks.push_back(move_point(submap.landmarks[fresh_[a]],
-                                   error.segment<kDim>(kDof + kDim * static_cast<Eigen::Index>(a))));
+    landmarks.push_back(
+        move_point(submap.landmarks[fresh_[a]], error.segment<kDim>(kDof + kDim * static_cast<Eigen::Index>(a))));
   handover.fused = slots.data();
   handover.fused_count = static_cast<Index>(slots.size());
   handover.fresh = landmarks.data();
@@ -229,8 +229,7 @@ JoinReport DenseTransaction<Pose>::commit() {
   if (!closed_) return report_;  // a fix and nothing else
   for (std::size_t a = 0; a < fresh_.size(); ++a)
     map_.append(fresh_ids_[a], fresh_counts_[a], map_.size() - fresh_.size() + a);
-  for (std::size_t a = 0; a < pairs_.size(); ++a)
-    map_.counts_[pairs_[a].slot - state.companions()] += pair_counts_[a];
+  for (std::size_t a = 0; a < pairs_.size(); ++a) map_.counts_[pairs_[a].slot - state.companions()] += pair_counts_[a];
   double sum = 0.0;
   for (std::size_t i = 0; i < before_.size(); ++i) {
     const double way = (state.landmark(map_.slot_of(i)) - before_[i]).squaredNorm();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One change of a dense map: a submap is gated, fused and composed, the new base may get a fix. What is not committed is
-// taken back.
+// One change of a dense map: a submap is gated, fused and composed, the new base may get a fix. What is not committed
+// is taken back.
 #pragma once
 
 #include <optional>
