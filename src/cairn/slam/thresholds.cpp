@@ -7,7 +7,9 @@
 namespace cairn {
 
 Thresholds::Thresholds(Arena& arena, const Probabilities& probabilities, Index most_rows)
-    : probabilities_(probabilities), joint_(arena.take<double>(static_cast<std::size_t>(most_rows + 1))) {
+    : probabilities_(probabilities),
+      joint_(arena.take<double>(static_cast<std::size_t>(most_rows + 1))),
+      known_(arena.take<bool>(static_cast<std::size_t>(most_rows + 1))) {
   if (arena.measuring()) return;
   for (Index rows = 1; rows <= kMostSingle; ++rows)
     single_[rows] = chi_square_quantile(static_cast<double>(rows), probabilities.single);
@@ -20,7 +22,10 @@ double Thresholds::single(Index rows) const {
 }
 
 double Thresholds::joint(Index rows) {
-  if (joint_[rows] == 0.0) joint_[rows] = chi_square_quantile(static_cast<double>(rows), probabilities_.joint);
+  if (!known_[rows]) {
+    joint_[rows] = chi_square_quantile(static_cast<double>(rows), probabilities_.joint);
+    known_[rows] = true;
+  }
   return joint_[rows];
 }
 

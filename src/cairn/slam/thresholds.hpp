@@ -26,7 +26,8 @@ class Thresholds {
   Probabilities probabilities_;
   double single_[kMostSingle + 1] = {};
   double new_landmark_[kMostNew + 1] = {};
-  double* joint_;  // by rows; 0: not computed yet
+  double* joint_;  // by rows
+  bool* known_;    // by rows: joint_ was computed
 };
 
 }  // namespace cairn
