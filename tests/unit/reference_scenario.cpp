@@ -82,18 +82,19 @@ void Pair::remove(std::uint64_t id) {
 }
 
 bool Pair::update(int sensor, const std::vector<Seen>& frame) {
+  std::vector<Observation> observations(frame.size());
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    Observation& o = filter_->staging()[i];
+    Observation& o = observations[i];
     o = {frame[i].id, {}, {}};
     std::copy_n(frame[i].z.data(), 3, o.z);
     if (frame[i].noise != sensors_[static_cast<std::size_t>(sensor)]->noise())
       std::copy_n(frame[i].noise.data(), 9, o.covariance);
   }
-  filter_->update(sensor, static_cast<Index>(frame.size()));
+  filter_->update(sensor, observations.data(), static_cast<Index>(frame.size()));
   const FrameResult expected = reference_.update_frame(*sensors_[static_cast<std::size_t>(sensor)], frame);
   bool same = filter_->report().iterations == expected.iterations && near(filter_->report().nis, expected.nis);
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    const Match& match = filter_->decisions()[i];
+    const Match& match = filter_->matches()[i];
     same = same && (match.decision != Decision::rejected) == expected.taken[i];
     if (match.reason != Reason::batch_gate) same = same && near(match.distance, std::max(0.0, expected.distance[i]));
   }
@@ -109,11 +110,12 @@ Difference Pair::difference() {
   };
   note(filter_->pose().translation(), x.pose.translation());
   note((filter_->pose().rotation() * x.pose.rotation().inverse()).log(), Vector3::Zero());
-  if (filter_->size() != ids.size()) return {1, 1};
+  const Landmarks& landmarks = filter_->landmarks();
+  if (landmarks.size() != ids.size()) return {1, 1};
   std::vector<std::size_t> indices(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (!filter_->find(ids[i], indices[i])) return {1, 1};
-    note(filter_->position(indices[i]), x.landmarks[i]);
+    if (!landmarks.find(ids[i], indices[i])) return {1, 1};
+    note(landmarks.position(indices[i]), x.landmarks[i]);
   }
   const Dynamic expected = reference_.ordinary_covariance();
   Dynamic actual(expected.rows(), expected.cols());

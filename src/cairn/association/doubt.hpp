@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "ekf/iterate.hpp"
+#include "linear/joint_gate.hpp"
 #include "geometry/types.hpp"
 
 namespace cairn {

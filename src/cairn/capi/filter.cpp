@@ -50,7 +50,8 @@ cairn_status cairn_filter_required_bytes(const cairn_filter_options* options, si
     check_pointer(bytes, "bytes");
     std::visit(
         [&](const auto& o) {
-          *bytes = sizeof(cairn_filter) + Filter<PoseOf<decltype(o)>>::required_bytes(o) + Arena::kAlignment;
+          *bytes = sizeof(cairn_filter) + Filter<PoseOf<decltype(o)>>::required_bytes(o) +
+                   cairn_filter::buffer_bytes(o.max_observations) + Arena::kAlignment;
         },
         checked);
   });
@@ -60,8 +61,7 @@ cairn_status cairn_filter_create(const cairn_filter_options* options, cairn_filt
   return guard([&] {
     const auto checked = read_filter_options(options);
     check_pointer(filter, "filter");
-    std::visit([&](const auto& o) { *filter = new cairn_filter(Filter<PoseOf<decltype(o)>>::arena_bytes(o), o); },
-               checked);
+    std::visit([&](const auto& o) { *filter = new cairn_filter(o); }, checked);
   });
 }
 

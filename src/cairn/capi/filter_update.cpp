@@ -44,7 +44,7 @@ namespace {
 template <class AnyFilter>
 void write_matches(const AnyFilter& filter, std::size_t count, cairn_match* matches) {
   if (matches == nullptr) return;
-  for (std::size_t i = 0; i < count; ++i) write_match(filter.decisions()[i], matches + i);
+  for (std::size_t i = 0; i < count; ++i) write_match(filter.matches()[i], matches + i);
 }
 
 }  // namespace
@@ -88,8 +88,8 @@ cairn_status cairn_filter_update(cairn_filter* filter, int32_t sensor, const cai
         throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu", count, most);
       const bool named = f.options().association == AssociationKind::known;
       for (std::size_t i = 0; i < count; ++i)
-        read_observation(observations[i], "observations", i, rows, named, f.staging()[i]);
-      f.update(sensor, static_cast<Index>(count));
+        read_observation(observations[i], "observations", i, rows, named, filter->observations[i]);
+      f.update(sensor, filter->observations, static_cast<Index>(count));
       write_matches(f, count, matches);
     });
   });

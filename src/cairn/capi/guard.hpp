@@ -28,15 +28,23 @@ struct cairn_map {
 // The filter of a vehicle in space or in the plane.
 struct cairn_filter {
   template <class Pose>
-  cairn_filter(std::size_t arena_bytes, const cairn::FilterOptions<Pose>& options)
-      : arena(arena_bytes),
+  explicit cairn_filter(const cairn::FilterOptions<Pose>& options)
+      : arena(cairn::Filter<Pose>::arena_bytes(options) + buffer_bytes(options.max_observations)),
         filter(std::in_place_type<cairn::Filter<Pose>>, arena, options),
+        observations(arena.take<cairn::Observation>(static_cast<std::size_t>(options.max_observations))),
         number(cairn::capi::next_filter_number()),
         map{&std::get<cairn::Filter<Pose>>(filter).landmarks(), number, nullptr},
-        local_map{&std::get<cairn::Filter<Pose>>(filter), number, nullptr} {}
+        local_map{&std::get<cairn::Filter<Pose>>(filter).local_landmarks(), number, nullptr} {}
+  static std::size_t buffer_bytes(cairn::Index max_observations) {  // of `observations`
+    cairn::Arena measure;
+    measure.take<cairn::Observation>(static_cast<std::size_t>(max_observations));
+    return measure.used();
+  }
+
   cairn::Arena arena;
   std::variant<cairn::Filter<cairn::SE3>, cairn::Filter<cairn::SE2>> filter;
-  std::uint64_t number;  // identifies this filter in maps, so that no information is merged twice
+  cairn::Observation* observations;  // buffer for the observations of one frame: max_observations
+  std::uint64_t number;              // identifies this filter in maps, so that no information is merged twice
   cairn_map map;
   cairn_map local_map;
 };

@@ -85,7 +85,7 @@ cairn_status cairn_map_kind(const cairn_map* map, int32_t* kind) {
   return guard([&] {
     const cairn_map& source = read_handle(map, "map");
     check_pointer(kind, "kind");
-    *kind = is_sparse(*source.landmarks) ? CAIRN_MAP_SPARSE : CAIRN_MAP_DENSE;
+    *kind = source.landmarks->kind() == MapKind::sparse ? CAIRN_MAP_SPARSE : CAIRN_MAP_DENSE;
   });
 }
 

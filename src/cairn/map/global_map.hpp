@@ -27,14 +27,6 @@ struct FixReport {
   double distance = 0.0;
 };
 
-// A fix that comes with a closing, and what became of it.
-template <class Pose>
-struct FixRequest {
-  const AbsoluteFix<Pose>& fix;
-  double threshold;
-  FixReport report;
-};
-
 template <class Pose>
 struct MapOptions {
   ErrorKind error = ErrorKind::invariant;
@@ -53,18 +45,39 @@ struct MapOptions {
   typename Pose::Square initial_covariance = Pose::Square::Zero();  // ordinary
 };
 
+// One change of a map, all or nothing: a transaction that is destroyed without commit() leaves the map as it was. So
+// does one whose call threw; it takes no further call. A map has one transaction at a time, and changes by it only.
+template <class Pose>
+class MapTransaction {
+ public:
+  virtual ~MapTransaction() = default;
+  // Adds a submap that began at the map's base; its end is the new base. At most once.
+  virtual void join(const Submap<Pose>& submap) = 0;
+  // Applies an absolute fix to the base, unless its squared distance exceeds `threshold`. At most once, after join().
+  virtual FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) = 0;
+  // Makes the change final; the last call. Returns the report of the join, which is complete only now.
+  virtual JoinReport commit() = 0;
+};
+
 // Every call that throws leaves the map as it was.
 template <class Pose>
 class GlobalMap : public Landmarks {
  public:
   bool planar() const final { return Pose::kDim == 2; }
 
-  // Takes in a submap that began at base(); its end is the new base, which then gets the fix, if one comes along: both
-  // or neither.
-  virtual JoinReport join_and_fix(const Submap<Pose>& submap, FixRequest<Pose>* fix) = 0;
-  JoinReport join(const Submap<Pose>& submap) { return join_and_fix(submap, nullptr); }
-  // The base gets an absolute fix; refused where its distance exceeds `threshold`.
-  virtual FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) = 0;
+  virtual std::unique_ptr<MapTransaction<Pose>> begin() = 0;
+  // Transactions of one call.
+  JoinReport join(const Submap<Pose>& submap) {
+    const auto transaction = begin();
+    transaction->join(submap);
+    return transaction->commit();
+  }
+  FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) {
+    const auto transaction = begin();
+    const FixReport report = transaction->fix(fix, threshold);
+    transaction->commit();
+    return report;
+  }
   virtual void remove(std::uint64_t id) = 0;
 
   // Where the next submap begins.

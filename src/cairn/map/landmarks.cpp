@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/embedding.hpp"
+#include "map/dense_landmarks.hpp"
 #include "map/spatial_index.hpp"
 
 namespace cairn {
@@ -53,6 +54,10 @@ std::vector<std::size_t> indices_of(const std::vector<Entry>& entries) {
 }
 
 }  // namespace
+
+std::unique_ptr<Landmarks> Landmarks::copy() const {
+  return std::make_unique<DenseLandmarks>(*this);
+}
 
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "geometry/types.hpp"
@@ -11,6 +12,9 @@
 namespace cairn {
 
 class SpatialIndex;
+
+// How a map holds its landmarks: with their joint covariance, or as a sparse system of submaps.
+enum class MapKind { dense, sparse };
 
 class Landmarks {
  public:
@@ -31,6 +35,9 @@ class Landmarks {
   virtual const SpatialIndex* spatial_index() const { return nullptr; }
   // All of them stand at z = 0 and know nothing else.
   virtual bool planar() const { return false; }
+  virtual MapKind kind() const { return MapKind::dense; }
+  // A map of its own with these landmarks: the same map where it can be copied whole (SparseMap), else DenseLandmarks.
+  virtual std::unique_ptr<Landmarks> copy() const;
 };
 
 // Of a joint covariance with a pose before `count` landmarks, kDof + kDim count on a side: the same in space, 6 + 3

@@ -22,6 +22,4 @@ struct OwnedMap {
   std::vector<MergedId> merged;        // of the last merge
 };
 
-bool is_sparse(const Landmarks& map);
-
 }  // namespace cairn

@@ -5,13 +5,9 @@ namespace cairn {
 
 template <class Pose>
 void to_ordinary(const Submap<Pose>& submap, const std::vector<Eigen::Index>& landmarks, Eigen::MatrixXd& covariance) {
-  if (submap.error == ErrorKind::standard) return;
-  for (const Eigen::Index i : landmarks) {
-    const typename Pose::Rotation::Turn G = Pose::Rotation::turn(submap.landmarks[i]);
-    const Eigen::Index at = Pose::kDof + Pose::kDim * i;
-    covariance.middleRows<Pose::kDim>(at) += G * covariance.middleRows<Pose::kTurn>(Pose::kDim);
-    covariance.middleCols<Pose::kDim>(at) += covariance.middleCols<Pose::kTurn>(Pose::kDim) * G.transpose();
-  }
+  const ErrorModel<Pose> model(submap.error);
+  for (const Eigen::Index i : landmarks)
+    model.to_ordinary_point(submap.landmarks[i], Pose::kDof + Pose::kDim * i, covariance);
 }
 
 template void to_ordinary<SE2>(const Submap<SE2>&, const std::vector<Eigen::Index>&, Eigen::MatrixXd&);

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ekf/ekf.hpp"
+#include "ekf/error_model.hpp"
 
 namespace cairn {
 

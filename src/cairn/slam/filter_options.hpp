@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "ekf/ekf.hpp"
+#include "ekf/error_model.hpp"
 
 namespace cairn {
 

@@ -58,7 +58,7 @@ void Cooperation::scan(VehicleFilter& vehicle, int sensor, const std::vector<Obs
     counts_.placed += static_cast<std::uint64_t>(filter.report().placed);
     counts_.rejected += static_cast<std::uint64_t>(filter.report().rejected);
     counts_.sightings_used += vehicles.size();
-    const Match* matches = filter.decisions();
+    const Match* matches = filter.matches();
     if (own) own_matches_.insert(own_matches_.end(), matches, matches + landmarks.size() + vehicles.size());
   });
 }

@@ -12,13 +12,9 @@ class SharedMap final : public GlobalMap<SE2> {
  public:
   SharedMap(DenseMap<SE2>& map, std::uint64_t vehicle) : map_(map), vehicle_(vehicle) {}
 
-  JoinReport join_and_fix(const Submap<SE2>& submap, FixRequest<SE2>* fix) override {
+  std::unique_ptr<MapTransaction<SE2>> begin() override {
     map_.look_from(vehicle_);
-    return map_.join_and_fix(submap, fix);
-  }
-  FixReport fix(const AbsoluteFix<SE2>& fix, double threshold) override {
-    map_.look_from(vehicle_);
-    return map_.fix(fix, threshold);
+    return map_.begin();
   }
   void remove(std::uint64_t id) override { map_.remove(id); }
   SE2 base() const override { return map_.vehicle_base(vehicle_); }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ekf/ekf.hpp"
+#include "ekf/state.hpp"
 
 namespace cairn {
 namespace {
@@ -88,7 +88,7 @@ VehicleEstimate Team::estimate(std::uint64_t vehicle) const {
 
 double Team::pose_nees(const SE2& truth) const {
   const VehicleEstimate now = estimate(options_.mail.vehicle);
-  return Ekf<SE2>::nees(options_.filter.error, options_.filter.initial_pose.translation(), truth, now.pose,
+  return State<SE2>::nees(options_.filter.error, options_.filter.initial_pose.translation(), truth, now.pose,
                         now.covariance);
 }
 

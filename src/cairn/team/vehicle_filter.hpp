@@ -25,6 +25,7 @@ class VehicleFilter {
  private:
   Arena arena_;
   Filter<SE2> filter_;
+  std::vector<Observation> scan_;  // landmarks, then vehicles
 };
 
 }  // namespace cairn

@@ -12,8 +12,8 @@
 #include "core/error.hpp"
 #include "map/dense_landmarks.hpp"
 #include "map/join/dense/dense_map.hpp"
-#include "map/owned_map.hpp"
 #include "map/join/sparse/sparse_map.hpp"
+#include "map/owned_map.hpp"
 #include "numerical.hpp"
 
 using namespace cairn;
@@ -391,7 +391,7 @@ TEST_CASE("merge: maps of the plane are copied, and not merged") {
   for (const Landmarks* source : {static_cast<const Landmarks*>(&sparse), static_cast<const Landmarks*>(&dense)}) {
     const OwnedMap copy(*source, {1}), of_space(space, {2});
     const Landmarks& own = *copy.landmarks;
-    CHECK(is_sparse(own) == (source == &sparse));
+    CHECK((own.kind() == MapKind::sparse) == (source == &sparse));
     CHECK(own.planar());
     CHECK(!of_space.landmarks->planar());
     REQUIRE(own.size() == 3);

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <type_traits>
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
-#include "ekf/iterate.hpp"
+#include "linear/joint_gate.hpp"
 #include "map/join/sparse/sparse_queries.hpp"
 #include "map/join/sparse/sparse_solve.hpp"
 #include "map/join/sparse/sparse_undo.hpp"
@@ -312,6 +313,8 @@ void SparseMap<Pose>::roll_back(Undo& undo) noexcept {
   bases_.resize(undo.base_count);
   base_saved_.resize(undo.base_count);
   visible_.resize(undo.visible);
+  prior_ = undo.prior;
+  prior_covariance_ = undo.prior_covariance;
   tree_ = std::move(undo.tree);
   fixes_ = std::move(undo.fixes);
   pending_ = std::move(undo.pending);
@@ -329,6 +332,8 @@ SparseMap<Pose>::Undo::Undo(const SparseMap& map, Number number)
       leaf_count(map.leaves_.size()),
       base_count(map.bases_.size()),
       visible(map.visible_.size()),
+      prior(map.prior_),
+      prior_covariance(map.prior_covariance_),
       tree(map.tree_),
       fixes(map.fixes_),
       pending(map.pending_),
@@ -349,49 +354,75 @@ double SparseMap<Pose>::cost_since(const Undo& undo) const {
 // --- joining ---
 
 template <class Pose>
-JoinReport SparseMap<Pose>::join_and_fix(const Submap<Pose>& submap, FixRequest<Pose>* fix) {
+class SparseMap<Pose>::Transaction final : public MapTransaction<Pose> {
+ public:
+  explicit Transaction(SparseMap& map) : map_(map), undo_(std::in_place, map, ++map.change_) {}
+  ~Transaction() override {
+    if (undo_) map_.roll_back(*undo_);
+  }
+
+  void join(const Submap<Pose>& submap) override;
+  FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) override;
+  JoinReport commit() override;
+
+ private:
+  SparseMap& map_;
+  std::optional<Undo> undo_;
+  JoinReport report_;
+  bool changed_ = false;
+};
+
+template <class Pose>
+std::unique_ptr<MapTransaction<Pose>> SparseMap<Pose>::begin() {
+  return std::make_unique<Transaction>(*this);
+}
+
+template <class Pose>
+void SparseMap<Pose>::Transaction::join(const Submap<Pose>& submap) {
   std::vector<char> left_out(submap.ids.size(), 0);
-  JoinReport report;
-  if (try_join(submap, left_out, false, fix, report)) return report;
+  changed_ = true;
+  const Number leaf = map_.add(submap, left_out, *undo_, report_);
+  if (report_.rows == 0 || !map_.suspicious(leaf, report_)) return;
   // Something does not fit: the exact gates, which are dearer, tell what.
-  gate(submap, left_out);
-  report = JoinReport();
-  try_join(submap, left_out, true, fix, report);
+  map_.roll_back(*undo_);
+  undo_.reset();
+  map_.gate(submap, left_out);
+  report_ = JoinReport();
+  undo_.emplace(map_, ++map_.change_);
+  map_.add(submap, left_out, *undo_, report_);
+}
+
+template <class Pose>
+FixReport SparseMap<Pose>::Transaction::fix(const AbsoluteFix<Pose>& fix, double threshold) {
+  if (changed_) map_.refresh_base_covariance();
+  const FixReport report = map_.fix_base(fix, threshold, *undo_);
+  changed_ = changed_ || (report.accepted && !map_.leaves_.empty());
   return report;
 }
 
-// False, with nothing changed, where a landmark may contradict the map; the last try takes what it gets.
 template <class Pose>
-bool SparseMap<Pose>::try_join(const Submap<Pose>& submap, const std::vector<char>& left_out, bool last,
-                               FixRequest<Pose>* fix, JoinReport& report) {
-  Undo undo(*this, ++change_);
-  try {
-    const Number leaf = take_in(submap, left_out, undo, report);
+JoinReport SparseMap<Pose>::Transaction::commit() {
+  if (changed_) map_.finish(*undo_, report_);
+  undo_.reset();
+  return report_;
+}
+
+// Adds the submap and solves; the report tells how well the fused landmarks agree.
+template <class Pose>
+typename SparseMap<Pose>::Number SparseMap<Pose>::add(const Submap<Pose>& submap, const std::vector<char>& left_out,
+                                                      Undo& undo, JoinReport& report) {
+  const Number leaf = take_in(submap, left_out, undo, report);
+  optimise(undo, report);
+  report.rows = kDim * report.fused;
+  if (report.rows == 0) return leaf;
+  // To first order the cost grows by half of what the fused landmarks' two estimates have against each other.
+  report.threshold = chi_square_quantile(static_cast<double>(report.rows), options_.joint_gate_probability);
+  report.distance = 2.0 * cost_since(undo);
+  if (report.distance > report.threshold && !settled_) {  // it may be too early to tell
     optimise(undo, report);
-    report.rows = kDim * report.fused;
-    if (report.rows > 0) {
-      // To first order the cost grows by half of what the fused landmarks' two estimates have against each other.
-      report.threshold = chi_square_quantile(static_cast<double>(report.rows), options_.joint_gate_probability);
-      report.distance = 2.0 * cost_since(undo);
-      if (report.distance > report.threshold && !settled_) {  // it may be too early to tell
-        optimise(undo, report);
-        report.distance = 2.0 * cost_since(undo);
-      }
-      if (!last && suspicious(leaf, report)) {
-        roll_back(undo);
-        return false;
-      }
-    }
-    if (fix != nullptr) {
-      refresh_base_covariance();  // of what the fix comes upon
-      fix->report = fix_base(fix->fix, fix->threshold, undo);
-    }
-    finish(undo, report);
-  } catch (...) {
-    roll_back(undo);
-    throw;
+    report.distance = 2.0 * cost_since(undo);
   }
-  return true;
+  return leaf;
 }
 
 // Appends the submap, its end and its new landmarks, and makes the factor anew where that reaches.

@@ -10,11 +10,11 @@
 #include <unordered_map>
 
 #include "geometry/embedding.hpp"
-#include "map/join/sparse/elimination_tree.hpp"
 #include "map/global_map.hpp"
+#include "map/join/sparse/elimination_tree.hpp"
+#include "map/join/sparse/submap_factor.hpp"
 #include "map/merge/merge.hpp"
 #include "map/spatial_index.hpp"
-#include "map/join/sparse/submap_factor.hpp"
 
 namespace cairn {
 
@@ -33,8 +33,7 @@ class SparseMap final : public GlobalMap<Pose>, private LeafSource {
   SparseMap(const SparseMap& other);
   SparseMap& operator=(const SparseMap&) = delete;
 
-  JoinReport join_and_fix(const Submap<Pose>& submap, FixRequest<Pose>* fix) override;
-  FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) override;
+  std::unique_ptr<MapTransaction<Pose>> begin() override;
   void remove(std::uint64_t id) override;
   Pose base() const override { return bases_.back(); }
   Square base_covariance() const override { return base_covariance_; }
@@ -53,6 +52,8 @@ class SparseMap final : public GlobalMap<Pose>, private LeafSource {
   void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override;
   void prepare_covariances(const std::vector<std::size_t>& indices) const override;
   const SpatialIndex* spatial_index() const override { return &index_; }
+  MapKind kind() const override { return MapKind::sparse; }
+  std::unique_ptr<Landmarks> copy() const override { return std::make_unique<SparseMap>(*this); }
 
   std::size_t memory_bytes() const;
   double cost() const;  // half the sum of all squared normalised residuals
@@ -95,6 +96,7 @@ class SparseMap final : public GlobalMap<Pose>, private LeafSource {
     Number saved = 0;
   };
   struct Undo;
+  class Transaction;
   class Step;
   struct Before;
   struct StepEntry {  // of one variable, ordinary error in map axes
@@ -138,8 +140,7 @@ class SparseMap final : public GlobalMap<Pose>, private LeafSource {
   void save_leaf(Undo& undo, Number leaf);
   void roll_back(Undo& undo) noexcept;
 
-  bool try_join(const Submap<Pose>& submap, const std::vector<char>& left_out, bool last, FixRequest<Pose>* fix,
-                JoinReport& report);
+  Number add(const Submap<Pose>& submap, const std::vector<char>& left_out, Undo& undo, JoinReport& report);
   Number take_in(const Submap<Pose>& submap, const std::vector<char>& left_out, Undo& undo, JoinReport& report);
   void set_scales(const Submap<Pose>& submap);
   void refactor(TreeChanges changes, Undo& undo, JoinReport& report);

@@ -325,6 +325,7 @@ FixReport SparseMap<Pose>::fix_base(const AbsoluteFix<Pose>& fix, double thresho
     const Eigen::MatrixXd PJ = base_covariance_ * J.transpose();
     const typename Pose::Tangent e = PJ * S.ldlt().solve(r);
     const Square lower = base_covariance_ - PJ * S.ldlt().solve(PJ.transpose());
+    save_base(undo, 0);
     bases_[0] = prior_ = retract(T, e);
     base_covariance_ = prior_covariance_ = lower.template selfadjointView<Eigen::Lower>();
     report.iterations = 1;
@@ -341,20 +342,6 @@ FixReport SparseMap<Pose>::fix_base(const AbsoluteFix<Pose>& fix, double thresho
   optimise(undo, joined);
   report.iterations = joined.iterations;
   return report;
-}
-
-template <class Pose>
-FixReport SparseMap<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold) {
-  Undo undo(*this, ++change_);
-  try {
-    const FixReport report = fix_base(fix, threshold, undo);
-    JoinReport unused;
-    if (report.accepted && !leaves_.empty()) finish(undo, unused);
-    return report;
-  } catch (...) {
-    roll_back(undo);
-    throw;
-  }
 }
 
 }  // namespace cairn

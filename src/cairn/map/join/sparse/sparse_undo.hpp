@@ -13,6 +13,8 @@ struct SparseMap<Pose>::Undo {
   Number change;
   Number landmarks;  // how many of each there were
   std::size_t leaf_count, base_count, visible;
+  Pose prior;
+  Square prior_covariance;
   Tree tree;
   std::map<Number, std::vector<AbsoluteFix<Pose>>> fixes;
   std::vector<Number> pending;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A submap handed over to the filter of the whole map (docs/submaps.md). Included by ekf.cpp alone.
-#pragma once
-
-#include "ekf/ekf.hpp"
+// A submap handed over to the state of the whole map (docs/submaps.md).
+#include "ekf/ekf_update.hpp"
+#include "ekf/state.hpp"
 #include "linear/triangle.hpp"
 
 namespace cairn {
@@ -14,10 +13,10 @@ namespace cairn {
 //   standard   e_R' = e_RS + R_S e_RL,  e_x' = e_pS + G(R_S x_L) e_RS + R_S e_xL,  e_l' = e_l
 // where the submap's errors are K y + w, y the errors of the fused landmarks as seen from the base, and w ~ N(0, W).
 template <class Pose>
-void Ekf<Pose>::compose(const Handover& handover) {
+void State<Pose>::compose(const Handover& handover) {
   using Matrix = Eigen::MatrixXd;
   using Eigen::all;
-  const bool invariant = error_ == ErrorKind::invariant;
+  const bool invariant = model_.invariant();
   const Index fused = handover.fused_count, fresh = handover.fresh_count;
   const Index rest = kDof + kDim * fresh, q = kDof + kDim * fused, n = states();
   const PointSquare R = pose_.rotation().matrix();
@@ -28,10 +27,10 @@ void Ekf<Pose>::compose(const Handover& handover) {
   std::vector<Index> chosen(q);
   for (Index c = 0; c < kDof; ++c) chosen[c] = c;
   for (Index a = 0; a < fused; ++a)
-    for (Index d = 0; d < kDim; ++d) chosen[kDof + kDim * a + d] = state(handover.fused[a]) + d;
+    for (Index d = 0; d < kDim; ++d) chosen[kDof + kDim * a + d] = layout_.point(handover.fused[a]).offset + d;
   Matrix columns(n, q);
   for (Index c = 0; c < q; ++c)
-    for (Index r = 0; r < n; ++r) columns(r, c) = symmetric(r, chosen[c]);
+    for (Index r = 0; r < n; ++r) columns(r, c) = P_.symmetric(r, chosen[c]);
 
   // y = R_S^T (l - p_S) of the fused landmarks by the errors of base and landmarks.
   Matrix Y = Matrix::Zero(kDim * fused, q);
@@ -59,7 +58,7 @@ void Ekf<Pose>::compose(const Handover& handover) {
   set_point(0, R * handover.T_base_end.translation());
   for (Index a = 0; a < fresh; ++a) set_point(kDof + kDim * a, R * handover.fresh[a]);
   if (invariant) {
-    const typename Rotation::Turn arm = -Rotation::turn(p);
+    const typename ErrorModel<Pose>::Arm arm = -model_.arm(p);
     for (Index row = 0; row < rest; row += row == 0 ? kDof : kDim) {
       A.middleRows(row, kDim) += arm * C;
       B.block(row, kDim, kDim, kTurn) += arm * J_turn;
@@ -70,60 +69,38 @@ void Ekf<Pose>::compose(const Handover& handover) {
   Matrix block = A * columns(chosen, all) * A.transpose() + noise;
   block = (0.5 * (block + block.transpose())).eval();
 
-  if (invariant && size_ > 0) {
+  if (invariant && size() > 0) {
     const Matrix turned = columns * C.transpose();  // covariance of all states with R_S xi_RL
     const Matrix pivot = C * turned(chosen, all) + noise.block(kDim, kDim, kTurn, kTurn);
     Matrix new_turned = A * turned(chosen, all) + noise.middleCols(kDim, kTurn);
     Matrix left = Matrix::Zero(n, kTurn), right = Matrix::Zero(n, kTurn);
-    for (Index slot = 0; slot < size_; ++slot) {
-      const typename Rotation::Turn U = -Rotation::turn(local(slot));
-      left.middleRows(state(slot), kDim) = U;
-      right.middleRows(state(slot), kDim) = turned.middleRows(state(slot), kDim) + 0.5 * U * pivot;
+    for (Index slot = 0; slot < size(); ++slot) {
+      const typename ErrorModel<Pose>::Arm U = -model_.arm(local(slot));
+      const Index row = layout_.point(slot).offset;
+      left.middleRows(row, kDim) = U;
+      right.middleRows(row, kDim) = turned.middleRows(row, kDim) + 0.5 * U * pivot;
     }
     across += new_turned * left.transpose();
     std::vector<double> workspace(update_triangle_workspace(n, 2 * kTurn));
     const TriangleTerm terms[] = {{left.data(), n, right.data(), n, kTurn, 1.0},
                                   {right.data(), n, left.data(), n, kTurn, 1.0}};
-    update_triangle(P_, ld_, n, terms, 2, workspace.data());
+    update_triangle(P_.column(0), ld_, n, terms, 2, workspace.data());
   }
   for (Index c = 0; c < kDof; ++c) {
-    for (Index r = c; r < kDof; ++r) P(r, c) = block(r, c);
-    for (Index r = kDof; r < n; ++r) P(r, c) = across(c, r);
+    for (Index r = c; r < kDof; ++r) P_(r, c) = block(r, c);
+    for (Index r = kDof; r < n; ++r) P_(r, c) = across(c, r);
   }
   for (Index r = 0; r < kDim * fresh; ++r) {
-    for (Index c = 0; c < kDof; ++c) P(n + r, c) = block(kDof + r, c);
-    for (Index c = kDof; c < n; ++c) P(n + r, c) = across(kDof + r, c);
-    for (Index c = 0; c <= r; ++c) P(n + r, n + c) = block(kDof + r, kDof + c);
+    for (Index c = 0; c < kDof; ++c) P_(n + r, c) = block(kDof + r, c);
+    for (Index c = kDof; c < n; ++c) P_(n + r, c) = across(kDof + r, c);
+    for (Index c = 0; c <= r; ++c) P_(n + r, n + c) = block(kDof + r, kDof + c);
   }
-  for (Index a = 0; a < fresh; ++a) Eigen::Map<Point>(landmarks_ + kDim * (size_ + a)) = p + R * handover.fresh[a];
-  size_ += fresh;
+  for (Index a = 0; a < fresh; ++a) place_of(size() + a) = p + R * handover.fresh[a];
+  layout_.add_points(fresh);
   pose_ = pose_ * handover.T_base_end;
 }
 
-template <class Pose>
-typename Ekf<Pose>::Backup Ekf<Pose>::backup() const {
-  const Index n = states();
-  Backup backup{pose_,    {landmarks_, landmarks_ + kDim * size_},
-                {},       {companion_rotations_, companion_rotations_ + companions_},
-                pending_, F_,
-                N_};
-  backup.triangle.reserve(n * (n + 1) / 2);
-  for (Index c = 0; c < n; ++c) backup.triangle.insert(backup.triangle.end(), P_ + c * ld_ + c, P_ + c * ld_ + n);
-  return backup;
-}
-
-template <class Pose>
-void Ekf<Pose>::restore(const Backup& backup) {
-  pose_ = backup.pose;
-  size_ = static_cast<Index>(backup.landmarks.size()) / kDim;
-  std::copy(backup.landmarks.begin(), backup.landmarks.end(), landmarks_);
-  std::copy(backup.rotations.begin(), backup.rotations.end(), companion_rotations_);
-  const double* from = backup.triangle.data();
-  const Index n = states();
-  for (Index c = 0; c < n; from += n - c, ++c) std::copy_n(from, n - c, P_ + c * ld_ + c);
-  pending_ = backup.pending;
-  F_ = backup.F;
-  N_ = backup.N;
-}
+template void State<SE2>::compose(const Handover&);
+template void State<SE3>::compose(const Handover&);
 
 }  // namespace cairn

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of a filter: one pose, many points (landmarks and companions), and their covariance, of which this class is
+// the only owner. Which error the covariance speaks of is ErrorModel's; where each variable stands is StateLayout's.
+//
+// Only the lower triangle of P is kept. Motion between two updates costs O(1): PendingMotion holds it back until the
+// next update. An update is made by begin() (ekf_update.hpp).
+//
+// Companions are other vehicles. A companion's position is a point, in one of the first slots; its attitude is a block
+// of its own. The filter looks at the world from one vehicle; activate() makes that another one.
+#pragma once
+
+#include <vector>
+
+#include "core/arena.hpp"
+#include "ekf/error_model.hpp"
+#include "ekf/pending_motion.hpp"
+#include "ekf/state_layout.hpp"
+#include "ekf/update_workspace.hpp"
+#include "linear/lower_triangle.hpp"
+#include "motion/motion.hpp"
+#include "sensor/sensor.hpp"
+
+namespace cairn {
+
+template <class Pose>
+class EkfUpdate;
+
+template <class Pose>
+class State {
+ public:
+  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  static constexpr int kMount = kMountErrors<Pose>;  // errors of a sensor's mount that a frame may have in common
+  using Rotation = typename Pose::Rotation;
+  using Point = typename Pose::Point;
+  using Tangent = typename Pose::Tangent;
+  using Square = typename Pose::Square;
+  using PointSquare = Eigen::Matrix<double, kDim, kDim>;
+  using PointByPose = Eigen::Matrix<double, kDim, kDof>;
+  using PointByMount = Eigen::Matrix<double, kDim, kMount>;
+  using Capacity = StateCapacity<Pose>;
+
+  State(Arena& arena, ErrorKind error, const Capacity& capacity);
+
+  // Forgets everything; the covariance is that of the ordinary error [dp; dtheta].
+  void start(const Pose& pose, const Square& ordinary_covariance);
+
+  // --- estimates ---
+  const ErrorModel<Pose>& model() const { return model_; }
+  Pose pose() const { return Pose(pose_.rotation(), pose_.translation() + origin_); }
+  Index size() const { return layout_.points(); }  // slots: companions, then landmarks
+  Index states() const { return layout_.states(); }
+  Point landmark(Index slot) const { return local(slot) + origin_; }
+
+  // --- propagate --- O(1). False, with nothing changed, where a result is not finite.
+  bool propagate(const Increment<Pose>& increment);
+
+  // --- update --- of the pose, of a mount where `mount_noise` is given, and of the chosen points; O(states window).
+  struct Window {
+    const Index* slots = nullptr;
+    Index count = 0;
+    const MountSquare<Pose>* mount_noise = nullptr;  // of a mount whose error a whole frame has in common
+  };
+  EkfUpdate<Pose> begin(const Window& window);
+  double* scratch() { return workspace_.scratch; }  // m^2 + cholesky_workspace(m) doubles, m = rows(), between updates
+
+  // --- marginals ---
+  // Joint covariance of the pose and `count` points, both triangles, in the state's own error coordinates.
+  void gather(const Index* slots, Index count, double* out, Index ld) const;
+  // The same in ordinary errors.
+  void gather_ordinary(const Index* slots, Index count, double* out, Index ld) const;
+  // Covariance of e_l - e_p - turn(l - p) e_R, all that a sensor of R^T (l - p) feels of pose and landmark. With the
+  // invariant error it is that of xi_l - xi_p.
+  PointSquare relative_covariance(Index slot) const;
+  Square pose_covariance() const;  // ordinary
+  PointSquare landmark_covariance(Index slot) const;
+  // Normalised error squared of the pose in the state's own coordinates; negative where its covariance is singular.
+  double pose_nees(const Pose& truth) const;
+  // The same of any estimate with an ordinary covariance; the invariant error counts positions from `origin`.
+  static double nees(ErrorKind error, const Point& origin, const Pose& truth, const Pose& estimate,
+                     const Square& ordinary_covariance);
+  // Smallest pivot of the Cholesky factor of P scaled to unit diagonal; uses the upper triangle as scratch.
+  double smallest_pivot();
+
+  // --- points ---
+  // A mount whose error the last update estimated together with the state.
+  struct SharedMount {
+    const MountSquare<Pose>& covariance;
+    double* cross;  // of every state with it; gets the new point's rows
+  };
+  // Appends a landmark that depends on the pose (ordinary Jacobian), on a shared mount (J_mount and `mount` may be
+  // null), and on noise of its own. False, with nothing changed, where a result is not finite. The caller minds the
+  // capacity.
+  bool augment(const Point& position, const PointByPose& J_pose, const PointSquare& noise, bool relative,
+               const PointByMount* J_mount = nullptr, const SharedMount* mount = nullptr);
+  // Removes a landmark; the last one moves into its slot.
+  void remove(Index slot);
+  // Two landmarks change slots.
+  void exchange_landmarks(Index a, Index b);
+  // Appends a landmark that stands where another one does, but for an error of its own. The caller minds the capacity.
+  void duplicate(Index slot, const PointSquare& noise);
+
+  // --- companions --- numbered from 0, by the slots of their positions
+  Index companions() const { return layout_.companions(); }
+  Pose companion(Index k) const { return Pose(attitudes_[k], landmark(k)); }
+  Square companion_covariance(Index k) const;  // ordinary
+  // Adds a companion whose ordinary error is J_pose times that of the state's pose (zero where it was told, not seen)
+  // and a noise of its own; the landmark that had its slot moves behind the last one. The caller minds the capacity.
+  // False, with nothing changed, where a result is not finite.
+  bool add_companion(const Pose& pose, const Square& J_pose, const Square& noise);
+  void remove_companion(Index k);  // the last companion becomes number k, the last landmark the first one
+  // The state's pose is companion k's from now on, and companion k is the vehicle that was the state's. O(n^2) with the
+  // invariant error, whose arms turn about another vehicle then; O(n) with the standard one.
+  void activate(Index k);
+
+  // A submap that began at the pose and whose landmarks known here were fused (an update) hands over the rest.
+  struct Handover {
+    Pose T_base_end;
+    const Index* fused;  // their slots
+    Index fused_count;
+    const Point* fresh;  // landmarks not known here, in the submap's frame
+    Index fresh_count;
+    // Own error of [end pose; fresh landmarks] in the submap: K y + w, w of covariance W, y the ordinary error of the
+    // fused ones.
+    Eigen::MatrixXd K, W;
+  };
+  // The end becomes the pose, the fresh landmarks are appended. The caller minds the capacity. Allocates.
+  void compose(const Handover& handover);
+
+  // What an update and a composition change. Allocates.
+  struct Backup {
+    Pose pose;
+    std::vector<double> points, triangle;
+    std::vector<Rotation> attitudes;
+    typename PendingMotion<Pose>::Snapshot motion;
+  };
+  Backup backup() const;
+  void restore(const Backup& backup);  // no landmark may have been removed in between
+
+ private:
+  friend class EkfUpdate<Pose>;
+
+  Point local(Index slot) const { return Eigen::Map<const Point>(points_ + kDim * slot); }
+  Eigen::Map<Point> place_of(Index slot) { return Eigen::Map<Point>(points_ + kDim * slot); }
+  Square pose_block() const { return motion_.pose_block(P_); }  // with the motion held back
+  void apply_pending();
+  // P <- P_now - W W^T over `rank` columns of W, the pending motion's noise added in the same pass.
+  void write_covariance(Index rank, const double* pose_columns);
+  void move(const double* error);  // every variable by its retraction
+
+  ErrorModel<Pose> model_;
+  StateLayout<Pose> layout_;
+  Index ld_;  // of P and of everything with a row a state
+  // Everything below counts from the position at the start. The arms G(x) of the invariant error reach from the origin
+  // to x: from an origin far away they would drown the covariance's digits in their length.
+  Point origin_ = Point::Zero();
+  Pose pose_;
+  double* points_;
+  Rotation* attitudes_;  // of the companions
+  LowerTriangle P_;
+  PendingMotion<Pose> motion_;
+  UpdateWorkspace<Pose> workspace_;
+};
+
+extern template class State<SE2>;
+extern template class State<SE3>;
+
+}  // namespace cairn

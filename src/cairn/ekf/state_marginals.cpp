@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a state's covariance says of the pose and of chosen points.
+#include <cmath>
+
+#include "ekf/ekf_update.hpp"
+#include "ekf/state.hpp"
+
+namespace cairn {
+namespace {
+
+// error^T covariance^-1 error, negative where the covariance is singular.
+template <class Pose>
+double normalised(typename Pose::Square covariance, typename Pose::Tangent error) {
+  constexpr int kDof = Pose::kDof;
+  typename Pose::Square& L = covariance;
+  // Scaled to unit diagonal first: metres and radians must not decide what counts as singular.
+  for (Index i = 0; i < kDof; ++i)
+    if (!(L(i, i) > 0.0)) return -1.0;
+  const typename Pose::Tangent scale = L.diagonal().cwiseSqrt().cwiseInverse();
+  L = (scale.asDiagonal() * L * scale.asDiagonal()).eval();
+  error = scale.cwiseProduct(error);
+  if (!cholesky(L.data(), kDof, kDof)) return -1.0;
+  for (Index i = 0; i < kDof; ++i)
+    if (L(i, i) < 1e-7) return -1.0;  // pivots of rounding alone
+  solve_lower(L.data(), kDof, kDof, error.data());
+  return error.squaredNorm();
+}
+
+}  // namespace
+
+template <class Pose>
+void State<Pose>::gather(const Index* slots, Index count, double* out, Index ld) const {
+  using Arm = typename ErrorModel<Pose>::Arm;
+  const Square pose = pose_block();
+  for (Index c = 0; c < kDof; ++c)
+    for (Index r = 0; r < kDof; ++r) out[c * ld + r] = pose(r, c);
+  const bool noisy = motion_.reaches_points();
+  const Eigen::Matrix<double, kTurn, kDof> N_turn = motion_.N().template bottomRows<kTurn>();
+  for (Index a = 0; a < count; ++a) {
+    const Index row = layout_.point(slots[a]).offset;
+    PointByPose cross;
+    for (Index c = 0; c < kDof; ++c)
+      for (Index r = 0; r < kDim; ++r) cross(r, c) = P_(row + r, c);
+    Arm U = Arm::Zero();
+    if (noisy) {
+      U = -model_.arm(local(slots[a]));
+      cross += U * N_turn;
+    } else if (motion_.any()) {
+      cross = (cross * motion_.F().transpose()).eval();
+    }
+    const Index at = kDof + kDim * a;
+    for (Index c = 0; c < kDof; ++c)
+      for (Index r = 0; r < kDim; ++r) out[c * ld + at + r] = out[(at + r) * ld + c] = cross(r, c);
+    const Arm UN = U * N_turn.template rightCols<kTurn>();
+    for (Index b = 0; b <= a; ++b) {
+      const Index column = layout_.point(slots[b]).offset;
+      PointSquare block;
+      for (Index c = 0; c < kDim; ++c)
+        for (Index r = 0; r < kDim; ++r) block(r, c) = P_.symmetric(row + r, column + c);
+      if (noisy) block -= UN * model_.arm(local(slots[b])).transpose();
+      for (Index c = 0; c < kDim; ++c)
+        for (Index r = 0; r < kDim; ++r) {
+          out[(kDof + kDim * b + c) * ld + at + r] = block(r, c);
+          out[(at + r) * ld + kDof + kDim * b + c] = block(r, c);
+        }
+    }
+  }
+}
+
+template <class Pose>
+void State<Pose>::gather_ordinary(const Index* slots, Index count, double* out, Index ld) const {
+  gather(slots, count, out, ld);
+  model_.to_ordinary(
+      count, [&](Index x) -> Point { return x < 0 ? pose_.translation() : local(slots[x]); }, out, ld);
+}
+
+template <class Pose>
+typename State<Pose>::Square State<Pose>::pose_covariance() const {
+  Square covariance;
+  gather_ordinary(nullptr, 0, covariance.data(), kDof);
+  return covariance;
+}
+
+template <class Pose>
+typename State<Pose>::PointSquare State<Pose>::landmark_covariance(Index slot) const {
+  Eigen::Matrix<double, kDof + kDim, kDof + kDim> joint;
+  gather_ordinary(&slot, 1, joint.data(), kDof + kDim);
+  return joint.template bottomRightCorner<kDim, kDim>();
+}
+
+template <class Pose>
+typename State<Pose>::PointSquare State<Pose>::relative_covariance(Index slot) const {
+  const Index row = layout_.point(slot).offset;
+  const Index dofs = model_.invariant() ? kDim : kDof;  // that the error has to do with
+  Eigen::Matrix<double, kDim, kDof> J = Eigen::Matrix<double, kDim, kDof>::Zero();
+  J.template leftCols<kDim>() = -PointSquare::Identity();
+  PointByPose cross = PointByPose::Zero();
+  PointSquare own;
+  for (Index c = 0; c < dofs; ++c)
+    for (Index r = 0; r < kDim; ++r) cross(r, c) = P_(row + r, c);
+  for (Index c = 0; c < kDim; ++c)
+    for (Index r = c; r < kDim; ++r) own(r, c) = own(c, r) = P_(row + r, row + c);
+  PointSquare sum;
+  if (model_.invariant()) {
+    const PointSquare across = cross.template leftCols<kDim>();
+    for (Index c = 0; c < kDim; ++c)
+      for (Index r = c; r < kDim; ++r) sum(r, c) = sum(c, r) = P_(r, c);
+    sum += own - across - across.transpose();
+    if (!motion_.any()) return sum;
+    J.template rightCols<kTurn>() = -model_.arm(local(slot));  // of the pending motion's error
+    return sum + J.lazyProduct(motion_.N().lazyProduct(J.transpose()).eval());
+  }
+  J.template rightCols<kTurn>() = -Rotation::turn(local(slot) - pose_.translation());
+  if (motion_.any()) cross = (cross * motion_.F().transpose()).eval();
+  const PointSquare across = cross.lazyProduct(J.transpose());
+  return own + across + across.transpose() + J * pose_block() * J.transpose();
+}
+
+template <class Pose>
+double State<Pose>::pose_nees(const Pose& truth) const {
+  const Pose local_truth(truth.rotation(), truth.translation() - origin_);
+  return normalised<Pose>(pose_block(), model_.error(local_truth, pose_));
+}
+
+template <class Pose>
+double State<Pose>::nees(ErrorKind error, const Point& origin, const Pose& truth, const Pose& estimate,
+                         const Square& ordinary_covariance) {
+  const Pose from_origin(truth.rotation(), truth.translation() - origin);
+  const Pose pose(estimate.rotation(), estimate.translation() - origin);
+  const ErrorModel<Pose> model(error);
+  return normalised<Pose>(model.own(ordinary_covariance, pose.translation()), model.error(from_origin, pose));
+}
+
+template <class Pose>
+double State<Pose>::smallest_pivot() {
+  // R^T R = D P D with R in the strict upper triangle of P's storage, its diagonal and D elsewhere: no memory is
+  // needed.
+  apply_pending();
+  const Index n = states();
+  double smallest = 1.0;
+  double* const diagonal = workspace_.diagonal;
+  double* const pivots = workspace_.error_state;
+  for (Index i = 0; i < n; ++i) diagonal[i] = P_(i, i);
+  for (Index j = 0; j < n; ++j) {
+    double* column = P_.column(j);  // rows 0..j-1: R
+    const double variance = diagonal[j];
+    double pivot = 1.0;
+    if (variance > 0.0) {
+      for (Index i = 0; i < j; ++i) {
+        const double* other = P_.column(i);
+        double sum = 0.0;
+        if (P_(i, i) > 0.0) {
+          sum = P_(j, i) / std::sqrt(variance * P_(i, i));
+          for (Index k = 0; k < i; ++k) sum -= other[k] * column[k];
+          sum /= pivots[i];
+        }
+        column[i] = sum;
+        pivot -= sum * sum;
+      }
+      smallest = std::min(smallest, pivot);
+      if (!(pivot > 0.0)) return pivot;
+    } else {
+      std::fill(column, column + j, 0.0);  // exactly known: left out
+      if (variance < 0.0) return variance;
+    }
+    pivots[j] = std::sqrt(pivot);
+  }
+  return smallest;
+}
+
+template void State<SE2>::gather(const Index*, Index, double*, Index) const;
+template void State<SE2>::gather_ordinary(const Index*, Index, double*, Index) const;
+template SE2::Square State<SE2>::pose_covariance() const;
+template State<SE2>::PointSquare State<SE2>::landmark_covariance(Index) const;
+template State<SE2>::PointSquare State<SE2>::relative_covariance(Index) const;
+template double State<SE2>::pose_nees(const SE2&) const;
+template double State<SE2>::nees(ErrorKind, const Point&, const SE2&, const SE2&, const Square&);
+template double State<SE2>::smallest_pivot();
+
+template void State<SE3>::gather(const Index*, Index, double*, Index) const;
+template void State<SE3>::gather_ordinary(const Index*, Index, double*, Index) const;
+template SE3::Square State<SE3>::pose_covariance() const;
+template State<SE3>::PointSquare State<SE3>::landmark_covariance(Index) const;
+template State<SE3>::PointSquare State<SE3>::relative_covariance(Index) const;
+template double State<SE3>::pose_nees(const SE3&) const;
+template double State<SE3>::nees(ErrorKind, const Point&, const SE3&, const SE3&, const Square&);
+template double State<SE3>::smallest_pivot();
+
+}  // namespace cairn

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/join/dense/dense_transaction.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/chi_square.hpp"
+#include "ekf/fix_rows.hpp"
+#include "sensor/sensor.hpp"
+
+namespace cairn {
+namespace {
+
+// Rows and columns of a symmetric matrix of the landmarks' blocks behind the states of the pose.
+template <class Pose>
+std::vector<Eigen::Index> states_of(const std::vector<Eigen::Index>& landmarks) {
+  std::vector<Eigen::Index> states;
+  for (const Eigen::Index i : landmarks)
+    for (Eigen::Index d = 0; d < Pose::kDim; ++d) states.push_back(Pose::kDof + Pose::kDim * i + d);
+  return states;
+}
+
+}  // namespace
+
+// The update that fuses the submap's known landmarks. Their estimates are observations from the submap's base:
+// y = R_S^T (l - p_S), with one full noise block, their covariance in the submap. This is eq. 30 of the Mars paper with
+// the rotation that its constant Jacobian leaves out. It is a batch for gate_blocks(), which removes landmarks from the
+// window as well: the noise block spans all rows, so that the batch is filled anew.
+template <class Pose>
+class DenseTransaction<Pose>::Fusing {
+ public:
+  Fusing(State<Pose>& state, const Submap<Pose>& submap, const Eigen::MatrixXd& noise, std::vector<Pair>& pairs)
+      : state_(state), submap_(submap), noise_(noise), pairs_(pairs) {
+    refill();
+  }
+
+  Index count() const { return static_cast<Index>(pairs_.size()); }
+  double distance(Index block) { return update_->distance(block, kDim); }
+  void keep(const Index* blocks, Index count) {
+    for (Index k = 0; k < count; ++k) pairs_[k] = pairs_[blocks[k]];
+    pairs_.resize(static_cast<std::size_t>(count));
+    refill();
+  }
+  template <class Bound>
+  bool consistent(Bound&& bound) {
+    update_->factor();
+    return update_->nis() <= bound(kDim * count());
+  }
+  InverseInnovation invert() { return update_->invert(); }
+  void refactor() { update_->factor(); }
+  Index* kept() { return update_->kept(); }
+  bool* refused() { return update_->refused(); }
+
+  double nis() const { return update_->nis(); }
+  int iterate_and_commit(const Iterations& end) {
+    const int iterations = update_->iterate(end, [&](double* residual_only) { return fill(residual_only); });
+    update_->commit();
+    return iterations;
+  }
+
+ private:
+  void refill() {
+    std::vector<Index> slots;
+    for (const Pair& pair : pairs_) slots.push_back(pair.slot);
+    update_.emplace(state_, typename State<Pose>::Window{slots.data(), static_cast<Index>(slots.size()), nullptr});
+    update_->linearise([&](double* residual_only) { return fill(residual_only); });
+  }
+
+  bool fill(double* residual_only) {
+    Batch& batch = update_->batch();
+    const Pose T = update_->pose();
+    if (residual_only == nullptr) batch.clear();
+    for (std::size_t a = 0; a < pairs_.size(); ++a) {
+      const Point l = update_->landmark(static_cast<Index>(a));
+      const Point residual = submap_.landmarks[pairs_[a].local] - T.inverse() * l;
+      double* target = residual_only != nullptr ? residual_only : batch.residual();
+      std::copy_n(residual.data(), kDim, target + kDim * a);
+      if (residual_only != nullptr) continue;
+      Prediction<Pose> prediction;
+      map_jacobians(T, l, Prediction<Pose>::ByLandmark::Identity(), prediction);
+      const Index row = batch.add_rows(kDim);
+      const auto pose = update_->add_pose_block(row, kDim, prediction.J_z_pose, true);
+      update_->add_landmark_block(row, kDim, prediction.J_z_landmark, static_cast<Index>(a), pose);
+    }
+    if (residual_only != nullptr) return true;
+    const std::size_t rows = kDim * pairs_.size();
+    double* block = batch.add_noise(0, static_cast<Index>(rows));
+    for (std::size_t c = 0; c < rows; ++c)
+      for (std::size_t r = 0; r < rows; ++r)
+        block[c * rows + r] = noise_(kDof + kDim * pairs_[r / kDim].local + static_cast<Eigen::Index>(r % kDim),
+                                     kDof + kDim * pairs_[c / kDim].local + static_cast<Eigen::Index>(c % kDim));
+    return true;
+  }
+
+  State<Pose>& state_;
+  const Submap<Pose>& submap_;
+  const Eigen::MatrixXd& noise_;
+  std::vector<Pair>& pairs_;
+  std::optional<EkfUpdate<Pose>> update_;
+};
+
+template <class Pose>
+DenseTransaction<Pose>::~DenseTransaction() {
+  if (backup_) map_.state_.restore(*backup_);
+}
+
+// The rest of the submap's error, that of the end pose and the new landmarks, is K y + w by the fused landmarks' y.
+template <class Pose>
+typename State<Pose>::Handover DenseTransaction<Pose>::split_rest(const Submap<Pose>& submap,
+                                                                  const Eigen::MatrixXd& joint) const {
+  std::vector<Eigen::Index> fused, rest;
+  for (Eigen::Index d = 0; d < kDof; ++d) rest.push_back(d);
+  for (const Pair& pair : pairs_) fused.push_back(pair.local);
+  const std::vector<Eigen::Index> of_fused = states_of<Pose>(fused), of_fresh = states_of<Pose>(fresh_);
+  rest.insert(rest.end(), of_fresh.begin(), of_fresh.end());
+  typename State<Pose>::Handover handover;
+  handover.T_base_end = submap.T_base_end;
+  const Eigen::MatrixXd cross = joint(of_fused, rest);
+  handover.K = pairs_.empty() ? Eigen::MatrixXd(rest.size(), 0)
+                              : Eigen::MatrixXd(joint(of_fused, of_fused).ldlt().solve(cross).transpose());
+  handover.W = joint(rest, rest);
+  handover.W -= handover.K * cross;
+  if (!handover.K.allFinite() || !handover.W.allFinite()) throw_not_definite();
+  return handover;
+}
+
+// Moves the rest of the submap by what the fusing moved its known landmarks, and composes it with the map.
+template <class Pose>
+void DenseTransaction<Pose>::hand_over(const Submap<Pose>& submap, typename State<Pose>::Handover& handover,
+                                       const Eigen::VectorXd& shift) {
+  const Eigen::VectorXd error = handover.K * shift;
+  const typename Rotation::Tangent turn = error.segment<kTurn>(kDim);
+  const ErrorModel<Pose> model(submap.error);
+  const typename ErrorModel<Pose>::PointRetraction move_point(model, turn);
+  handover.T_base_end = Pose(Rotation::exp(turn) * submap.T_base_end.rotation(),
+                             move_point(submap.T_base_end.translation(), error.head<kDim>()));
+  std::vector<Index> slots;
+  for (const Pair& pair : pairs_) slots.push_back(pair.slot);
+  std::vector<Point> landmarks;
+  for (std::size_t a = 0; a < fresh_.size(); ++a)
+    landmarks.push_back(
+        move_point(submap.landmarks[fresh_[a]], error.segment<kDim>(kDof + kDim * static_cast<Eigen::Index>(a))));
+  handover.fused = slots.data();
+  handover.fused_count = static_cast<Index>(slots.size());
+  handover.fresh = landmarks.data();
+  handover.fresh_count = static_cast<Index>(landmarks.size());
+  map_.state_.compose(handover);
+}
+
+template <class Pose>
+void DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
+  State<Pose>& state = map_.state_;
+  const MapOptions<Pose>& options = map_.options_;
+  for (Eigen::Index i = 0; i < submap.size(); ++i) {
+    std::size_t index = 0;
+    if (map_.find(submap.ids[i], index))
+      pairs_.push_back({i, map_.slot_of(index)});
+    else
+      fresh_.push_back(i);
+  }
+  if (map_.size() + fresh_.size() > options.max_landmarks)
+    throw Error(ErrorCode::capacity, "submap: %zu new landmarks, and the map holds %zu of max_landmarks = %zu",
+                fresh_.size(), map_.size(), options.max_landmarks);
+  const std::size_t known = pairs_.size();
+  std::vector<Eigen::Index> known_ones;
+  for (const Pair& pair : pairs_) known_ones.push_back(pair.local);
+  Eigen::MatrixXd joint = submap.covariance;
+  to_ordinary(submap, known_ones, joint);
+  std::optional<Fusing> fusing;
+  if (known > 0) {
+    fusing.emplace(state, submap, joint, pairs_);
+    const auto bound = [&](Index rows) {
+      return chi_square_quantile(static_cast<double>(rows), options.joint_gate_probability);
+    };
+    gate_blocks(*fusing, kDim, chi_square_quantile(kDim, options.gate_probability), bound,
+                [](Gate, Index, double, double) {});
+    report_.rows = kDim * pairs_.size();
+    report_.distance = fusing->nis();
+    report_.threshold = report_.rows > 0 ? bound(static_cast<Index>(report_.rows)) : 0.0;
+  }
+  report_.fused = pairs_.size();
+  report_.fresh = fresh_.size();
+  report_.refused = known - pairs_.size();
+
+  typename State<Pose>::Handover handover = split_rest(submap, joint);
+  for (std::size_t i = 0; i < map_.size(); ++i) before_.push_back(state.landmark(map_.slot_of(i)));
+  for (const Eigen::Index i : fresh_) {
+    fresh_ids_.push_back(submap.ids[i]);
+    fresh_counts_.push_back(submap.counts[i]);
+  }
+  for (const Pair& pair : pairs_) pair_counts_.push_back(submap.counts[pair.local]);
+  closed_.emplace(typename DenseMap<Pose>::Closed{map_.base(), submap.ids});
+  if (map_.closed_.size() == map_.closed_.capacity()) map_.closed_.reserve(2 * map_.closed_.size() + 8);
+
+  // Nothing was changed so far. The composition takes memory once more: if there is none, the update is taken back.
+  backup_.emplace(state.backup());
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDim * pairs_.size()));
+  if (!pairs_.empty()) {
+    report_.iterations = fusing->iterate_and_commit({options.iterations, options.iteration_tolerance, true});
+    const Pose T_base_map = state.pose().inverse();
+    for (std::size_t a = 0; a < pairs_.size(); ++a)
+      shift.segment<kDim>(kDim * static_cast<Eigen::Index>(a)) =
+          T_base_map * state.landmark(pairs_[a].slot) - submap.landmarks[pairs_[a].local];
+  }
+  hand_over(submap, handover, shift);
+}
+
+template <class Pose>
+FixReport DenseTransaction<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold) {
+  FixReport report;
+  if (!backup_) backup_.emplace(map_.state_.backup());
+  EkfUpdate<Pose> update = map_.state_.begin({});
+  const auto fill = [&](double* residual_only) { return fill_fix(update, fix, residual_only); };
+  update.linearise(fill);
+  update.factor();
+  report.distance = update.nis();
+  report.accepted = report.distance <= threshold;
+  if (!report.accepted) return report;
+  report.iterations = update.iterate({map_.options_.iterations, map_.options_.iteration_tolerance, false}, fill);
+  update.commit();
+  return report;
+}
+
+template <class Pose>
+JoinReport DenseTransaction<Pose>::commit() {
+  const State<Pose>& state = map_.state_;
+  backup_.reset();
+  if (!closed_) return report_;  // a fix and nothing else
+  for (std::size_t a = 0; a < fresh_.size(); ++a)
+    map_.append(fresh_ids_[a], fresh_counts_[a], map_.size() - fresh_.size() + a);
+  for (std::size_t a = 0; a < pairs_.size(); ++a) map_.counts_[pairs_[a].slot - state.companions()] += pair_counts_[a];
+  double sum = 0.0;
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    const double way = (state.landmark(map_.slot_of(i)) - before_[i]).squaredNorm();
+    report_.moved_max = std::max(report_.moved_max, std::sqrt(way));
+    sum += way;
+  }
+  if (!before_.empty()) report_.moved_rms = std::sqrt(sum / static_cast<double>(before_.size()));
+  map_.closed_.push_back(std::move(*closed_));
+  return report_;
+}
+
+template class DenseTransaction<SE2>;
+template class DenseTransaction<SE3>;
+
+}  // namespace cairn

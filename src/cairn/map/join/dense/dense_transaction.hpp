@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One change of a dense map: a submap is gated, fused and composed, the new base may get a fix. What is not committed
+// is taken back.
+#pragma once
+
+#include <optional>
+
+#include "ekf/ekf_update.hpp"
+#include "map/join/dense/dense_map.hpp"
+
+namespace cairn {
+
+template <class Pose>
+class DenseTransaction final : public MapTransaction<Pose> {
+ public:
+  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  using Point = typename Pose::Point;
+  using Rotation = typename Pose::Rotation;
+
+  explicit DenseTransaction(DenseMap<Pose>& map) : map_(map) {}
+  ~DenseTransaction() override;
+
+  void join(const Submap<Pose>& submap) override;
+  FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) override;
+  JoinReport commit() override;
+
+ private:
+  // A landmark of the submap that the map knows.
+  struct Pair {
+    Eigen::Index local;  // in the submap
+    Index slot;          // in the map
+  };
+  class Fusing;
+
+  typename State<Pose>::Handover split_rest(const Submap<Pose>& submap, const Eigen::MatrixXd& joint) const;
+  void hand_over(const Submap<Pose>& submap, typename State<Pose>::Handover& handover, const Eigen::VectorXd& shift);
+
+  DenseMap<Pose>& map_;
+  std::optional<typename State<Pose>::Backup> backup_;  // what the map was, where it was changed
+  std::vector<Pair> pairs_;                             // that passed the gates
+  std::vector<Eigen::Index> fresh_;                     // landmarks of the submap that the map does not know
+  std::vector<std::uint64_t> fresh_ids_, fresh_counts_, pair_counts_;
+  std::vector<Point> before_;  // where the map's landmarks were
+  std::optional<typename DenseMap<Pose>::Closed> closed_;
+  JoinReport report_;
+};
+
+extern template class DenseTransaction<SE2>;
+extern template class DenseTransaction<SE3>;
+
+}  // namespace cairn
