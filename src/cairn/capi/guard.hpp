@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the files behind the library's headers share: its handles, and the boundary that every call passes.
+// The handles behind the library's headers, and the boundary that every call passes.
 #pragma once
 
 #include <cairn/cairn.h>
@@ -14,7 +14,7 @@
 namespace cairn {
 namespace capi {
 
-std::uint64_t next_filter_number() noexcept;  // from 1
+std::uint64_t next_filter_number() noexcept;  // counted from 1
 
 }  // namespace capi
 }  // namespace cairn
@@ -25,7 +25,7 @@ struct cairn_map {
   std::unique_ptr<cairn::OwnedMap> owned;  // null: a filter's
 };
 
-// Of a vehicle in space or in the plane.
+// The filter of a vehicle in space or in the plane, with its memory.
 struct cairn_filter {
   template <class Pose>
   explicit cairn_filter(const cairn::FilterOptions<Pose>& options)
@@ -52,8 +52,8 @@ struct cairn_filter {
 namespace cairn {
 namespace capi {
 
-// Finite, symmetric, positive definite (`semi`: semidefinite); `size` on a side, row-major. Beyond 6 it takes a
-// workspace of size^2 + cholesky_workspace(size) doubles.
+// Throws unless the row-major matrix of `size` x `size` is finite, symmetric and positive definite (`semi`:
+// semidefinite). A size above 6 needs a workspace of size^2 + cholesky_workspace(size) doubles.
 void check_covariance(const double* matrix, std::size_t size, bool semi, const char* name, double* workspace = nullptr);
 
 }  // namespace capi
