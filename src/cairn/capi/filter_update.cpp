@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Observations that a filter takes in.
+// Updates of a filter: observations, absolute fixes, and rows that the caller linearised.
 #include "capi/filter_handle.hpp"
 #include "capi/read_observation.hpp"
 #include "core/chi_square.hpp"
@@ -52,8 +52,8 @@ void write_matches(const AnyFilter& filter, std::size_t count, cairn_match* matc
 void read_observation(const cairn_observation& from, const char* array, std::size_t number, std::size_t rows,
                       bool named, Observation& to) {
   if (named && from.id == CAIRN_ID_NONE)
-    throw Error(ErrorCode::argument, "%s[%zu].id is CAIRN_ID_NONE, which none has", array, number);
-  // Names are written where they are needed: that takes longer than the checks.
+    throw Error(ErrorCode::argument, "%s[%zu].id is CAIRN_ID_NONE, which no landmark or vehicle has", array, number);
+  // The name of a field is written only for an error, because that takes longer than the checks.
   char name[64];
   if (!all_finite(from.z, rows)) {
     std::snprintf(name, sizeof name, "%s[%zu].z", array, number);

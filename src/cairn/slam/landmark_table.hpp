@@ -50,7 +50,8 @@ class LandmarkTable {
   // --- slots --- for LocalMap, which moves the state's values in step
   void clear();
   void append(std::uint64_t id, bool deferred);  // observed once
-  void remove(Index slot);  // the last landmark moves there; a slot of those that count is the last one
+  // The last landmark moves there. Among the landmarks that count, only the last one may go.
+  void remove(Index slot);
   void exchange(Index a, Index b);
   void count_first_deferred() { --deferred_; }
   void add_companion(std::uint64_t id);  // the first landmark moves behind the last one
