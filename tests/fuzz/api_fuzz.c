@@ -18,6 +18,7 @@
 #include "filters.h"
 
 static slot slots[3];
+
 static void motion(slot* s) {
   cairn_filter* f = fuzz_one_in(100) ? NULL : s->filter;
   double v[3], w[3], c[36];
