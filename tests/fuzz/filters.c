@@ -100,8 +100,8 @@ void create_filter(slot* s) {
   void* given = fuzz_one_in(4) ? fuzz_resized(&o, sizeof o) : NULL;
   uint32_t stated;
   if (given != NULL) memcpy(&stated, given, sizeof stated);
-  if (given == NULL ||
-      stated < offsetof(cairn_filter_options, iterations)) { /* the old caller gets the default, which is large */
+  /* A caller whose struct is that short would get default capacities, which are large. */
+  if (given == NULL || stated < offsetof(cairn_filter_options, iterations)) {
     free(given);
     given = malloc(sizeof o);
     memcpy(given, &o, sizeof o);
