@@ -48,7 +48,7 @@ class Circle : public Course {
 };
 
 // The curve r(a) = scale (1 + sum_m size_m cos(m a + phase_m)) about a centre. Different parts of the curve stay apart,
-// and its curvature is nowhere much more than twice that of a circle of its mean radius.
+// and its curvature is at most about twice that of a circle of its mean radius.
 class Laps : public Course {
  public:
   explicit Laps(const cairn_world_options& o) : laps_(o.laps > 0 ? o.laps : 2) {

@@ -76,7 +76,7 @@ class Traverse : public Course {
   // Chooses the number of circles from the number of landmarks, then scales the circles until the area fits.
   void lay_out(const cairn_world_options& o) {
     const double ground = o.landmarks * o.landmark_area;
-    const double smallest = 2 * kPi * 2 * strip_;  // length of the smallest circle that is larger than its strip
+    const double smallest = 2 * kPi * 2 * strip_;  // length of the smallest circle: radius 2 strip
     const auto most = std::max<std::int64_t>(1, std::llround(std::floor(ground / (2 * strip_ * smallest))));
     auto count =
         std::max<std::int64_t>(std::min<std::int64_t>(3, most), std::llround(ground / (2 * strip_ * o.round_length)));

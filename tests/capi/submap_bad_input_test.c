@@ -223,8 +223,8 @@ static void exact_knowledge(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j)
     for (int known_start = 0; known_start < 2; ++known_start)
-      for (int axes = 0; axes < 4;
-           ++axes) { /* 0: parked, 1: no noise at all, 2: no rotation noise, 3: no noise of height and tilt */
+      /* axes 0: parked, 1: no noise at all, 2: no rotation noise, 3: no noise of height and tilt */
+      for (int axes = 0; axes < 4; ++axes) {
         ring course;
         ring_init(&course, 24);
         cairn_filter_options o = ring_options(&course, 500, joins[j]);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The world that the tests drive through, and the sensors that look at it. */
+/* The world of the tests, and the sensors that observe it. */
 #include "support.h"
 
 uint64_t random_bits(generator* random) { /* splitmix64 */
@@ -13,8 +13,8 @@ double random_uniform(generator* random, double lower, double upper) {
   return lower + (upper - lower) * (double)(random_bits(random) >> 11) / 9007199254740992.0;
 }
 
-double random_normal(generator* random,
-                     double sigma) { /* sum of twelve: no library function that may round otherwise */
+/* Sum of twelve uniform numbers: it uses no library function whose rounding differs between machines. */
+double random_normal(generator* random, double sigma) {
   double sum = -6.0;
   for (int i = 0; i < 12; ++i) sum += random_uniform(random, 0.0, 1.0);
   return sigma * sum;
@@ -204,7 +204,7 @@ bool world_see(const world* w, int sensor, double pan, double stick, const doubl
     z[0] = camera.fu * x / depth + camera.cu;
     z[1] = camera.fu * (x - camera.baseline) / depth + camera.cu;
     z[2] = camera.fv * y / depth + camera.cv;
-    return z[0] > -400 && z[0] < 1040; /* a wide lens */
+    return z[0] > -400 && z[0] < 1040; /* a wide field of view */
   }
   if (sensor == RANGE) {
     z[0] = range, z[1] = z[2] = 0;

@@ -130,7 +130,7 @@ class Team(Handle):
         return result[0]
 
     def ask(self):
-        """Makes a packet that asks the teammates for all missing packets."""
+        """Asks the teammates for all missing packets: the next packets to send contain the requests."""
         self._call(lib.cairn_team_ask)
 
     # Estimates.
