@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDegree = kPi / 180;
 
-// In (0, upper], or in [0, upper] with `zero`.
+// Half-open: 0 is taken with `zero` alone.
 void check_angle(double value, bool zero, double upper, const char* name) {
   if (!zero) capi::check_positive(value, name);
   capi::check_range(value, 0, upper, name);
