@@ -4,9 +4,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/chi_square.hpp"
-#include "ekf/iterate.hpp"
+#include "linear/joint_gate.hpp"
 #include "map/join/sparse/sparse_queries.hpp"
 #include "sensor/sensor.hpp"
 
@@ -41,70 +42,112 @@ bool may_contradict(const SparseState<Pose>& state, std::uint32_t number, const 
   return false;
 }
 
-// Gates the known landmarks against the map as it is: nu = y_submap - R^T (l - p), S = H P H^T + Sigma_DD; each by
-// itself, then jointly. Returns, by landmark of the submap, whether it is to be left out.
+namespace {
+
+// The submap's known landmarks against the map as it is, as a batch for gate_blocks(): nu = y_submap - R^T (l - p) and
+// S = H P H^T + Sigma_DD.
 template <class Pose>
-std::vector<char> find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap) {
-  constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
-  const Pose& base = state.bases.back();
-  std::vector<char> left_out(submap.ids.size(), 0);
-  std::vector<Index> known;
-  std::vector<std::size_t> indices;
-  for (Index i = 0; i < submap.size(); ++i) {
-    std::size_t index = 0;
-    if (!state.find(submap.ids[i], index)) continue;
-    known.push_back(i);
-    indices.push_back(index);
+class KnownLandmarks {
+ public:
+  KnownLandmarks(const SparseState<Pose>& state, const Submap<Pose>& submap) : state_(state), submap_(submap) {
+    for (Index i = 0; i < submap.size(); ++i) {
+      std::size_t index = 0;
+      if (state.find(submap.ids[i], index)) known_.push_back({i, index});
+    }
+    noise_ = submap.covariance;
+    std::vector<Index> locals;
+    for (const Known& known : known_) locals.push_back(known.local);
+    to_ordinary(submap, locals, noise_);
+    kept_.resize(known_.size());
+    refused_.reset(new bool[known_.size()]);
+    form();
   }
-  Eigen::MatrixXd joint = submap.covariance;
-  to_ordinary(submap, known, joint);
-  const double single = chi_square_quantile(kDim, state.options.gate_probability);
-  for (bool first = true;; first = false) {
-    const auto count = static_cast<Index>(known.size()), m = kDim * count;
-    if (count == 0) return left_out;
-    Eigen::MatrixXd P(kDof + m, kDof + m), H = Eigen::MatrixXd::Zero(m, kDof + m), S(m, m);
-    joint_covariance_of_base(state, indices.data(), indices.size(), P.data());
-    Eigen::VectorXd residual(m);
-    for (Index a = 0; a < count; ++a) {
-      const typename Pose::Point l = state.point(indices[a]);
+
+  Index local(Index block) const { return known_[block].local; }  // in the submap
+
+  Index count() const { return static_cast<Index>(known_.size()); }
+  double distance(Index block) const {
+    const Index m = kDim * count();
+    return squared_distance(residual_.data() + kDim * block, S_.data() + kDim * block * (m + 1), m, kDim);
+  }
+  void keep(const Index* blocks, Index count) {
+    for (Index k = 0; k < count; ++k) known_[k] = known_[blocks[k]];
+    known_.resize(static_cast<std::size_t>(count));
+    formed_ = false;
+  }
+  template <class Bound>
+  bool consistent(Bound&& bound) {
+    if (known_.empty()) return true;
+    if (!formed_) form();
+    const Index m = kDim * count();
+    inverse_ = S_.template selfadjointView<Eigen::Lower>().ldlt().solve(Eigen::MatrixXd::Identity(m, m));
+    u_ = inverse_ * residual_;
+    workspace_.resize(static_cast<std::size_t>(kDim * (kDim + m)));
+    return residual_.dot(u_) <= bound(m);
+  }
+  InverseInnovation invert() { return {inverse_.data(), u_.data(), residual_.dot(u_), workspace_.data()}; }
+  void refactor() {}  // nobody asks for S again
+  Index* kept() { return kept_.data(); }
+  bool* refused() { return refused_.get(); }
+
+ private:
+  static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  struct Known {
+    Index local;        // in the submap
+    std::size_t index;  // in the map
+  };
+
+  void form() {
+    formed_ = true;
+    const Index m = kDim * count();
+    if (m == 0) return;
+    const Pose& base = state_.bases.back();
+    std::vector<std::size_t> indices;
+    for (const Known& known : known_) indices.push_back(known.index);
+    Eigen::MatrixXd P(kDof + m, kDof + m), H = Eigen::MatrixXd::Zero(m, kDof + m);
+    joint_covariance_of_base(state_, indices.data(), indices.size(), P.data());
+    residual_.resize(m);
+    S_.resize(m, m);
+    for (Index a = 0; a < count(); ++a) {
+      const typename Pose::Point l = state_.point(known_[a].index);
       Prediction<Pose> prediction;
       map_jacobians(base, l, Prediction<Pose>::ByLandmark::Identity(), prediction);
       H.block<kDim, kDof>(kDim * a, 0) = prediction.J_z_pose.template topRows<kDim>();
       H.block<kDim, kDim>(kDim * a, kDof + kDim * a) = prediction.J_z_landmark.template topRows<kDim>();
-      residual.segment<kDim>(kDim * a) = submap.landmarks[known[a]] - base.inverse() * l;
-      for (Index b = 0; b < count; ++b)
-        S.block<kDim, kDim>(kDim * a, kDim * b) =
-            joint.block<kDim, kDim>(kDof + kDim * known[a], kDof + kDim * known[b]);
+      residual_.segment<kDim>(kDim * a) = submap_.landmarks[known_[a].local] - base.inverse() * l;
+      for (Index b = 0; b < count(); ++b)
+        S_.block<kDim, kDim>(kDim * a, kDim * b) =
+            noise_.block<kDim, kDim>(kDof + kDim * known_[a].local, kDof + kDim * known_[b].local);
     }
-    S += H * P * H.transpose();
-    if (first) {
-      std::vector<Index> passed;
-      std::vector<std::size_t> passed_indices;
-      for (Index a = 0; a < count; ++a) {
-        const double distance = squared_distance(residual.data() + kDim * a, S.data() + kDim * a * (m + 1), m, kDim);
-        if (distance >= 0.0 && distance <= single) {
-          passed.push_back(known[a]);
-          passed_indices.push_back(indices[a]);
-        } else {
-          left_out[known[a]] = 1;
-        }
-      }
-      const bool all = passed.size() == known.size();
-      known.swap(passed);
-      indices.swap(passed_indices);
-      if (!all) continue;
-    }
-    Eigen::MatrixXd inverse = S.selfadjointView<Eigen::Lower>().ldlt().solve(Eigen::MatrixXd::Identity(m, m));
-    Eigen::VectorXd u = inverse * residual;
-    std::vector<double> workspace(static_cast<std::size_t>(kDim * (kDim + m)));
-    gate_by_inverse(
-        inverse.data(), count, kDim, u.data(), residual.dot(u), workspace.data(),
-        [&](Index rows) {
-          return chi_square_quantile(static_cast<double>(rows), state.options.joint_gate_probability);
-        },
-        [&](Index a) { return left_out[known[a]] != 0; }, [&](Index a, double, double) { left_out[known[a]] = 1; });
-    return left_out;
+    S_ += H * P * H.transpose();
   }
+
+  const SparseState<Pose>& state_;
+  const Submap<Pose>& submap_;
+  std::vector<Known> known_;
+  Eigen::MatrixXd noise_;  // of the whole submap, ordinary errors of the known landmarks
+  bool formed_ = false;    // residual_ and S_ belong to known_
+  Eigen::VectorXd residual_;
+  Eigen::MatrixXd S_;
+  Eigen::MatrixXd inverse_;
+  Eigen::VectorXd u_;
+  std::vector<double> workspace_;
+  std::vector<Index> kept_;
+  std::unique_ptr<bool[]> refused_;
+};
+
+}  // namespace
+
+template <class Pose>
+std::vector<char> find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap) {
+  std::vector<char> left_out(submap.ids.size(), 0);
+  KnownLandmarks<Pose> landmarks(state, submap);
+  const auto bound = [&](Index rows) {
+    return chi_square_quantile(static_cast<double>(rows), state.options.joint_gate_probability);
+  };
+  gate_blocks(landmarks, Pose::kDim, chi_square_quantile(Pose::kDim, state.options.gate_probability), bound,
+              [&](Gate, Index block, double, double) { left_out[landmarks.local(block)] = 1; });
+  return left_out;
 }
 
 template bool may_contradict(const SparseState<SE2>&, std::uint32_t, const JoinReport&);
