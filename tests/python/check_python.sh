@@ -8,8 +8,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/../support/setup.sh"
 
 (($# == 1)) || fail "usage: check_python.sh BUILD"
 build=$(cd -- "$1" && pwd -P)
-need_packages cmake=cmake gcc=cc pkgconf=pkg-config python3 python3-venv python3-cffi python3-numpy python3-matplotlib \
-  python3-setuptools python3-wheel chromium=chromium fonts-dejavu-core
+need_packages cmake=cmake gcc=cc pkgconf=pkg-config python3 python3-venv chromium=chromium fonts-dejavu-core
 
 work=$build/python
 rm -rf -- "$work"
@@ -22,13 +21,13 @@ mkdir "$work/clone" "$work/shots"
 cp -R -- "$root/bindings" "$work/clone"
 find "$work/clone" -name __pycache__ -prune -exec rm -rf {} +
 
-# numpy, cffi, matplotlib and setuptools come from Debian, plotly from the package index.
-/usr/bin/python3 -m venv --system-site-packages "$work/venv"
+# All that Python takes comes from the package index. The tests of the build (ctest) run with Debian's numpy and cffi.
+/usr/bin/python3 -m venv "$work/venv"
 export PKG_CONFIG_PATH=$libdir/pkgconfig PATH=$work/venv/bin:$work/prefix/bin:$PATH
 # pip splits the value of this variable at spaces, which the project's path may have: a URL has none.
 PIP_CONSTRAINT=$(/usr/bin/python3 -c 'import pathlib, sys; print(pathlib.Path(sys.argv[1]).as_uri())' \
   "$root/tests/python/constraints.txt")
-export PIP_CONSTRAINT PIP_NO_BUILD_ISOLATION=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_RETRIES=5
+export PIP_CONSTRAINT PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_RETRIES=5
 export PYTHONDONTWRITEBYTECODE=1
 unset PYTHONPATH CAIRN_LIBRARY CAIRN_INCLUDE_DIR
 
