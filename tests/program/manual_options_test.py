@@ -18,8 +18,8 @@ def with_options(page, parts):
     """The page with each of its parts replaced by the program's."""
     missing = set(parts) ^ {name for name, _ in PART.findall(page)}
     if missing:
-        sys.exit(f"{PAGE}: the page and the program do not have the same groups of options: {', '.join(sorted(missing))};"
-                 f" each needs a line .\\\" options: GROUP and a line .\\\" end of options")
+        sys.exit(f"{PAGE}: the page and the program differ in these groups of options: {', '.join(sorted(missing))}; "
+                 'each needs a line .\\" options: GROUP and a line .\\" end of options')
     return PART.sub(lambda part: f'.\\" options: {part[1]}\n{parts[part[1]]}.\\" end of options\n', page)
 
 
