@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Teams.
-#include "team/team.hpp"
-
-#include <optional>
-
 #include "capi/convert.hpp"
 #include "capi/filter_handle.hpp"
 #include "capi/read_observation.hpp"
-#include "team/score.hpp"
+#include "capi/team_handle.hpp"
 
 using namespace cairn;
 using namespace cairn::capi;
-
-struct cairn_team {
-  cairn_team(const TeamOptions& options, bool with_baseline)
-      : team(options), number(next_filter_number()), map{&team.landmarks(), number, nullptr} {
-    if (with_baseline) baseline.emplace(options);
-  }
-  Team team;
-  std::optional<Baseline> baseline;
-  Score score;
-  std::uint64_t number;
-  cairn_map map;
-};
 
 namespace cairn {
 namespace capi {
@@ -38,67 +22,6 @@ Team& read_team(cairn_team* team) {
 const Team& read_team(const cairn_team* team) {
   check_pointer(team, "team");
   return team->team;
-}
-
-cairn_team_options default_options() {
-  const MailboxOptions d;
-  cairn_team_options options = {};
-  options.struct_size = sizeof options;
-  options.mode = CAIRN_TEAM_JOINT;
-  options.max_vehicles = static_cast<std::uint32_t>(d.max_vehicles);
-  options.max_lag = d.max_lag;
-  options.time_tolerance = d.time_tolerance;
-  options.max_waiting = static_cast<std::uint32_t>(d.max_waiting);
-  options.history = static_cast<std::uint32_t>(d.history);
-  return options;
-}
-
-TeamMode read_mode(std::int32_t mode) {
-  switch (mode) {
-    case CAIRN_TEAM_MONO:
-      return TeamMode::mono;
-    case CAIRN_TEAM_EO_DIAGONAL:
-      return TeamMode::eo_diagonal;
-    case CAIRN_TEAM_EO_FULL:
-      return TeamMode::eo_full;
-    case CAIRN_TEAM_JOINT:
-      return TeamMode::joint;
-    case CAIRN_TEAM_SUBMAPS:
-      return TeamMode::submaps;
-    default:
-      throw Error(ErrorCode::argument, "options.mode is %d, none of the CAIRN_TEAM_ constants", mode);
-  }
-}
-
-TeamOptions read_team_options(const cairn_team_options& o, const cairn_filter_options* filter,
-                              const cairn_range_bearing* radar) {
-  TeamOptions options;
-  options.mode = read_mode(o.mode);
-  if (o.vehicle == CAIRN_ID_NONE) throw Error(ErrorCode::argument, "options.vehicle is CAIRN_ID_NONE");
-  if (o.baseline > 1) throw Error(ErrorCode::argument, "options.baseline must be 0 or 1, and is %u", o.baseline);
-  check_range(o.max_vehicles, 1, 256, "options.max_vehicles");
-  check_positive(o.max_lag, "options.max_lag");
-  check_not_negative(o.time_tolerance, "options.time_tolerance");
-  check_range(o.max_waiting, 1, 1000000, "options.max_waiting");
-  check_range(o.history, 1, 1000000, "options.history");
-  options.mail.vehicle = o.vehicle;
-  options.mail.max_vehicles = o.max_vehicles;
-  options.mail.max_lag = o.max_lag;
-  options.mail.time_tolerance = o.time_tolerance;
-  options.mail.max_waiting = o.max_waiting;
-  options.mail.history = o.history;
-  const auto filter_options = read_filter_options(filter);
-  const auto* planar = std::get_if<FilterOptions<SE2>>(&filter_options);
-  if (planar == nullptr)
-    throw Error(ErrorCode::argument, "filter: its vehicle is spatial; a team's is CAIRN_VEHICLE_PLANAR");
-  options.filter = *planar;
-  options.filter.max_sensors = 2;
-  options.radar = read_range_bearing(radar);
-  const bool extended = options.mode == TeamMode::eo_diagonal || options.mode == TeamMode::eo_full;
-  const SE2& mount = options.radar.T_body_sensor;
-  if (extended && (!mount.translation().isZero(0.0) || mount.rotation().angle() != 0.0))
-    throw Error(ErrorCode::argument, "radar.T_body_sensor: extended observations want the radar at the body's origin");
-  return options;
 }
 
 std::vector<Observation> read_observations(const cairn_observation* observations, std::size_t count, bool named,
@@ -168,15 +91,11 @@ std::int32_t result_of(Arrival arrival, PacketFault fault) {
 
 extern "C" {
 
-cairn_status cairn_team_options_init(cairn_team_options* options, size_t struct_size) {
-  return guard([&] { init_options(options, struct_size, capi::default_options(), "options"); });
-}
-
 cairn_status cairn_team_create(const cairn_team_options* options, const cairn_filter_options* filter,
                                const cairn_range_bearing* radar, cairn_team** team) {
   return guard([&] {
-    const cairn_team_options own = read_options(options, default_options(), "options");
-    const TeamOptions checked = read_team_options(own, filter, radar);
+    const cairn_team_options own = read_team_options(options);
+    const TeamOptions checked = team_options(own, filter, radar);
     check_pointer(team, "team");
     *team = new cairn_team(checked, own.baseline != 0);
   });
