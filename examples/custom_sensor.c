@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A sensor that Cairn does not have: a radio that measures only the distance to beacons. A lidar surveys the beacons
- * while the vehicle stands, then the vehicle drives off with nothing but the radio.
+/* A sensor that Cairn does not have: a radio that measures only the distance to beacons. First a lidar surveys the
+ * beacons while the vehicle stands still. Then the vehicle drives with only the radio.
  *
  *   cc -std=c99 custom_sensor.c $(pkg-config --cflags --libs cairn) -lm */
 #include <cairn/cairn.h>
@@ -15,9 +15,9 @@ typedef struct radio {
   double antenna[3]; /* in the body frame, m */
 } radio;
 
-/* z = |landmark - antenna in the map|, with the antenna at p + R a. Where u is the unit vector from the antenna to the
- * landmark and s = R a: dz/dlandmark = u, dz/dp = -u, and a turn dtheta (R <- Exp(dtheta) R) moves the antenna by
- * dtheta x s, so dz/dtheta = -(s x u). */
+/* z = |landmark - antenna in the map|, with the antenna at p + R a. Let u be the unit vector from the antenna to the
+ * landmark, and s = R a. Then dz/dlandmark = u and dz/dp = -u. A rotation dtheta (R <- Exp(dtheta) R) moves the antenna
+ * by dtheta x s, so dz/dtheta = -(s x u). */
 static int32_t predict_range(void *user, const cairn_pose *pose, const double landmark[3], double *z,
                              double *jacobian_pose, double *jacobian_landmark) {
   const radio *r = user;
@@ -30,7 +30,7 @@ static int32_t predict_range(void *user, const cairn_pose *pose, const double la
     squared += u[i] * u[i];
   }
   const double range = sqrt(squared);
-  if (!(range > 0.5)) return 1; /* too near to tell: the observation is refused */
+  if (!(range > 0.5)) return 1; /* too near for a direction: the observation is refused */
   for (int i = 0; i < 3; ++i) {
     u[i] /= range;
     jacobian_pose[i] = -u[i];
@@ -60,7 +60,7 @@ static double noise(double sigma) {
   return sigma * sum;
 }
 
-/* Where the filter believes to be, against where it is. */
+/* Prints the estimated position beside the true one. */
 static void report(const cairn_filter *filter, const char *when, const cairn_pose *truth) {
   cairn_pose pose;
   double covariance[36];
@@ -76,11 +76,11 @@ int main(void) {
   check(cairn_custom_init(&sensor, sizeof sensor));
   sensor.rows = 1;
   sensor.predict = predict_range;
-  sensor.place = NULL; /* one distance places no landmark */
+  sensor.place = NULL; /* one distance cannot place a landmark */
   sensor.user = &mine;
   sensor.sigma[0] = 0.1;
 
-  /* First of all: are the Jacobians right? Compared with numerical ones at some pose that is not special. */
+  /* First check the Jacobians: compare them with numerical ones at a pose that is not special. */
   const double rotation_vector[3] = {0.2, -0.3, 0.9};
   cairn_pose somewhere = {{1.0, -2.0, 0.5}, {1.0, 0.0, 0.0, 0.0}};
   check(cairn_quaternion_exp(rotation_vector, somewhere.quaternion));
@@ -99,7 +99,7 @@ int main(void) {
   check(cairn_filter_add_cartesian(filter, &lidar, &lidar_number));
   check(cairn_filter_add_custom(filter, &sensor, &radio_number));
 
-  /* The survey: the lidar places the beacons. The vehicle stands at the origin, so body and map frame are one. */
+  /* The survey: the lidar places the beacons. The vehicle stands at the origin: body frame and map frame are equal. */
   cairn_observation observations[BEACONS] = {{0}};
   for (int frame = 0; frame < 10; ++frame) {
     for (int i = 0; i < BEACONS; ++i) {

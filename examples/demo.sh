@@ -1,19 +1,28 @@
 #!/usr/bin/env bash
 # Builds Cairn and sends a simulated rover over Mars: standard EKF-SLAM and submaps through the same world, the Mars
 # paper's Table 2 beside what was measured, and a page to look at in a browser. Then two recorded logs, the second
-# where CAIRN_DATA_DIR holds starry_night.mat. Installs the Debian packages that are missing; plotly, which draws the
-# page, comes from the Python package index, into build/demo/venv.
+# where CAIRN_DATA_DIR holds starry_night.mat. Installs the Debian packages that are missing. The Python packages that make
+# the page come from the Python package index, into build/demo/venv.
 set -euo pipefail
 # shellcheck source=../tests/support/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../tests/support/setup.sh"
 
-need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libnanoflann-dev libmatio-dev \
-  python3 python3-venv python3-numpy python3-matplotlib
+# Only starry_night.mat takes libmatio, which brings HDF5.
+recording=${CAIRN_DATA_DIR:-}/starry_night.mat
+packages=("cmake=cmake" "g++=g++" "ninja-build=ninja" libeigen3-dev libnanoflann-dev python3 python3-venv)
+matio=OFF
+if [[ -f $recording ]]; then
+  packages+=("pkgconf=pkg-config" libmatio-dev)
+  matio=ON
+fi
+need_packages "${packages[@]}"
 
+# One build of the library, which runs on every processor: an installation has a second one.
 build=$root/build/demo
-say "Building the library, the program and the examples in build/demo (a few minutes the first time)"
-configure "$build" -DCMAKE_BUILD_TYPE=Release -DCAIRN_BUILD_TESTS=OFF --log-level=WARNING
-cmake --build "$build" --parallel "$jobs"
+say "Building the library, the program and an example in build/demo (some minutes the first time)"
+configure "$build" -DCMAKE_BUILD_TYPE=Release -DCAIRN_HWCAPS=OFF -DCAIRN_MATIO=$matio -DCAIRN_BUILD_TESTS=OFF \
+  -DCAIRN_BUILD_EXAMPLES=ON --log-level=WARNING
+cmake --build "$build" --parallel "$jobs" --target cairn_program example_make_demo_log
 
 # show COMMAND WORD...: prints a command as it could be typed in the project's folder, then runs it.
 show() {
@@ -56,21 +65,21 @@ END
 
 "$build/examples/make_demo_log" >"$build/two_laps.log"
 run_and_tell "$build/two_laps.log" "$build/two_laps" "A recorded log, as your own might be: two laps of a rover among boulders."
-if [[ -f ${CAIRN_DATA_DIR:-}/starry_night.mat ]]; then
-  run_and_tell "$CAIRN_DATA_DIR/starry_night.mat" "$build/starry_night" \
+if [[ -f $recording ]]; then
+  run_and_tell "$recording" "$build/starry_night" \
     "Starry Night: a stereo head carried over 20 landmarks, measured by motion capture."
 fi
 
-# Debian's Python has all that the page takes but plotly.
 python=$build/venv/bin/python3
-if ! "$python" -c 'import plotly, numpy' 2>/dev/null; then
-  say "Fetching plotly from the Python package index, into build/demo/venv"
+if ! "$python" -c 'import plotly, numpy, matplotlib' 2>/dev/null; then
+  say "Fetching plotly, numpy and matplotlib from the Python package index, into build/demo/venv"
   rm -rf -- "$build/venv"
-  /usr/bin/python3 -m venv --system-site-packages "$build/venv"
+  /usr/bin/python3 -m venv "$build/venv" || fail "no virtual environment in build/demo/venv: see above"
   "$python" -m pip install --quiet --disable-pip-version-check --retries 2 \
-    --constraint "$root/tests/python/constraints.txt" plotly </dev/null ||
-    fail "the page takes plotly, and pip could not fetch it (no network?): see above. All else is done: build/demo/mars
-holds the results as CSV files, and with plotly from elsewhere 'python3 -m cairn.report build/demo/mars' makes the page"
+    --constraint "$root/tests/python/constraints.txt" plotly numpy matplotlib </dev/null ||
+    fail "the page takes plotly, numpy and matplotlib, and pip could not fetch them (no network?): see above. All else is
+done: build/demo/mars holds the results as CSV files, and with these packages from elsewhere
+'python3 -m cairn.report build/demo/mars' makes the page"
 fi
 say "PYTHONPATH=bindings/python build/demo/venv/bin/python3 -m cairn.report build/demo/mars"
 PYTHONPATH=$root/bindings/python PYTHONDONTWRITEBYTECODE=1 "$python" -m cairn.report "$mars"

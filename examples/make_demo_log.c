@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Writes the log that examples/demo.sh runs: a rover drives two laps over rolling ground and sees the boulders
- * beside its course. One line a record, SI units and radians, always the same bytes:
+ * beside its course. Each line is one record, in SI units and radians. The program always writes the same bytes:
  *
  *   T k t x y z roll pitch yaw       true pose at step k, at time t
  *   O k dx dy dz droll dpitch dyaw   measured motion from step k-1 to k, in the body frame of k-1
  *   Z k id range azimuth elevation   measured boulder, from the body (azimuth left, elevation up positive)
  *   L id x y z                       true boulders, at the end
  *
- * Noise: 2 cm and 0.1 degrees on a motion; 0.1 m, 0.5 and 0.5 degrees on a boulder. */
+ * Noise: 2 cm and 0.1 degrees for a motion; 0.1 m, 0.5 and 0.5 degrees for a boulder. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -28,7 +28,7 @@ typedef struct sighting {
   double range, azimuth, elevation;
 } sighting;
 
-/* Random numbers: Knuth's 64-bit congruential generator, its upper bits; Box and Muller for the normal ones. */
+/* Random numbers: the upper bits of Knuth's 64-bit congruential generator; Box and Muller for normal ones. */
 static uint64_t random_state = 20260101u;
 
 static double uniform(void) {
@@ -66,7 +66,7 @@ static void course(double angle, double offset, double xy[2]) {
   xy[1] = radius * sin(angle);
 }
 
-/* The rover at a point of its course: it stands flat on the ground and looks ahead. */
+/* The rover at a point of its course: it stands flat on the ground and points ahead. */
 static void stand(double angle, pose *rover) {
   const double eps = 1e-4;
   double here[2], ahead[2];
@@ -94,7 +94,7 @@ static void euler(const pose *body, double angles[3]) {
   angles[2] = atan2(body->axes[0][1], body->axes[0][0]);
 }
 
-/* A direction of the world in the body. */
+/* A direction of the world, in the body frame. */
 static void to_body(const pose *body, const double v[3], double v_body[3]) {
   for (int i = 0; i < 3; ++i) v_body[i] = dot(body->axes[i], v);
 }

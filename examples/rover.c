@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A rover drives a small circle among rocks. It knows how fast its wheels turned and where its stereo head saw which
- * rock; Cairn makes of it where the rover is, where the rocks are, and how far to trust both.
+/* A rover drives a small circle among rocks. It measures how fast its wheels turn and where its stereo head sees each
+ * rock. Cairn computes where the rover is, where the rocks are, and how far to trust both.
  *
  *   cc -std=c99 rover.c $(pkg-config --cflags --libs cairn) -lm */
 #include <cairn/cairn.h>
@@ -12,7 +12,7 @@
 
 enum { ROCKS = 14, STEPS = 300 };
 
-/* The true world, which the filter is to find out: rocks (id, x, y, z) on flat ground, and the rover among them. */
+/* The true world, which the filter does not know: rocks (id, x, y, z) on flat ground, and the rover among them. */
 static const struct { uint64_t id; double x, y, z; } rocks[ROCKS] = {
     {101, 6.0, 1.0, 0.4},    {102, 9.0, 7.0, 0.2},   {103, 4.0, 11.0, 0.7},  {104, -3.0, 12.0, 0.3},
     {105, -8.0, 8.0, 0.5},   {106, -9.0, 1.0, 0.1},  {107, -5.0, -4.0, 0.6}, {108, 1.0, -5.0, 0.3},
@@ -41,7 +41,7 @@ static void drive(double dt, double left_rad_per_s, double right_rad_per_s) {
   true_yaw += turn * dt;
 }
 
-/* What the head sees: range, azimuth and elevation of every rock within 12 m and 60 degrees to either side. */
+/* Observations of the head: range, azimuth and elevation of every rock within 12 m and 60 degrees to either side. */
 static size_t look(const cairn_stereo_head *head, cairn_observation observations[ROCKS]) {
   size_t count = 0;
   for (int i = 0; i < ROCKS; ++i) {
@@ -49,7 +49,7 @@ static size_t look(const cairn_stereo_head *head, cairn_observation observations
     const double forward = cos(true_yaw) * dx + sin(true_yaw) * dy, left = cos(true_yaw) * dy - sin(true_yaw) * dx;
     const double flat = sqrt(dx * dx + dy * dy), azimuth = atan2(left, forward);
     if (flat > 12.0 || flat < 1.0 || fabs(azimuth) > 60.0 * DEGREE) continue;
-    cairn_observation observation = {0}; /* covariance 0: the head's own noise holds */
+    cairn_observation observation = {0}; /* covariance 0: the noise of the head is used */
     observation.id = rocks[i].id;
     observation.z[0] = sqrt(flat * flat + rocks[i].z * rocks[i].z) + noise(head->range_sigma);
     observation.z[1] = azimuth + noise(head->azimuth_sigma);
@@ -59,7 +59,7 @@ static size_t look(const cairn_stereo_head *head, cairn_observation observations
   return count;
 }
 
-/* Every call says how it went; the message names what was wrong and what to do about it. */
+/* Every call returns a status. After a failure, the message says what was wrong and what to do about it. */
 static void check(cairn_status status) {
   if (status == CAIRN_OK) return;
   fprintf(stderr, "%s: %s\n", cairn_status_name(status), cairn_last_message());
@@ -84,12 +84,12 @@ int main(void) {
 
   unsigned matched = 0, placed = 0, rejected = 0;
   for (int step = 0; step < STEPS; ++step) {
-    /* The wheels turn; the encoders say nearly how fast. */
+    /* The wheels turn. The encoders measure the rates with a small error. */
     const double dt = 0.2, left_rad_per_s = 1.6, right_rad_per_s = 2.0;
     drive(dt, left_rad_per_s, right_rad_per_s);
     check(cairn_filter_predict_wheels(filter, dt, left_rad_per_s + noise(0.01), right_rad_per_s + noise(0.01)));
 
-    /* A frame: all its observations go in together, each comes back with its decision. */
+    /* A frame: the filter gets all its observations together, and returns a match for each. */
     cairn_observation observations[ROCKS];
     cairn_match matches[ROCKS];
     const size_t count = look(&head, observations);
@@ -113,7 +113,7 @@ int main(void) {
   printf("truth   x %6.2f          y %6.2f          yaw %6.1f\n", true_x, true_y,
          atan2(sin(true_yaw), cos(true_yaw)) / DEGREE);
 
-  /* The rocks within 30 m, nearest first. Asked with NULL and 0, a query only tells how many there are. */
+  /* The rocks within 30 m, nearest first. With NULL and capacity 0 a query returns only their number. */
   size_t count = 0;
   check(cairn_map_within(cairn_filter_map(filter), pose.position, 30.0, NULL, 0, &count));
   cairn_landmark *landmarks = malloc((count + 1) * sizeof *landmarks);

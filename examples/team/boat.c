@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One boat of a team that maps buoys together: a process of its own, which talks with the others over MQTT. It makes
- * the same simulated sea as all the others, by the seed, and uses of it what a boat would have: its own commands and
- * its own radar. run.sh starts a team of them, README.md tells more.
+/* One boat of a team that maps buoys together. Each boat is a process of its own and exchanges packets with the others
+ * over MQTT. All boats create the same simulated sea from the seed, and each uses only its own commands and its own
+ * radar. run.sh starts a team. README.md has the details.
  *
  *   boat NUMBER BOATS FEATURES SEED STEPS PORT LOSS OUTPUT [joint|eo_full|eo_diagonal|mono] */
 #include <cairn/cairn.h>
@@ -15,10 +15,10 @@
 
 #include "radio.h"
 
-enum { MOST_AHEAD = 4 }; /* steps that a boat sails on while older ones still wait for teammates */
+enum { MOST_AHEAD = 4 }; /* steps that a boat may make while older ones still wait for teammates */
 
-static const double step_every = 0.005; /* s between steps, the sea in fast motion; more for a boat that is ahead */
-static const double ask_after = 0.03;   /* s without news, after which a boat that waits asks for what it misses */
+static const double step_every = 0.005; /* s between steps, faster than real time; longer for a boat that is ahead */
+static const double ask_after = 0.03;   /* s without packets, after which a waiting boat asks for missing packets */
 static const double time_limit = 60.0;  /* s, for everything */
 
 static unsigned long long me;
@@ -46,7 +46,7 @@ typedef struct boat {
   cairn_fleet *fleet; /* the sea */
   cairn_fleet_options sea;
   cairn_fleet_step now;
-  cairn_team *team; /* what this boat makes of all that it saw and heard */
+  cairn_team *team; /* this boat's view of the team */
   cairn_observation *landmarks, *vehicles;
   uint8_t *packet;
   size_t packet_capacity;
@@ -64,7 +64,7 @@ static cairn_pose place(const cairn_fleet_vehicle *vehicle) {
   return pose;
 }
 
-/* All boats know from which berth each of them sets out, and nothing else of each other. */
+/* All boats know the start of each boat, and nothing else about each other. */
 static void join_team(boat *b, int32_t mode, uint32_t steps) {
   cairn_filter_options filter;
   check(cairn_filter_options_init(&filter, sizeof filter));
@@ -84,7 +84,7 @@ static void join_team(boat *b, int32_t mode, uint32_t steps) {
   options.vehicle = me;
   options.max_vehicles = b->sea.vehicles;
   options.history = steps;
-  options.max_lag = 2.0 * b->sea.duration; /* no packet is ever given up: all maps are to be the same in the end */
+  options.max_lag = 2.0 * b->sea.duration; /* no packet is ever given up, so that all maps are equal in the end */
   check(cairn_team_create(&options, &filter, &radar, &b->team));
   for (uint32_t other = 1; other <= b->sea.vehicles; ++other) {
     if (other == me) continue;
@@ -94,7 +94,7 @@ static void join_team(boat *b, int32_t mode, uint32_t steps) {
 }
 
 static void convert(const cairn_fleet_sighting *sightings, size_t count, cairn_observation *observations) {
-  memset(observations, 0, count * sizeof *observations); /* covariance 0: the radar's own noise holds */
+  memset(observations, 0, count * sizeof *observations); /* covariance 0: the noise of the radar is used */
   for (size_t i = 0; i < count; ++i) {
     observations[i].id = sightings[i].id;
     observations[i].z[0] = sightings[i].range;
@@ -102,7 +102,7 @@ static void convert(const cairn_fleet_sighting *sightings, size_t count, cairn_o
   }
 }
 
-/* The own part of a step: how the boat was told to move, then what its radar sees. */
+/* The own part of a step: the commanded motion, then the scan of the radar. */
 static void tell_step(boat *b) {
   const cairn_fleet_vehicle *own = &b->now.vehicles[me - 1];
   if (b->now.dt > 0.0) {
@@ -110,7 +110,7 @@ static void tell_step(boat *b) {
     cairn_twist_noise noise;
     check(cairn_twist_noise_init(&noise, sizeof noise));
     noise.velocity_sigma[0] = b->sea.speed_sigma;
-    noise.velocity_sigma[1] = 0.0; /* these boats make no leeway */
+    noise.velocity_sigma[1] = 0.0; /* these boats have no leeway */
     noise.rate_sigma[2] = b->sea.rate_sigma;
     check(cairn_team_predict_twist(b->team, b->now.dt, velocity, rate, &noise));
   }
@@ -119,7 +119,7 @@ static void tell_step(boat *b) {
   check(cairn_team_observe(b->team, b->now.time, b->landmarks, own->feature_count, b->vehicles, own->vehicle_count));
 }
 
-/* Own steps, repetitions and questions: the radio need not know which is which. */
+/* Own steps, repetitions and requests. The radio need not distinguish them. */
 static void send_packets(boat *b) {
   for (;;) {
     size_t size = 0;
@@ -136,7 +136,7 @@ static void send_packets(boat *b) {
 
 static void take_packet(void *user, const uint8_t *packet, size_t size) {
   boat *b = user;
-  check(cairn_team_receive(b->team, packet, size, NULL)); /* what it refuses, it counts */
+  check(cairn_team_receive(b->team, packet, size, NULL)); /* the team counts refused packets */
 }
 
 static cairn_team_report report_of(const boat *b) {
@@ -157,12 +157,12 @@ static void give_up(const boat *b, unsigned long steps_done) {
   exit(1);
 }
 
-/* Sails, sends and listens until all boats have all that they need. Who is done goes on answering the others. */
+/* Moves, sends and listens until all boats have all packets. A boat that is done still answers the others. */
 static void run(boat *b, unsigned long steps) {
   const double start = radio_now();
   double next_step = start, news = start;
   unsigned long done = 0;
-  uint64_t known = 0; /* teammates' packets that were taken in */
+  uint64_t known = 0; /* teammates' packets that are part of the estimate */
   while (radio_busy(b->radio) > 0) {
     const double now = radio_now();
     if (now - start > time_limit) give_up(b, done);
@@ -180,7 +180,7 @@ static void run(boat *b, unsigned long steps) {
       known = report.taken;
       news = now;
     }
-    /* With every own step the team asks by itself. A boat that waits takes none, and nor does one at its end. */
+    /* The team asks by itself at every own step. A boat that waits, or is at its end, makes no steps and must ask. */
     if (now - news > ask_after) {
       check(cairn_team_ask(b->team));
       news = now;
@@ -266,7 +266,7 @@ int main(int argc, char **argv) {
 
   b.landmarks = must_have(malloc(b.sea.features * sizeof *b.landmarks));
   b.vehicles = must_have(malloc(b.sea.vehicles * sizeof *b.vehicles));
-  sail_on(&b); /* to the start, where nobody has moved yet */
+  sail_on(&b); /* the step at the start, before any motion */
   join_team(&b, mode, steps);
   b.radio = must_have(radio_open(me, b.sea.vehicles, port, loss, b.sea.seed, take_packet, &b));
   run(&b, steps);

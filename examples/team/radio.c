@@ -27,7 +27,7 @@ struct radio {
   radio_handler handler;
   void *user;
   int connected;
-  int done_mid; /* of the own farewell, once it was sent */
+  int done_mid; /* id of the own "done" message, once it was sent */
   int done_sent;
   unsigned char *done; /* by vehicle - 1 */
   held *waiting;
@@ -55,7 +55,7 @@ static double draw(radio *r) {
 
 static void hold(radio *r, const uint8_t *packet, size_t size) {
   held *h = malloc(sizeof *h + size);
-  if (!h) return; /* one more that is lost */
+  if (!h) return; /* the packet is lost */
   h->due = radio_now() + 1e-3 * MOST_DELAY_MS * draw(r);
   h->size = size;
   memcpy(h->packet, packet, size);
@@ -86,7 +86,7 @@ static void on_message(struct mosquitto *mqtt, void *object, const struct mosqui
   }
   const uint8_t *packet = message->payload;
   const size_t size = (size_t)message->payloadlen;
-  /* Always three draws a packet, so that a larger loss only adds to what happens. */
+  /* Always three draws for each packet, so that a larger loss only adds faults. */
   const int dropped = draw(r) < r->loss, delayed = draw(r) < r->loss / 2, doubled = draw(r) < r->loss / 2;
   if (dropped) {
     ++r->counts.dropped;
@@ -104,14 +104,14 @@ static void on_message(struct mosquitto *mqtt, void *object, const struct mosqui
   }
 }
 
-/* Subscribes anew after every connection: the broker forgets. */
+/* Subscribes again after every connection, because the broker forgets subscriptions. */
 static void on_connect(struct mosquitto *mqtt, void *object, int refused) {
   radio *r = object;
   if (refused) return;
   r->connected = 1;
   for (uint64_t other = 1; other <= r->vehicles; ++other) {
     char topic[64];
-    if (other == r->vehicle) continue; /* the broker would send everything back */
+    if (other == r->vehicle) continue; /* the broker would send own packets back */
     snprintf(topic, sizeof topic, "cairn/team/%llu", (unsigned long long)other);
     mosquitto_subscribe(mqtt, NULL, topic, 0);
     snprintf(topic, sizeof topic, "cairn/done/%llu", (unsigned long long)other);
@@ -136,7 +136,7 @@ radio *radio_open(uint64_t vehicle, uint64_t vehicles, int port, double loss, ui
                   void *user) {
   radio *r = calloc(1, sizeof *r);
   if (!r) return NULL;
-  signal(SIGPIPE, SIG_IGN); /* a broker that goes is no reason to die */
+  signal(SIGPIPE, SIG_IGN); /* the program must survive a broker that stops */
   mosquitto_lib_init();
   r->vehicle = vehicle;
   r->vehicles = vehicles;
@@ -155,7 +155,7 @@ radio *radio_open(uint64_t vehicle, uint64_t vehicles, int port, double loss, ui
   mosquitto_disconnect_callback_set(r->mqtt, on_disconnect);
   mosquitto_message_callback_set(r->mqtt, on_message);
   mosquitto_publish_callback_set(r->mqtt, on_publish);
-  mosquitto_connect(r->mqtt, "127.0.0.1", port, KEEP_ALIVE_S); /* where it fails, radio_listen tries again */
+  mosquitto_connect(r->mqtt, "127.0.0.1", port, KEEP_ALIVE_S); /* if it fails, radio_listen tries again */
   return r;
 }
 
@@ -163,7 +163,7 @@ void radio_close(radio *r) {
   if (!r) return;
   if (r->mqtt) {
     mosquitto_disconnect(r->mqtt);
-    mosquitto_loop(r->mqtt, 1, 1); /* lets the farewell out */
+    mosquitto_loop(r->mqtt, 1, 1); /* sends the last message */
     mosquitto_destroy(r->mqtt);
   }
   while (r->waiting) {
@@ -195,7 +195,7 @@ void radio_say_done(radio *r) {
   char topic[64];
   if (r->done_sent || !r->connected) return;
   snprintf(topic, sizeof topic, "cairn/done/%llu", (unsigned long long)r->vehicle);
-  /* QoS 1 and retained: it gets there, and who comes late finds it. */
+  /* QoS 1 and retained: the message arrives, and boats that start later get it, too. */
   r->done_sent = mosquitto_publish(r->mqtt, &r->done_mid, topic, 4, "done", 1, true) == MOSQ_ERR_SUCCESS;
 }
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# A team of boats on one machine, each a process of its own, that talk over MQTT through a broker of this script's own,
-# on the loopback. In the end all maps are compared. README.md tells what the table says.
+# Runs a team of boats on one machine. Each boat is a process of its own; they exchange packets over MQTT through a
+# broker that this script starts on the loopback. In the end all maps are compared. README.md explains the table.
 #
 #   bash examples/team/run.sh [--boats N] [--features N] [--steps N] [--seed N] [--loss SHARE] [--mode MODE]
 #                             [--output FOLDER] [BOAT]
 #
 # BOAT is the built program; by default build/default/examples/team/boat. Exit status: 0 all maps agree, 77 there is no
-# broker to be had, anything else: something went wrong.
+# broker, anything else: an error.
 set -euo pipefail
 export LC_ALL=C  # awk and printf write numbers with a point
 
@@ -28,22 +28,22 @@ while (($# > 0)); do
       ;;
     -*) fail "unknown option $1" ;;
     *)
-      [[ -z $boat ]] || fail "one program is enough: $1"
+      [[ -z $boat ]] || fail "there are two programs: $boat and $1; give one"
       boat=$1
       shift
       ;;
   esac
 done
 boat=${boat:-${here%/examples/team}/build/default/examples/team/boat}
-[[ $boats =~ ^[1-9][0-9]?$ ]] || fail "--boats: $boats is no number from 1 to 64"
+[[ $boats =~ ^[1-9][0-9]?$ ]] || fail "--boats: $boats must be a number from 1 to 64"
 
-# Debian keeps the broker where only root looks.
+# Debian installs the broker in a folder that only root has in its PATH.
 PATH=$PATH:/usr/sbin:/usr/local/sbin
 if ! command -v mosquitto >/dev/null; then
-  echo "skipped: there is no MQTT broker here; on Debian it is in the package mosquitto"
+  echo "skipped: there is no MQTT broker here; on Debian install the package mosquitto"
   exit 77
 fi
-[[ -x $boat ]] || fail "$boat is not there: build the examples first, with libmosquitto-dev installed"
+[[ -x $boat ]] || fail "$boat does not exist: install libmosquitto-dev and build the examples first"
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/cairn team.XXXXXX")
 broker="" pids=()
@@ -57,12 +57,12 @@ trap cleanup EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM HUP
 
-# No port is known to be free until the broker has it: it is tried on one after the other. `timeout` ends it even where
-# this script is killed and can't.
+# Only the broker can find out whether a port is free, so it tries one port after the other. `timeout` ends the broker
+# even if this script is killed.
 start_broker() {
   local attempt i
   for attempt in {1..20}; do
-    port=$((20000 + RANDOM % 12000))  # below those that outgoing connections get
+    port=$((20000 + RANDOM % 12000))  # below the ports of outgoing connections
     cat >"$work/mosquitto.conf" <<END
 listener $port 127.0.0.1
 allow_anonymous true
@@ -111,7 +111,7 @@ fi
 
 printf '%d boats, %d steps each, %d features, seed %s, loss %s, mode %s: %d s\n\n' \
   "$boats" "$steps" "$features" "$seed" "$loss" "$mode" "$took"
-# Only with the joint filter all boats know the same: with extended observations each has a map of its own.
+# Only the joint filter gives all boats the same map. With extended observations each boat has a map of its own.
 must_agree=0
 if [[ $mode == joint ]]; then must_agree=1; fi
 awk -F, -v must_agree="$must_agree" -v agreement="$agreement" '
@@ -126,7 +126,7 @@ awk -F, -v must_agree="$must_agree" -v agreement="$agreement" '
     if (boat == 1) {
       x[$2] = $3; y[$2] = $4; sx[$2] = sd($5); sy[$2] = sd($7)
     } else if (!($2 in x)) {
-      if (must_agree) print "boat " boat " has landmark " $2 ", boat 1 has not"
+      if (must_agree) print "boat " boat " has landmark " $2 ", boat 1 does not have it"
       missing = 1
     } else {
       where[boat] = larger(where[boat], sqrt(($3 - x[$2]) ^ 2 + ($4 - y[$2]) ^ 2))
@@ -134,7 +134,7 @@ awk -F, -v must_agree="$must_agree" -v agreement="$agreement" '
     }
   }
   END {
-    print "boat  published  resent  asked  dropped  delayed  doubled  repeated  taken in  features" \
+    print "boat  published  resent  asked  dropped  delayed  doubled  repeated      used  features" \
       "  apart, m  sigma, m  error, m"
     for (b = 1; b <= boat; ++b) {
       printf "%4d  %9d  %6d  %5d  %7d  %7d  %7d  %8d  %8d  %8d  %8.2g  %8.2g  %8.2f\n", b, counter[b, "published"],
@@ -145,12 +145,12 @@ awk -F, -v must_agree="$must_agree" -v agreement="$agreement" '
       if (count[b] != count[1]) missing = 1
       if (counter[b, "lost"] + counter[b, "failed"] + counter[b, "refused"] > 0) {
         print "boat " b ": " counter[b, "lost"] " packets given up, " counter[b, "refused"] " refused, " \
-          counter[b, "failed"] " not taken in"
+          counter[b, "failed"] " not used"
         lacking = 1
       }
     }
     print ""
-    if (lacking) { print "FAILED: every packet is to be taken in"; exit 1 }
+    if (lacking) { print "FAILED: a packet is not part of the map; every packet must be"; exit 1 }
     if (!must_agree) { print "In this mode every boat has a map of its own."; exit 0 }
     if (count[1] == 0) { print "FAILED: no landmark was mapped"; exit 1 }
     if (missing) { print "FAILED: the maps do not hold the same landmarks"; exit 1 }

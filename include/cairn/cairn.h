@@ -1,24 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** \file
- *  The whole library. */
+ *  Includes all headers of libcairn. */
 /** \mainpage Cairn
- *  Landmark SLAM behind a C ABI: a vehicle that can tell how it moved and where it saw some landmarks calls it, from
- *  any language, and gets its pose, a map, and how far to trust both.
+ *  Landmark SLAM behind a C ABI. A vehicle tells the library how it moved and where it saw landmarks. The library
+ *  returns the vehicle's pose, a map of the landmarks, and covariances that say how far to trust both.
  *
  *  \section rules Rules that hold for every function
- *  - **Units** are SI, angles radians. **Frames**: right-handed, body x forward, y left, z up; the map frame is the one
- *    that the initial pose is given in.
- *  - **Errors**: a negative \ref cairn_status; \ref cairn_last_message tells the rest. A call that fails leaves its
- *    handle as it was, bit for bit, and writes no output but `*needed`.
- *  - **Threads**: a handle serves one thread at a time ("one a handle"); different handles are independent ("any");
- *    calls that take a const handle may run side by side as long as none that changes it runs.
- *  - **Matrices** are row-major `double`.
- *  - **Same inputs, same build, same bits out**: nothing reads a clock, the environment or global state.
- *  - **Memory** is taken when a filter is created. After it, predictions and updates that succeed allocate nothing;
- *    a failure allocates its exception, and queries of arrays their indices.
- *  - **Options** start with their `struct_size`, 8 to 65536. Callers and libraries of different age agree on the smaller
- *    size: what an older caller leaves out has its default, what a newer one adds is ignored (and zeroed by `_init`).
- *    Fields named `reserved` are not read. */
+ *  - **Units** are SI units; angles are in radians. **Frames** are right-handed. The body frame has x forward, y left,
+ *    z up. The map frame is the frame of the initial pose.
+ *  - **Errors**: a call that fails returns a negative \ref cairn_status, and \ref cairn_last_message says why. A call
+ *    that fails leaves its handle as it was, bit for bit, and writes no output except `*needed`.
+ *  - **Threads**: "one a handle" means that one thread at a time may use the handle. "any" means that any number of
+ *    threads may call the function at the same time. "as any const query of the handle" means that several threads may
+ *    call such functions on one handle at the same time, as long as no call changes this handle meanwhile.
+ *  - **Matrices** are row-major arrays of `double`.
+ *  - **The same inputs and the same build give the same bits.** No result depends on a clock, the environment or global
+ *    state.
+ *  - **Memory** is taken when a filter is created. After that, predictions and updates that succeed allocate nothing.
+ *    A call that fails allocates its exception. Queries that fill arrays allocate their indices.
+ *  - **Options** start with their `struct_size`, 8 to 65536. Caller and library may be of different age: the library
+ *    uses the smaller of both sizes. Fields that an older caller does not have get their defaults. Fields that a newer
+ *    caller adds are ignored, and `_init` sets them to zero. Fields named `reserved` are not read. */
 #ifndef CAIRN_CAIRN_H
 #define CAIRN_CAIRN_H
 

@@ -4,7 +4,7 @@
 #ifndef CAIRN_EXPORT_H
 #define CAIRN_EXPORT_H
 
-/** Version of this header; \ref cairn_version tells that of the library that was loaded. */
+/** Major version of this header. \ref cairn_version returns the version of the loaded library. */
 #define CAIRN_VERSION_MAJOR 0
 #define CAIRN_VERSION_MINOR 1 /**< minor version of this header */
 #define CAIRN_VERSION_PATCH 0 /**< patch version of this header */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** \file
- *  Poses, their errors, and the ways in and out of Euler angles. docs/notation.md is the reference of conventions. */
+ *  Poses, their errors, and conversions from and to Euler angles. docs/notation.md defines the conventions. */
 #ifndef CAIRN_POSE_H
 #define CAIRN_POSE_H
 
@@ -13,41 +13,42 @@ extern "C" {
 /** Pose of a frame b in a frame a: `p_a = R(quaternion) p_b + position`. SI units, Hamilton quaternion, w first.
  *
  *  The error of a pose is `[dp; dtheta]` (m, rad), both in the axes of the parent frame a:
- *  `position_true = position + dp`, `R_true = Exp(dtheta) R`. Every 6x6 covariance of a pose that crosses this
- *  interface is the covariance of that error, row-major. */
+ *  `position_true = position + dp`, `R_true = Exp(dtheta) R`. Every 6x6 covariance of a pose in this interface is the
+ *  covariance of this error, row-major. */
 typedef struct cairn_pose {
   double position[3];   /**< origin of b in a, m */
-  double quaternion[4]; /**< rotation from b to a: w x y z, of unit length */
+  double quaternion[4]; /**< rotation from b to a: w x y z, unit length */
 } cairn_pose;
 
-/** Sets the identity. Threads: any. Errors: CAIRN_ERROR_ARGUMENT (NULL). \since 0.1.0 */
+/** Sets a pose to the identity. Threads: any. Errors: CAIRN_ERROR_ARGUMENT (NULL). \since 0.1.0 */
 CAIRN_API cairn_status cairn_pose_identity(cairn_pose *pose);
 
-/** `T_a_c = T_a_b * T_b_c`. Quaternions are normalised; one of length zero or not finite is refused.
- *  `result` may be one of the inputs. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+/** Composes two poses: `T_a_c = T_a_b * T_b_c`. Quaternions are normalised; a quaternion that is zero or not finite is
+ *  refused. `result` may be one of the inputs. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
 CAIRN_API cairn_status cairn_pose_compose(const cairn_pose *T_a_b, const cairn_pose *T_b_c, cairn_pose *result);
 
-/** `T_b_a` of a `T_a_b`. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+/** Inverts a pose: `T_b_a` from `T_a_b`. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
 CAIRN_API cairn_status cairn_pose_inverse(const cairn_pose *T_a_b, cairn_pose *result);
 
-/** Takes a point from frame b to frame a (m). Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+/** Transforms a point from frame b to frame a (m). Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
 CAIRN_API cairn_status cairn_pose_apply(const cairn_pose *T_a_b, const double point_b[3], double point_a[3]);
 
 /** Quaternion of roll, pitch and yaw (rad): `R = Rz(yaw) Ry(pitch) Rx(roll)`.
  *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT (NULL, not finite). \since 0.1.0 */
 CAIRN_API cairn_status cairn_quaternion_from_euler(double roll, double pitch, double yaw, double quaternion[4]);
 
-/** Roll, pitch and yaw (rad) of a quaternion; pitch lies in [-pi/2, pi/2]. At pitch = +-pi/2, where roll and yaw turn
- *  about one axis, roll is 0. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+/** Roll, pitch and yaw (rad) of a quaternion; pitch lies in [-pi/2, pi/2]. At pitch = +-pi/2 roll and yaw turn about
+ *  the same axis; there roll is set to 0. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
 CAIRN_API cairn_status cairn_quaternion_to_euler(const double quaternion[4], double *roll, double *pitch, double *yaw);
 
 /** Quaternion of a rotation vector (axis times angle, rad). Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
 CAIRN_API cairn_status cairn_quaternion_exp(const double rotation_vector[3], double quaternion[4]);
 
-/** Rotation vector of a quaternion (rad), of length at most pi. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+/** Rotation vector of a quaternion (rad). Its length is at most pi. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
+ *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_quaternion_log(const double quaternion[4], double rotation_vector[3]);
 
-/** Error of an estimate against the truth, `[dp; dtheta]` as \ref cairn_pose defines it.
+/** Error of an estimate against the truth: `[dp; dtheta]` as \ref cairn_pose defines it.
  *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
 CAIRN_API cairn_status cairn_pose_error(const cairn_pose *truth, const cairn_pose *estimate, double error[6]);
 

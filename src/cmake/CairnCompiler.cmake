@@ -1,4 +1,12 @@
 # Flags that every target of the project is compiled with.
+
+# ccache caches what was compiled with a precompiled header only where it is told that this is meant.
+foreach(language IN ITEMS C CXX)
+  if(CMAKE_${language}_COMPILER_LAUNCHER MATCHES "ccache$")
+    set(CMAKE_${language}_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+        ${CMAKE_${language}_COMPILER_LAUNCHER})
+  endif()
+endforeach()
 set(CMAKE_C_STANDARD 99)
 set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_C_STANDARD_REQUIRED ON)

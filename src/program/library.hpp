@@ -15,7 +15,7 @@ class LibraryError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Throws LibraryError: the library's own word, after what the call was about.
+// Throws LibraryError with the library's message behind `about`.
 inline void check(cairn_status status, const std::string& about = "") {
   if (status != CAIRN_OK) throw LibraryError(about + cairn_status_name(status) + ": " + cairn_last_message());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program: runs recorded logs and simulated worlds through the library and says how well it did.
+// The program: runs recorded logs and simulated worlds through the library, and prints how accurate it was.
 #include <cairn/cairn.h>
 
 #include <cstdio>
@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "program/commands.hpp"
-#include "program/option_table.hpp"
+#include "program/commands/commands.hpp"
 #include "program/logs/log.hpp"
+#include "program/usage_error.hpp"
 
 namespace {
 
 using namespace cairn;
 
 constexpr int kSuccess = 0;
-constexpr int kFailure = 1;  // the library refused something on the way
+constexpr int kFailure = 1;  // the library refused a call
 constexpr int kUsage = 2;    // a bad command line, or a bad file
 
 int dispatch(const std::vector<std::string>& arguments) {
@@ -24,7 +24,9 @@ int dispatch(const std::vector<std::string>& arguments) {
   const std::string& command = arguments[0];
   const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
   if (command == "--help" || command == "-h") {
-    program::write_stdout(program::kHelp);
+    program::write_help();
+  } else if (command == "--manual-options") {
+    program::write_manual_options();
   } else if (command == "--version") {
     program::write_stdout("cairn " + std::string(cairn_version()) + " (" + cairn_build() + ")\n");
   } else if (command == "run") {
@@ -50,7 +52,7 @@ int main(int argc, char** argv) {
     return dispatch({argv + 1, argv + argc});
   } catch (const program::UsageError& error) {
     return fail(error.what(), kUsage);
-  } catch (const logs::LogError& error) {
+  } catch (const program::logs::LogError& error) {
     return fail(error.what(), kUsage);
   } catch (const std::exception& error) {
     return fail(error.what(), kFailure);

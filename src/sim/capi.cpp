@@ -70,11 +70,7 @@ void cairn_world_destroy(cairn_world* world) {
 cairn_status cairn_world_next(cairn_world* world, cairn_world_step* step) {
   return guard([&] {
     sim::World& w = read_world(world);
-    check_pointer(step, "step");
-    check_struct_size(step->struct_size, "step");
-    cairn_world_step value = {};
-    w.next(value);
-    write_struct(value, step, "step");
+    sim::write_next_step(w, step);
   });
 }
 
@@ -153,7 +149,9 @@ cairn_status cairn_world_contacts(const cairn_world* world, double time, double 
     check_time(w, time);
     check_pointer(points, "points");
     if (w.options().contact == CAIRN_CONTACT_POINT)
-      throw Error(ErrorCode::state, "this world's rover has no wheels: options.contact is CAIRN_CONTACT_POINT");
+      throw Error(ErrorCode::state,
+                  "the rover of this world has no wheels: options.contact is CAIRN_CONTACT_POINT; create a world with "
+                  "CAIRN_CONTACT_WHEELS");
     const sim::Stance stance = w.stance(time);
     for (int i = 0; i < 4; ++i) std::copy_n(stance.contacts[i].data(), 3, points + 3 * i);
   });
@@ -186,7 +184,7 @@ cairn_status cairn_world_landmark(const cairn_world* world, uint64_t id, double 
     const sim::LandmarkField& landmarks = read_world(world).landmarks();
     check_pointer(position, "position");
     if (id >= landmarks.size())
-      throw Error(ErrorCode::not_found, "id %llu: the world's landmarks are 0 to %zu",
+      throw Error(ErrorCode::not_found, "id %llu is unknown: the landmarks of this world have the ids 0 to %zu",
                   static_cast<unsigned long long>(id), landmarks.size() - 1);
     std::copy_n(landmarks[id].data(), 3, position);
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the C boundaries of worlds and fleets share beyond that of all libraries.
+// Helpers that the C boundaries of worlds and fleets share.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,11 @@ namespace cairn::sim {
 
 inline void check_choice(std::int32_t value, std::int32_t last, const char* name, const char* constants) {
   if (value < 0 || value > last)
-    throw Error(ErrorCode::argument, "options.%s is %d, none of the %s constants", name, value, constants);
+    throw Error(ErrorCode::argument, "options.%s = %d is none of the %s constants; use one of them", name, value,
+                constants);
 }
 
-// As many bytes of it as the caller's struct has.
+// Writes at most as many bytes of `value` as the caller's struct has.
 template <class Struct>
 void write_struct(Struct value, Struct* out, const char* name) {
   capi::check_pointer(out, name);
@@ -23,6 +24,16 @@ void write_struct(Struct value, Struct* out, const char* name) {
   capi::check_struct_size(size, name);
   value.struct_size = size;
   std::memcpy(static_cast<void*>(out), &value, std::min<std::size_t>(size, sizeof value));
+}
+
+// Hands out the next step of a world or a fleet. A bad `step` is refused before the simulation moves.
+template <class Simulation, class Step>
+void write_next_step(Simulation& simulation, Step* step) {
+  capi::check_pointer(step, "step");
+  capi::check_struct_size(step->struct_size, "step");
+  Step value = {};
+  simulation.next(value);
+  write_struct(value, step, "step");
 }
 
 }  // namespace cairn::sim

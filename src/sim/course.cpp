@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's circle, and a wandering closed curve. The chain of circles: traverse.cpp.
+// Two courses: the circle of the Mars paper, and laps on a closed curve with bends. The third one, a chain of circles,
+// is in traverse.cpp.
 #include "sim/course.hpp"
 
 #include <algorithm>
@@ -19,10 +20,9 @@ class Circle : public Course {
         start_(o.start_azimuth),
         laps_(o.laps > 0 ? o.laps : 1),
         strip_(o.strip) {
-    if (o.radius <= 0) strip_ = std::min(strip_, 0.9 * radius_);  // a circle of few landmarks
+    if (o.radius <= 0) strip_ = std::min(strip_, 0.9 * radius_);  // a small circle with few landmarks
     if (radius_ <= strip_)
-      throw Error(ErrorCode::argument, "options.radius is %g; it must exceed options.strip, which is %g", radius_,
-                  strip_);
+      throw Error(ErrorCode::argument, "options.radius = %g must exceed options.strip = %g", radius_, strip_);
   }
 
   double length() const override { return 2 * kPi * radius_ * laps_; }
@@ -32,7 +32,7 @@ class Circle : public Course {
     return {centre_.x() + radius_ * std::cos(azimuth), centre_.y() + radius_ * std::sin(azimuth), azimuth + kPi / 2};
   }
 
-  // Uniform in azimuth and in radius.
+  // Landmarks are uniform in azimuth and in radius.
   std::vector<Vector2> scatter(Random& random, std::size_t count) const override {
     std::vector<Vector2> places(count);
     for (Vector2& place : places) {
@@ -47,8 +47,8 @@ class Circle : public Course {
   double radius_, start_, laps_, strip_;
 };
 
-// r(a) = scale (1 + sum_m size_m cos(m a + phase_m)) about a centre: no two of its stretches come near each other, and
-// nowhere is it bent more sharply than by about two of its mean radii.
+// The curve r(a) = scale (1 + sum_m size_m cos(m a + phase_m)) about a centre. Different parts of the curve stay apart,
+// and its curvature is at most about twice that of a circle of its mean radius.
 class Laps : public Course {
  public:
   explicit Laps(const cairn_world_options& o) : laps_(o.laps > 0 ? o.laps : 2) {
@@ -57,8 +57,9 @@ class Laps : public Course {
     for (int i = 0; i < kWaves; ++i) waves_[i] = {i + 2.0, kSizes[i], random.uniform(0, 2 * kPi)};
     const double start = random.uniform(0, 2 * kPi);
     tabulate();
-    // The strip along a closed curve covers length times width, whatever its bends. Few landmarks would ask for a
-    // course that is shorter than its strip is wide: then they stand less densely.
+    // The area of a strip along a closed curve is its length times its width, whatever the bends. For few landmarks the
+    // course would become shorter than the strip is wide; then the course is kept longer and the landmarks are less
+    // dense.
     const double asked = o.landmarks * o.landmark_area / (2 * o.strip);
     scale_ = std::max(asked, 2 * kPi * 3 * o.strip) / lap_;
     strip_ = o.strip;
@@ -78,8 +79,8 @@ class Laps : public Course {
     return {point.x(), point.y(), std::atan2(f.slope * n + f.radius * c, f.slope * c - f.radius * n)};
   }
 
-  // Even over the ground: a place at `offset` to the left of a left bend of curvature k stands for 1 - k offset times
-  // the ground of one on the line.
+  // Landmarks are uniform over the area. In a left bend of curvature k, a place at `offset` to the left of the line
+  // represents 1 - k offset times the area of a place on the line; rejection sampling takes this into account.
   std::vector<Vector2> scatter(Random& random, std::size_t count) const override {
     std::vector<Vector2> places;
     while (places.size() < count) {
@@ -101,7 +102,7 @@ class Laps : public Course {
     double number, size, phase;
   };
   struct Shape {
-    double radius, slope, bend;  // r and its derivatives by the angle
+    double radius, slope, bend;  // r and its first and second derivatives by the angle
   };
 
   Shape shape(double angle) const {
@@ -121,7 +122,7 @@ class Laps : public Course {
     return std::hypot(f.radius, f.slope);
   }
 
-  // Length between two near angles: Gauss and Legendre, three points.
+  // Length of the curve between two near angles: Gauss-Legendre quadrature with three points.
   double arc(double from, double to) const {
     const double middle = (from + to) / 2, half = (to - from) / 2, node = std::sqrt(0.6) * half;
     return half / 9 * (5 * pace(middle - node) + 8 * pace(middle) + 5 * pace(middle + node));
@@ -140,7 +141,7 @@ class Laps : public Course {
     return table_[i] + arc(node(i), angle);
   }
 
-  // The angle after `s` metres of a lap: Newton from the table.
+  // The angle after `s` metres of a lap: Newton's method, started from the table.
   double angle_at(double s) const {
     const auto next = std::upper_bound(table_.begin() + 1, table_.end() - 1, s);
     const int i = static_cast<int>(next - table_.begin()) - 1;

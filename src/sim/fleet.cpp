@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Motion of the boats and their sightings.
 #include "sim/fleet.hpp"
 
 #include <cmath>
@@ -10,7 +11,7 @@
 namespace cairn::sim {
 namespace {
 
-// Of a boat at a step, and of what it sees there: no two share draws.
+// Index of the random draws of a boat at a step, and of each of its sightings. All indices differ.
 std::uint64_t draw_index(std::uint64_t step, std::uint64_t boat) {
   static_assert(kMostBoats <= 1 << 6, "the boat's number has six bits");
   return step << 6 | boat;
@@ -38,13 +39,14 @@ void Fleet::rewind() {
 
 void Fleet::next(cairn_fleet_step& step) {
   if (step_ >= steps_)
-    throw Error(ErrorCode::state, "the fleet's %zu steps were all handed out; rewind it, or create another", steps_);
-  // What fails, fails before anything of the state has changed.
+    throw Error(ErrorCode::state, "all %zu steps of the fleet were handed out; rewind it or create another one",
+                steps_);
+  // Everything that can fail comes before the state changes.
   for (std::size_t boat = 0; boat < moved_.size(); ++boat)
     moved_[boat] = step_ == 0 ? scene_.starts[boat] : moved(poses_[boat], boat);
   sightings_.clear();
   for (std::size_t boat = 0; boat < moved_.size(); ++boat) look(boat);
-  // Only now, that the sightings grow no more, do they have an address.
+  // Pointers into `sightings_` are valid only now that it no longer grows.
   const cairn_fleet_sighting* sighting = sightings_.data();
   for (cairn_fleet_vehicle& vehicle : vehicles_) {
     vehicle.features = sighting;
@@ -60,7 +62,7 @@ void Fleet::next(cairn_fleet_step& step) {
   ++step_;
 }
 
-// Where the executed speed and rate, constant over the period, lead from the step before.
+// The pose one period later: the executed speed and rate are the commanded ones plus noise, constant over the period.
 SE2 Fleet::moved(const SE2& T_map_boat, std::size_t boat) const {
   Random random(options_.seed, Stream::boat_motion, draw_index(step_, boat));
   const double speed = speed_ + options_.speed_sigma * random.normal();
@@ -93,7 +95,7 @@ void Fleet::see(const Vector2& place, std::size_t boat, std::uint64_t id, Stream
   cairn_fleet_sighting sighting = {};
   sighting.id = id;
   sighting.bearing = wrap_angle(std::atan2(m.y(), m.x()) + options_.bearing_sigma * random.normal());
-  // More than half of all draws will do, for the distance is positive.
+  // Draw again until the range is positive. The distance is positive, so more than half of all draws succeed.
   do sighting.range = distance + options_.range_sigma * random.normal();
   while (!(sighting.range > 0));
   sightings_.push_back(sighting);

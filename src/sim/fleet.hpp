@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fleet behind cairn/fleet.h: all boats, period by period.
+// The fleet behind cairn/fleet.h: moves all boats and makes their sightings, period by period.
 #pragma once
 
 #include <cairn/fleet.h>
@@ -14,7 +14,7 @@ namespace cairn::sim {
 
 class Fleet {
  public:
-  // `options` are checked already. Throws Error where they contradict each other.
+  // The fields of `options` have been checked. Throws Error if they contradict each other.
   explicit Fleet(const cairn_fleet_options& options);
 
   const FleetScene& scene() const { return scene_; }
@@ -34,10 +34,10 @@ class Fleet {
   std::size_t steps_;
   double speed_, rate_;  // commanded
 
-  std::size_t step_ = 0;                         // to be handed out next
-  std::vector<SE2> poses_, moved_;               // T_map_boat at the step before, and at the one in the making
-  std::vector<cairn_fleet_vehicle> vehicles_;    // handed out
-  std::vector<cairn_fleet_sighting> sightings_;  // of all boats, one after the other
+  std::size_t step_ = 0;                         // number of the next step
+  std::vector<SE2> poses_, moved_;               // T_map_boat at the last step, and at the step that is being made
+  std::vector<cairn_fleet_vehicle> vehicles_;    // handed out to the caller
+  std::vector<cairn_fleet_sighting> sightings_;  // of all boats, one boat after the other
 };
 
 }  // namespace cairn::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C boundary of the fleets.
+// The C boundary of fleets (cairn/fleet.h).
 #include <cairn/fleet.h>
 
 #include "sim/checks.hpp"
@@ -55,11 +55,7 @@ void cairn_fleet_destroy(cairn_fleet* fleet) {
 cairn_status cairn_fleet_next(cairn_fleet* fleet, cairn_fleet_step* step) {
   return guard([&] {
     sim::Fleet& f = read_fleet(fleet);
-    check_pointer(step, "step");
-    check_struct_size(step->struct_size, "step");
-    cairn_fleet_step value = {};
-    f.next(value);
-    sim::write_struct(value, step, "step");
+    sim::write_next_step(f, step);
   });
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Defaults and checks of the options of a fleet.
 #include "sim/fleet_options.hpp"
 
 #include "geometry/angle.hpp"
@@ -14,9 +15,8 @@ void check_square(const cairn_fleet_options& o) {
   capi::check_positive(o.area, "options.area");
   capi::check_positive(o.separation, "options.separation");
   if (o.separation > o.area / 2)
-    throw Error(ErrorCode::argument,
-                "options.separation = %g exceeds half of options.area = %g; move the boats together", o.separation,
-                o.area);
+    throw Error(ErrorCode::argument, "options.separation = %g exceeds half of options.area = %g; reduce the separation",
+                o.separation, o.area);
   capi::check_positive(o.course_length, "options.course_length");
   if (o.course_length > o.area)
     throw Error(ErrorCode::argument, "options.course_length = %g exceeds options.area = %g; shorten the course",
@@ -47,10 +47,10 @@ void check_coast(const cairn_fleet_options& o) {
   capi::check_range(o.coast_distance, 0, 0.5, "options.coast_distance");
   capi::check_range(o.coast_relief, 0, 0.5, "options.coast_relief");
   if (o.coast_distance + o.coast_relief > 0.5 * (1 + 1e-12))
-    throw Error(
-        ErrorCode::argument,
-        "options.coast_distance = %g and options.coast_relief = %g lead out of the square; keep their sum to 0.5",
-        o.coast_distance, o.coast_relief);
+    throw Error(ErrorCode::argument,
+                "options.coast_distance = %g and options.coast_relief = %g lead out of the square; keep their sum at "
+                "0.5 or less",
+                o.coast_distance, o.coast_relief);
   capi::check_range(o.coast_strip, 0, 0.5, "options.coast_strip");
 }
 
@@ -92,7 +92,7 @@ cairn_fleet_options read_fleet_options(const cairn_fleet_options* user) {
 }
 
 std::size_t steps_of(const cairn_fleet_options& o) {
-  // A duration of whole periods is one, whatever the quotient's last digits.
+  // The factor compensates rounding: a duration of n periods has n + 1 steps even if the quotient is just below n.
   return static_cast<std::size_t>(o.duration / o.period * (1 + 1e-12)) + 1;
 }
 

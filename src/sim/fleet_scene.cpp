@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Draws the coast line and places features and boats.
 #include "sim/fleet_scene.hpp"
 
 #include <algorithm>
@@ -11,8 +12,9 @@
 namespace cairn::sim {
 namespace {
 
-// A line that is wavy at every size: the k-th wave goes about k times up and down on the way, and is as much smaller.
-// The shares add up to 1 at most, which bounds the departure by the relief.
+// The coast is a sum of waves of different lengths: wave k has about k periods along the line, and its amplitude is
+// about k times smaller. The normalised amplitudes add up to 1, so the departure from a straight line is at most the
+// relief.
 std::vector<Vector2> draw_coast(const cairn_fleet_options& o) {
   constexpr int kSegments = 200, kWaves = 12;
   Random random(o.seed, Stream::coast);
@@ -45,10 +47,10 @@ std::vector<Vector2> place_anywhere(const cairn_fleet_options& o) {
   return features;
 }
 
-// Uniform over the line's length, then in the water south of that place: south, not across the line, so that no feature
-// leaves the square at its ends.
+// A feature lies in the water at a uniform distance south of a place that is uniform over the length of the coast.
+// South, and not perpendicular to the coast, so that no feature leaves the square at the ends of the coast.
 std::vector<Vector2> place_along(const std::vector<Vector2>& coast, const cairn_fleet_options& o) {
-  std::vector<double> lengths(coast.size(), 0);  // of the line up to each point
+  std::vector<double> lengths(coast.size(), 0);  // length of the line up to each point
   for (std::size_t i = 1; i < coast.size(); ++i) lengths[i] = lengths[i - 1] + (coast[i] - coast[i - 1]).norm();
   std::vector<Vector2> features;
   features.reserve(o.features);
@@ -78,17 +80,17 @@ std::vector<SE2> place_boats(const cairn_fleet_options& o) {
   return starts;
 }
 
-// A boat's circle reaches two radii north of its start. Beside a coast it is not to run aground.
+// Refuses boats that would run aground: the circle of a boat reaches two radii north of its start.
 void check_water(const FleetScene& scene, const cairn_fleet_options& o) {
   double shore = scene.coast[0].y(), course = -o.area;
   for (const Vector2& point : scene.coast) shore = std::min(shore, point.y());
   for (const SE2& start : scene.starts) course = std::max(course, start.translation().y() + o.course_length / kPi);
   if (course >= shore)
-    throw Error(
-        ErrorCode::argument,
-        "options: the boats' courses reach %g m north and the coast comes down to %g m; raise coast_distance, or "
-        "take a shorter course_length or separation",
-        course, shore);
+    throw Error(ErrorCode::argument,
+                "options: the courses of the boats reach %g m north, and the coast comes down to %g m; increase "
+                "coast_distance, "
+                "or reduce course_length or separation",
+                course, shore);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The grid of cells of the landmarks.
 #include "sim/landmark_field.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ LandmarkField::LandmarkField(std::vector<Vector3> positions, double range)
 }
 
 std::int64_t LandmarkField::cell(double x) const {
-  // Far beyond any landmark the cells end, so that a place of any size has one.
+  // The clamp gives every place a cell, however far away it is. No landmark is that far away.
   return static_cast<std::int64_t>(std::floor(std::clamp(x / size_, -1e9, 1e9)));
 }
 
@@ -30,8 +31,8 @@ std::size_t LandmarkField::begin_of(std::uint64_t key) const {
   return std::lower_bound(entries_.begin(), entries_.end(), Entry{key, 0}) - entries_.begin();
 }
 
-// Whatever stands in a block of nine cells, the most of all blocks. A block that holds a landmark anywhere has its
-// middle in a cell that holds one, or beside one: the blocks about each occupied cell, and those about its neighbours.
+// The largest number of landmarks in a block of 3 x 3 cells. The middle of a block that is not empty is an occupied
+// cell or a neighbour of one, so only these blocks are counted.
 std::size_t LandmarkField::most_near() const {
   std::size_t most = 0;
   for (std::size_t i = 0; i < entries_.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers that are the same bits on every machine: sums, products, quotients and square roots of IEEE numbers
-// alone (this library is compiled without contraction to fused multiply-adds).
+// Random numbers with the same bits on every machine. They use only sums, products, quotients and square roots of IEEE
+// numbers, and this library is compiled without contraction to fused multiply-adds.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace cairn::sim {
 
-// What a draw is for. Each purpose and index has draws of its own.
+// The purpose of a draw. Each purpose and index has its own sequence of draws.
 enum class Stream : std::uint64_t {
   terrain = 1,
   course,
@@ -34,7 +34,7 @@ class Random {
   // In [low, high).
   double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53); }
 
-  // Marsaglia's polar method; its second number serves the next call.
+  // Marsaglia's polar method. The next call returns its second number.
   double normal() {
     if (has_spare_) {
       has_spare_ = false;
@@ -52,8 +52,8 @@ class Random {
     return u * stretch;
   }
 
-  // Of a number in (0, 1), by its exponent and the series of 2 atanh of (m - 1) / (m + 1), m in [sqrt(1/2), sqrt(2)).
-  // The C library's own differs in the last bit from one machine to the next.
+  // Logarithm of a number in (0, 1): its exponent times log 2, plus the series of 2 atanh((m - 1) / (m + 1)) for the
+  // mantissa m in [sqrt(1/2), sqrt(2)). The log of the C library differs in the last bit between machines.
   static double logarithm(double x) {
     int exponent = 0;
     double m = std::frexp(x, &exponent);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Contact of a rover with the ground, and wheel kinematics.
 #include "sim/rover.hpp"
 
 #include <cmath>
@@ -19,17 +20,19 @@ Stance stand_on_point(const Terrain& terrain, const Place& place) {
   return stance;
 }
 
-// The wheels touch at T (a, b, s w): a = +-wheelbase/2, b = +-track/2, and s = +1, -1, -1, +1 is how rockers with a
-// differential give way, by w each. Unknown are height, pitch, roll and w; the four wheels' distances from the ground,
-// taken by the same four patterns, say by how much each is off. What that leaves out is the ground's slope where the
-// wheels shift sideways, a few per cent of each correction.
+// The wheels touch the ground at T (a, b, s w) with a = +-wheelbase/2, b = +-track/2. The rockers with their
+// differential move the wheels up and down by s w, with s = +1, -1, -1, +1. The unknowns are height, pitch, roll and w.
+// The distances of the four wheels from the ground, combined with the same four patterns of signs, give the correction
+// of each unknown. The correction ignores the slope of the ground where the wheels shift sideways, which is a few per
+// cent; the iteration converges nevertheless.
 Stance stand_on_wheels(const Terrain& terrain, const Place& place, double track, double wheelbase) {
   constexpr double kSignA[4] = {1, 1, -1, -1}, kSignB[4] = {1, -1, 1, -1}, kSignW[4] = {1, -1, -1, 1};
   constexpr double kTolerance = 1e-11;  // m
   constexpr int kMaxIterations = 60;
   const double ch = std::cos(place.heading), sh = std::sin(place.heading);
   const Vector2 slope = terrain.slope(place.x, place.y);
-  double pitch_sine = 0, roll_sine = 0, w = 0;  // of the x axis and of the y axis against the horizontal
+  double pitch_sine = 0, roll_sine = 0,
+         w = 0;  // sines of the angles of the x axis and of the y axis against the horizontal
   {
     const double along = slope.x() * ch + slope.y() * sh, across = -slope.x() * sh + slope.y() * ch;
     pitch_sine = along / std::sqrt(1 + along * along);
@@ -38,7 +41,7 @@ Stance stand_on_wheels(const Terrain& terrain, const Place& place, double track,
   double height = terrain.height(place.x, place.y);
   Stance stance;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    // x rises by pitch_sine, y by roll_sine: R = Rz(heading) Ry(-pitch) Rx(roll).
+    // The x axis rises by pitch_sine, the y axis by roll_sine: R = Rz(heading) Ry(-pitch) Rx(roll).
     const double cp = std::sqrt(1 - pitch_sine * pitch_sine);
     const double sr = roll_sine / cp, cr = std::sqrt(1 - sr * sr);
     Matrix3 R;
@@ -67,8 +70,9 @@ Stance stand_on_wheels(const Terrain& terrain, const Place& place, double track,
     roll_sine += by_roll / (track / 2);
     w += by_w / R(2, 2);
   }
-  throw Error(ErrorCode::numerical, "four wheels find no stand at (%g, %g): the ground is too rough; use longer waves",
-              place.x, place.y);
+  throw Error(ErrorCode::numerical,
+              "the rover cannot stand on four wheels at (%g, %g): the ground is too rough; use longer waves", place.x,
+              place.y);
 }
 
 Vector2 wheel_rates(double velocity_x, double rate_z, double radius, double track) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a rover stands on the ground, and what its wheels do when it moves.
+// The pose of a rover that stands on the ground, and the rates of its wheels.
 #pragma once
 
 #include "geometry/se3.hpp"
@@ -14,17 +14,18 @@ struct Place {
 
 struct Stance {
   SE3 T_map_body;
-  // Front left, front right, rear left, rear right; only of a rover on wheels.
+  // Front left, front right, rear left, rear right. Set only for a rover on wheels.
   Vector3 contacts[4];
 };
 
-// On one point: z along the ground's normal, x along the heading, laid into the ground.
+// A rover that touches the ground at one point: z is the normal of the ground, x is the heading projected onto the
+// ground.
 Stance stand_on_point(const Terrain& terrain, const Place& place);
 
-// On four wheels. Throws Error (numerical) where the ground is too rough for that to have an answer.
+// A rover on four wheels. Throws Error (numerical) if the ground is too rough for a solution.
 Stance stand_on_wheels(const Terrain& terrain, const Place& place, double track, double wheelbase);
 
-// Turning rates of the left and right wheels that a body velocity and rate ask for (Mars paper, eq. 1, z up).
+// Rates of the left and right wheels for a body velocity and rate (Mars paper, eq. 1, with z up).
 Vector2 wheel_rates(double velocity_x, double rate_z, double radius, double track);
 
 }  // namespace cairn::sim

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Height and slope of the ground.
 #include "sim/terrain.hpp"
 
 #include <cmath>
@@ -10,19 +11,19 @@ namespace cairn::sim {
 namespace {
 
 constexpr int kWaves = 9;
-constexpr double kAnchorX = 100, kAnchorY = 20;  // the paper's start, where the height is given
+constexpr double kAnchorX = 100, kAnchorY = 20;  // start of the Mars paper, where options.start_height is the height
 
 }  // namespace
 
-// Rolling ground is a sum of waves in all directions. Their steepness adds up to the bound, which the slope can't pass
-// then anywhere; longer waves carry more of it, as hills do.
+// Rolling ground is a sum of waves in all directions. Their steepness adds up to the limit, so the slope exceeds the
+// limit nowhere. Longer waves have a larger share of the steepness.
 Terrain::Terrain(const cairn_world_options& options) : kind_(options.terrain) {
   if (kind_ != CAIRN_TERRAIN_ROLLING) return;
   Random random(options.seed, Stream::terrain);
   const double shortest = options.wavelength[0], longest = options.wavelength[1];
   double steepness = 0;
   for (int i = 0; i < kWaves; ++i) {
-    // A third of the circle's half for each three waves, so that no direction is left flat.
+    // Each group of three waves covers three sectors of 60 degrees, so that no direction stays flat.
     const double direction = kPi * (i % 3 + random.uniform(0, 1)) / 3;
     const double length = shortest * std::pow(longest / shortest, (i + random.uniform(0, 1)) / kWaves);
     const double k = 2 * kPi / length;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ground: a height over the plane, smooth and without an end.
+// The ground: a smooth, unbounded height field.
 #pragma once
 
 #include <cairn/sim.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A chain of circles that touch. Circles with even numbers are driven anticlockwise, the others clockwise, so that the
-// way goes smoothly from one to the next; each is driven a quarter more than once round.
+// A course on a chain of touching circles. Circles with even numbers are driven anticlockwise, the others clockwise, so
+// that the course is smooth from one circle to the next. On each circle the rover drives one and a quarter rounds.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kQuarter = kPi / 2;
 constexpr int kFewestOfRing = 16;
-constexpr int kRows = 10, kColumns = 720;  // of the sums over a ring of ground
+constexpr int kRows = 10, kColumns = 720;  // resolution of the sums over the strip of a circle
 
 Vector2 direction(double angle) {
   return Vector2(std::cos(angle), std::sin(angle));
@@ -37,7 +37,8 @@ class Traverse : public Course {
     return {point.x(), point.y(), azimuth + round.sense * kQuarter};
   }
 
-  // Even over the ground that the strips of all circles cover together: where two overlap, the earlier one's count.
+  // Landmarks are uniform over the union of the strips of all circles. Where two strips overlap, only the earlier
+  // circle places landmarks.
   std::vector<Vector2> scatter(Random& random, std::size_t count) const override {
     std::vector<double> ends;
     for (std::size_t i = 0; i < circles(); ++i) ends.push_back((ends.empty() ? 0 : ends.back()) + rounds_[i].radius);
@@ -56,8 +57,9 @@ class Traverse : public Course {
  private:
   struct Round {
     Vector2 centre;
-    double radius, entry, sense, angle;  // azimuth where it is entered, +1 or -1, how far round it is driven
-    std::vector<std::size_t> earlier;    // circles whose strips overlap this one's
+    double radius, entry, sense,
+        angle;                         // entry: azimuth; sense: +1 is anticlockwise, -1 clockwise; angle: driven angle
+    std::vector<std::size_t> earlier;  // earlier circles whose strips overlap the strip of this one
   };
 
   std::size_t circles() const { return rounds_.size() - (closed_ ? 1 : 0); }
@@ -71,10 +73,10 @@ class Traverse : public Course {
     return std::any_of(earlier.begin(), earlier.end(), [&](std::size_t i) { return in_strip(rounds_[i], place); });
   }
 
-  // As many circles as the landmarks fill, and then their size scaled until the ground fits.
+  // Chooses the number of circles from the number of landmarks, then scales the circles until the area fits.
   void lay_out(const cairn_world_options& o) {
     const double ground = o.landmarks * o.landmark_area;
-    const double smallest = 2 * kPi * 2 * strip_;  // a circle of this length still has a strip of some sense
+    const double smallest = 2 * kPi * 2 * strip_;  // length of the smallest circle: radius 2 strip
     const auto most = std::max<std::int64_t>(1, std::llround(std::floor(ground / (2 * strip_ * smallest))));
     auto count =
         std::max<std::int64_t>(std::min<std::int64_t>(3, most), std::llround(ground / (2 * strip_ * o.round_length)));
@@ -83,7 +85,8 @@ class Traverse : public Course {
       count = std::max<std::int64_t>(kFewestOfRing, count / 2 * 2);
       if (count > most)
         throw Error(ErrorCode::argument,
-                    "options.traverse_closed takes %d circles, and options.landmarks = %u fill %lld; have more",
+                    "options.traverse_closed needs %d circles, and options.landmarks = %u fill only %lld; use more "
+                    "landmarks",
                     kFewestOfRing, o.landmarks, static_cast<long long>(most));
     }
     std::vector<double> radii(count);
@@ -93,7 +96,7 @@ class Traverse : public Course {
     for (int pass = 0; pass < 4; ++pass) {
       double sum = 0;
       for (const double radius : radii) sum += radius;
-      // Circles too small for their strips, where there are hardly any landmarks, stay as large as that.
+      // With very few landmarks the circles would be too small for their strips: they keep the smallest size.
       if (pass == 0) scale = ground / (2 * strip_ * 2 * kPi * sum);
       if (scale * sum < count * smallest / (2 * kPi)) scale = count * smallest / (2 * kPi) / sum;
       for (double& radius : radii) radius *= scale;
@@ -105,7 +108,7 @@ class Traverse : public Course {
 
   void chain(const std::vector<double>& radii) {
     const std::size_t n = radii.size();
-    std::vector<double> extra(n, 0);  // how much farther than a round and a quarter each is driven
+    std::vector<double> extra(n, 0);  // driven angle of each circle beyond one and a quarter rounds
     if (closed_) {
       for (std::size_t i = 0; i < n; ++i) extra[i] = sense(i) * 2 * kPi / n;
       close(radii, extra);
@@ -121,7 +124,7 @@ class Traverse : public Course {
       const Vector2 centre = rounds_[i].centre + (radii[i] + radii[i + 1]) * direction(out);
       rounds_.push_back({centre, radii[i + 1], wrap_angle(out + kPi), sense(i + 1), 0, {}});
     }
-    if (closed_) {  // home, and once more round the first circle
+    if (closed_) {  // back at the start: one more round on the first circle
       Round home = rounds_[0];
       home.angle = 2 * kPi;
       rounds_.push_back(home);
@@ -131,8 +134,8 @@ class Traverse : public Course {
   static double sense(std::size_t i) { return i % 2 == 0 ? 1 : -1; }
   static double exit_of(const Round& round) { return wrap_angle(round.entry + round.sense * round.angle); }
 
-  // Bends the chain so that it ends where it began and enters the first circle where the start is: three conditions on
-  // the angles driven, met by the least change of them (Gauss-Newton).
+  // Changes the driven angles so that the chain ends at its start with the same heading. These are three conditions;
+  // Gauss-Newton meets them with the smallest change of the angles.
   static void close(const std::vector<double>& radii, std::vector<double>& extra) {
     const std::size_t n = radii.size();
     for (int iteration = 0; iteration < 50; ++iteration) {
@@ -147,7 +150,7 @@ class Traverse : public Course {
       gap.z() = wrap_angle(entry + kQuarter);
       if (gap.norm() < 1e-9) return;
       std::vector<Vector3> J(n);
-      Vector2 later = Vector2::Zero();  // of the gap by out[i], ..., out[n - 1] together
+      Vector2 later = Vector2::Zero();  // derivative of the gap by out[i], ..., out[n - 1] together
       Matrix3 N = Matrix3::Zero();
       for (std::size_t i = n; i-- > 0;) {
         later += (radii[i] + radii[(i + 1) % n]) * direction(out[i] + kQuarter);
@@ -158,7 +161,7 @@ class Traverse : public Course {
       for (std::size_t i = 0; i < n; ++i) extra[i] -= J[i].dot(step);
     }
     throw Error(ErrorCode::argument,
-                "options: the circles of this seed do not close to a ring; vary less, or take another seed");
+                "options: the circles of this seed do not close to a ring; reduce round_variation or use another seed");
   }
 
   void find_overlaps() {
@@ -188,7 +191,7 @@ class Traverse : public Course {
   bool closed_;
   double strip_;
   std::vector<Round> rounds_;
-  std::vector<double> ends_;  // of the rounds, along the drive
+  std::vector<double> ends_;  // end of each round in metres along the drive
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Motion, measurements and observations of a rover.
 #include "sim/world.hpp"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ World::World(const cairn_world_options& options)
   const double frames = course_->length() / options.speed / options.frame_period;
   constexpr double kMostFrames = 1e12;
   if (!(frames < kMostFrames))
-    throw Error(ErrorCode::argument, "options: this drive would have %g frames; take fewer laps or a higher speed",
+    throw Error(ErrorCode::argument, "options: this drive would have %g frames; use fewer laps or a higher speed",
                 frames);
   steps_ = static_cast<std::size_t>(frames + 1e-9) + 1;
   rewind();
@@ -66,7 +67,8 @@ void World::extent(Vector2& lower, Vector2& upper) const {
     upper = upper.cwiseMax(p);
   };
   for (const Vector3& p : landmarks_.positions()) include(p.head<2>());
-  constexpr double kSpacing = 5, kMost = 1e6;  // m; a course of so many laps is on its way again
+  constexpr double kSpacing = 5,
+                   kMost = 1e6;  // m; with wider spacing the course has many laps and passes each place repeatedly
   const double length = course_->length(), spacing = std::max(kSpacing, length / kMost);
   for (double s = 0; s < length; s += spacing) {
     const Place place = course_->at(s);
@@ -84,8 +86,9 @@ void World::rewind() {
 
 void World::next(cairn_world_step& step) {
   if (step_ >= steps_)
-    throw Error(ErrorCode::state, "the world's %zu steps were all handed out; rewind it, or create another", steps_);
-  // What fails, fails before anything of the state has changed.
+    throw Error(ErrorCode::state, "all %zu steps of the world were handed out; rewind it or create another one",
+                steps_);
+  // If anything fails, the state is restored.
   const std::int64_t sample = sample_;
   const SE3 pose_before = pose_;
   const Strapdown strapdown = strapdown_;
@@ -99,7 +102,7 @@ void World::next(cairn_world_step& step) {
   step.number = step_;
   step.time = static_cast<double>(step_) * options_.frame_period;
   capi::write_pose(pose_, &step.truth);
-  tell_noise(step);
+  write_noise(step);
   step.pan = scan(options_.pan_amplitude, options_.pan_period, step.time);
   step.stick = scan(options_.stick_amplitude, options_.stick_period, step.time);
   step.motions = motions_.data();
@@ -109,7 +112,7 @@ void World::next(cairn_world_step& step) {
   ++step_;
 }
 
-// The way from the frame before to this one.
+// Drives from the previous frame to this one.
 void World::move() {
   motions_.clear();
   if (step_ == 0) return;
@@ -150,7 +153,7 @@ World::Sample World::measure(const SE3& before, const SE3& after) {
   return sample;
 }
 
-// Body velocity from specific force and rate: without noise, what it truly was.
+// Body velocity by integration of the measured specific force and rate. Without noise it equals the true velocity.
 Vector3 World::reckon(const SE3& before, const SE3& after, const Vector3& noise, const Vector3& rate) {
   const double dt = options_.imu_period;
   const Vector3 g(0, 0, -options_.gravity);
@@ -165,7 +168,7 @@ Vector3 World::reckon(const SE3& before, const SE3& after, const Vector3& noise,
   return velocity;
 }
 
-// The samples of one motion, integrated on the group and given as the constant twist that leads to the same place.
+// Integrates the samples of one motion on the group and returns the constant twist that gives the same displacement.
 cairn_world_motion World::compose(const std::vector<Sample>& samples, const SE3& T_before_after) const {
   cairn_world_motion motion = {};
   motion.dt = options_.motion_period;
@@ -195,12 +198,13 @@ cairn_world_motion World::compose(const std::vector<Sample>& samples, const SE3&
   return motion;
 }
 
-void World::tell_noise(cairn_world_step& step) const {
+void World::write_noise(cairn_world_step& step) const {
   const cairn_world_options& o = options_;
-  const double mean = 1 / std::sqrt(static_cast<double>(samples_per_motion_));  // of that many white samples
+  const double mean =
+      1 / std::sqrt(static_cast<double>(samples_per_motion_));  // factor of the noise of a mean of white samples
   std::fill_n(step.rate_sigma, 3, o.rate_sigma * mean);
   if (o.drive == CAIRN_DRIVE_WHEELS_GYRO) {
-    double variance = 0;  // of the forward velocity, by the wheels' mean rates
+    double variance = 0;  // of the forward velocity, at the mean rates of the wheels
     for (int side = 0; side < 2; ++side) {
       double rate = 0;
       for (const cairn_world_motion& motion : motions_) rate += std::abs(motion.wheels[side]);
@@ -212,7 +216,7 @@ void World::tell_noise(cairn_world_step& step) const {
     step.velocity_sigma[1] = o.lateral_sigma;
     step.velocity_sigma[2] = o.vertical_sigma;
   } else if (o.accelerometer == CAIRN_ACCELEROMETER_ACCELERATION) {
-    // Integrated noise of the force, and gravity through the integrated noise of the rate.
+    // The integrated noise of the force, and gravity multiplied by the integrated noise of the rate.
     const double t = static_cast<double>(step.number) * o.frame_period, dt = o.imu_period;
     const double direct = o.velocity_sigma * std::sqrt(dt * t);
     const double leaked = o.gravity * o.rate_sigma * std::sqrt(dt * t * t * t / 3);

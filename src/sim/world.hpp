@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The world behind cairn/sim.h: a rover on its course, sample by sample and frame by frame.
+// The world behind cairn/sim.h: moves a rover along its course and makes its measurements, frame by frame.
 #pragma once
 
 #include <cairn/sim.h>
@@ -16,7 +16,7 @@ namespace cairn::sim {
 
 class World {
  public:
-  // `options` are checked already. Throws Error where they contradict each other.
+  // The fields of `options` have been checked. Throws Error if they contradict each other.
   explicit World(const cairn_world_options& options);
 
   const cairn_world_options& options() const { return options_; }
@@ -26,7 +26,7 @@ class World {
   double duration() const { return static_cast<double>(steps_ - 1) * options_.frame_period; }
   Stance stance(double time) const;
   void extent(Vector2& lower, Vector2& upper) const;
-  // Samples of the IMU in one motion sample.
+  // Number of IMU samples in one motion sample.
   int samples_per_motion() const { return samples_per_motion_; }
 
   // Throws Error (state) after the last step.
@@ -34,12 +34,12 @@ class World {
   void rewind();
 
  private:
-  // What the rover measured, and what was so, over one sample.
+  // Measured and true motion of one IMU sample.
   struct Sample {
     Vector3 velocity, rate, true_velocity, true_rate;
     Vector2 wheels, true_wheels;
   };
-  // Dead reckoning of an accelerometer that measures m/s^2.
+  // State of the dead reckoning with an accelerometer that measures m/s^2.
   struct Strapdown {
     SO3 R_map_body;
     Vector3 velocity, true_velocity;  // in the map
@@ -51,7 +51,7 @@ class World {
   Vector3 reckon(const SE3& before, const SE3& after, const Vector3& noise, const Vector3& rate);
   cairn_world_motion compose(const std::vector<Sample>& samples, const SE3& T_before_after) const;
   void look(const SE3& T_map_body);
-  void tell_noise(cairn_world_step& step) const;
+  void write_noise(cairn_world_step& step) const;
 
   cairn_world_options options_;
   Terrain terrain_;
@@ -60,9 +60,9 @@ class World {
   int samples_per_motion_, motions_per_frame_;
   std::size_t steps_;
 
-  std::size_t step_ = 0;     // to be handed out next
-  std::int64_t sample_ = 0;  // taken so far
-  SE3 pose_;                 // after them
+  std::size_t step_ = 0;     // number of the next step
+  std::int64_t sample_ = 0;  // IMU samples so far
+  SE3 pose_;                 // after these samples
   Strapdown strapdown_{};
   std::vector<Sample> samples_;
   std::vector<cairn_world_motion> motions_;

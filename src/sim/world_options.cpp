@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Defaults, presets and checks of the options of a world.
 #include "sim/world_options.hpp"
 
 #include <cmath>
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double kDegree = kPi / 180;
 
-// Half-open: 0 is taken with `zero` alone.
+// The range is (0, upper], or [0, upper] if `zero`.
 void check_angle(double value, bool zero, double upper, const char* name) {
   if (!zero) capi::check_positive(value, name);
   capi::check_range(value, 0, upper, name);
@@ -25,7 +26,7 @@ void check_multiple(double period, double of, const char* name, const char* of_n
   constexpr double kMost = 1e6;
   const double ratio = period / of;
   if (!(ratio > 0.5 && ratio < kMost) || std::abs(ratio - std::round(ratio)) > 1e-9 * ratio)
-    throw Error(ErrorCode::argument, "%s is %g, no multiple (up to %g) of %s, which is %g", name, period, kMost,
+    throw Error(ErrorCode::argument, "%s = %g must be a multiple (at most %g times) of %s = %g", name, period, kMost,
                 of_name, of);
 }
 
@@ -58,7 +59,7 @@ void check_ground_and_rover(const cairn_world_options& o) {
   check_angle(o.max_slope, true, 45 * kDegree, "options.max_slope");
   capi::check_positive(o.wavelength, 2, "options.wavelength");
   if (o.wavelength[0] > o.wavelength[1])
-    throw Error(ErrorCode::argument, "options.wavelength[0] = %g lies above options.wavelength[1] = %g",
+    throw Error(ErrorCode::argument, "options.wavelength[0] = %g must not exceed options.wavelength[1] = %g",
                 o.wavelength[0], o.wavelength[1]);
   capi::check_finite(o.start_height, "options.start_height");
   capi::check_positive(o.wheel_radius, "options.wheel_radius");
@@ -84,7 +85,7 @@ void check_noise_and_head(const cairn_world_options& o) {
   capi::check_positive(o.near_range, "options.near_range");
   capi::check_positive(o.far_range, "options.far_range");
   if (o.far_range <= o.near_range)
-    throw Error(ErrorCode::argument, "options.far_range = %g does not exceed options.near_range = %g", o.far_range,
+    throw Error(ErrorCode::argument, "options.far_range = %g must exceed options.near_range = %g", o.far_range,
                 o.near_range);
   check_angle(o.half_azimuth, false, kPi, "options.half_azimuth");
   check_angle(o.pan_amplitude, true, kPi, "options.pan_amplitude");
@@ -98,7 +99,7 @@ void check_noise_and_head(const cairn_world_options& o) {
 }  // namespace
 
 cairn_world_options default_world_options() {
-  cairn_world_options o = {};  // zero: the first of each choice, no offset of the head, no scanning
+  cairn_world_options o = {};  // zero means: the first constant of each choice, no offset of the head, no scanning
   o.struct_size = sizeof o;
   o.seed = 1;
   o.landmarks = 200;
@@ -148,7 +149,7 @@ cairn_world_options preset_world_options(std::int32_t preset, std::uint32_t& sub
   };
   constexpr Row kRows[] = {{0.002, 0.02, 1, 40}, {0.05, 0.2, 1, 40}, {0.05, 0.2, 2, 20}, {0.2, 1, 2, 20}};
   if (preset < CAIRN_PRESET_ROW1 || preset > CAIRN_PRESET_ROW4)
-    throw Error(ErrorCode::argument, "preset is %d, none of the CAIRN_PRESET_ constants", preset);
+    throw Error(ErrorCode::argument, "preset = %d is none of the CAIRN_PRESET_ constants; use one of them", preset);
   const Row& row = kRows[preset - CAIRN_PRESET_ROW1];
   constexpr double kRadius = 101.98, kDuration = 400;
   o.terrain = CAIRN_TERRAIN_WAVES;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What association takes where no observation brings a name. Prints one line of JSON:
+// Time of association of observations without ids. Prints one line of JSON:
 //
 //   association [LANDMARKS [OBSERVATIONS]]      mapped, and of a frame; default 1000 and 20
 //
-// Landmarks stand at random over a square, one to 9 m2; a sensor of points sees all round, so that every one of them
-// has an image in every frame. A vehicle drives a circle among them and sees those that are nearest. Wall clock, as the
-// filter reports it, of the frames after the map has its size.
+// Landmarks are random in a square, one for each 9 m2. A sensor of points sees in all directions, so every landmark has
+// a predicted observation in every frame. A vehicle drives a circle and observes the nearest landmarks. The time is the
+// wall clock time that the filter reports, over the frames after all landmarks are mapped.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -36,7 +36,7 @@ struct Field {
       z.push_back(0.5 * normal(engine));
     }
   }
-  // Of the landmarks `order` names, from the pose.
+  // Observations of the landmarks `order` from the pose.
   std::vector<cairn_observation> see(const cairn_pose& inverse, const int* begin, const int* end) {
     std::vector<cairn_observation> frame;
     for (const int* i = begin; i != end; ++i) {
@@ -87,7 +87,7 @@ int main(int argc, char** argv) try {
   std::vector<int> order(static_cast<std::size_t>(landmarks));
   for (int i = 0; i < landmarks; ++i) order[static_cast<std::size_t>(i)] = i;
   const cairn_pose start = on_circle(0);
-  for (int i = 0; i < landmarks; i += seen) {  // all are placed from the start
+  for (int i = 0; i < landmarks; i += seen) {  // all landmarks are placed from the start pose
     const auto frame = field.see(start, order.data() + i, order.data() + std::min(i + seen, landmarks));
     bench::check(cairn_filter_update(filter, sensor, frame.data(), frame.size(), nullptr));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A filter of the library, set up for the neutral log: one map unless submaps are asked for, invariant error, the
-// defaults for all that the log does not tell.
+// A filter of the library for the neutral log: a single map unless submaps are requested, the invariant error, and
+// defaults for everything that the log does not contain.
 #pragma once
 
 #include <cairn/cairn.h>

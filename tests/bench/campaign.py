@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints the table of neutral_campaign.sh: campaign.py FOLDER..., one a kind of run.
+"""Prints the table of neutral_campaign.sh: campaign.py FOLDER..., one for each kind of run.
 
-Each folder holds one folder a run, with the program's summary.json and trajectory.csv.
+Each folder holds one folder for each run, with the summary.json and trajectory.csv of the program.
 """
 import csv
 import json
@@ -15,20 +15,20 @@ KEYS = ("landmark_rmse_m", "pose_rmse_m", "pose_anees_per_dof", "nis_per_dof")
 
 
 def chi_square_quantile(probability, dof):
-    """By Wilson and Hilferty's cube; better than 0.1 % at the dozens of degrees of freedom of a campaign."""
+    """Wilson and Hilferty's approximation: better than 0.1 % at the dozens of degrees of freedom of a campaign."""
     z = statistics.NormalDist().inv_cdf(probability)
     return dof * (1.0 - 2.0 / (9.0 * dof) + z * math.sqrt(2.0 / (9.0 * dof))) ** 3
 
 
 def read_nees(path):
-    """NEES by step; steps without one (the first pose is known exactly) are left out."""
+    """NEES by step. Steps without a NEES are left out: the first pose is known exactly."""
     with path.open(newline="") as file:
         values = {int(row["step"]): row["nees"] for row in csv.DictReader(file)}
     return {step: float(text) for step, text in values.items() if text}
 
 
 def share_in_band(runs):
-    """Share of the steps that all runs have at which the sum of the runs' NEES is inside its two-sided 95 % band."""
+    """Share of the common steps of all runs at which the sum of the NEES lies in its two-sided 95 % band."""
     steps = set.intersection(*(set(run) for run in runs))
     if not steps:
         return None

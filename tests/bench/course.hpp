@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An endless drive round a ring of landmarks, for benchmarks that need a filter of any size with any number of steps:
-// the same noise never comes twice. A frame sees the landmarks ahead, six of them for the first time on the first lap.
+// An endless drive around a ring of landmarks, for benchmarks with filters of any size and any number of steps. The
+// noise never repeats. A frame sees the landmarks ahead; on the first lap six of them are new.
 #pragma once
 
 #include <cmath>
@@ -14,9 +14,9 @@ class Course {
  public:
   static constexpr int kSeen = 12, kAdvance = 6;
 
-  // The first lap, and a bit, places them all.
+  // A little more than the first lap, which places all landmarks.
   explicit Course(int landmarks) : Course(landmarks, kRadius, 0, CAIRN_JOIN_AUTO) { drive(landmarks / kAdvance + 2); }
-  // In submaps, round a ring of that radius (m). Nothing is seen yet.
+  // With submaps, around a ring of this radius (m). Nothing has been observed yet.
   Course(int landmarks, double radius, int submap_landmarks, int32_t join)
       : landmarks_(landmarks), radius_(radius), filter_(landmarks, kSeen, true_pose(0), submap_landmarks, join) {}
 
@@ -36,7 +36,7 @@ class Course {
     return pose;
   }
 
-  // Draws the next increment and frame.
+  // Draws the next increment and the next frame.
   void advance() {
     ++frame_;
     const cairn_pose pose = true_pose(frame_);
@@ -66,7 +66,8 @@ class Course {
   }
 
  private:
-  static constexpr double kRadius = 80.0, kBehind = 4.0;  // m; kBehind: from the vehicle to the first one it sees
+  static constexpr double kRadius = 80.0,
+                          kBehind = 4.0;  // m; kBehind: from the vehicle back to the first landmark that it sees
 
   double angle(double landmark) const { return 2.0 * 3.141592653589793 * landmark / landmarks_; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// glibc lets a program define the allocator's functions, for itself and for every library that it loads; its own ones
-// stay reachable by these names. operator new comes down to malloc and is counted there.
+// glibc lets a program replace the functions of the allocator, for itself and for all libraries that it loads. The
+// original functions stay reachable by these names. operator new calls malloc and is counted there.
 #include "heap_count.hpp"
 
 #include <atomic>

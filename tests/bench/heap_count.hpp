@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts what a program takes from the heap: heap_count.cpp stands in for the C library's allocator.
+// Counts the heap allocations of a program: heap_count.cpp replaces the allocator of the C library.
 #pragma once
 
 #include <cstddef>
 
 namespace bench {
 
-// Allocations of this program since it started, by any library in it.
+// Number of allocations since the program started, by any library in it.
 std::size_t heap_allocations();
 
 }  // namespace bench

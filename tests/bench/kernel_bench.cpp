@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The library's rank-k update of a triangle against OpenBLAS's dsyrk, one thread each, called in turns: useful
-// operations (n^2 k) a second, and the ratio of the times. This program is built once with the library's baseline
-// objects and once with those for x86-64-v3.
+// The library's rank-k update of a triangle compared with dsyrk of OpenBLAS, alternately and with one thread each.
+// Prints useful operations (n^2 k) per second and the ratio of the times. This program is built with the library's
+// baseline objects and with those for x86-64-v3.
 #include <cblas.h>
 
 #include <algorithm>
@@ -16,10 +16,10 @@
 namespace {
 
 struct Rates {
-  double ours, blas;  // milliseconds a call, median
+  double ours, blas;  // milliseconds for each call, median
 };
 
-// The median of calls that are short is that of batches of them.
+// Short calls are timed in batches; the median of the batches is used.
 Rates measure(std::ptrdiff_t n, std::ptrdiff_t k) {
   const auto size = static_cast<std::size_t>(n), rank = static_cast<std::size_t>(k);
   std::vector<double> ours(size * size), blas(size * size), W(size * rank), minus_W(size * rank);
@@ -39,7 +39,7 @@ Rates measure(std::ptrdiff_t n, std::ptrdiff_t k) {
   const int batch = std::clamp(static_cast<int>(2e7 / operations), 1, 200);
   const int rounds = std::clamp(static_cast<int>(4e9 / (operations * batch)), 5, 101);
   const auto timed = [batch](const auto& call) {
-    call();  // its operands take the place of the other's in the caches
+    call();  // these operands evict those of the other function from the caches
     const bench::Stopwatch watch;
     for (int i = 0; i < batch; ++i) call();
     return watch.milliseconds() / batch;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reader of the neutral log, for the benchmark drivers alone. One record a line, SI units, radians, in time order:
+// Reader of the neutral log for the benchmark programs. One record per line, SI units, radians, in order of time:
 //   T k t x y z roll pitch yaw           true pose at step k
 //   O k dx dy dz droll dpitch dyaw       measured motion from step k-1 to k, in the body of k-1
 //   Z k id range azimuth elevation       measured landmark, in the body of k
 //   L id x y z                           true landmark
-// Other lines are refused; empty ones and those that begin with # are skipped.
+// Empty lines and lines that begin with # are skipped. All other lines are refused.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ struct Log {
   std::map<std::uint64_t, Vector3> landmarks;
 };
 
-// What the logs' noise was drawn with: every driver tells its filter the same.
+// The noise with which the logs were made. Every driver gives it to its filter.
 struct Noise {
   static constexpr double kDegree = 0.017453292519943295;
   static constexpr double kIncrementMetres = 0.02, kIncrementRadians = 0.1 * kDegree;
@@ -72,7 +72,7 @@ class LogReader {
       current.time = numbers<1>(fields)[0];
       current.truth = numbers<6>(fields);
     } else if (kind == "O") {
-      Step& current = step(fields);  // first: the right side of an assignment is evaluated before the left one
+      Step& current = step(fields);  // read first: the right side of an assignment is evaluated before the left side
       current.increment = numbers<6>(fields);
     } else if (kind == "Z") {
       Step& current = step(fields);
@@ -86,7 +86,7 @@ class LogReader {
     }
   }
 
-  // The step that the record names; a new one where it is the next.
+  // The step that the record names. It is created if it is the next one.
   Step& step(std::istringstream& fields) {
     const std::uint64_t number = whole(fields);
     if (number == log_.steps.size()) log_.steps.emplace_back();

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes a neutral log for the benchmarks to stdout: make_log.py LANDMARKS STEPS SEED
 
-A vehicle drives two laps of a circle over hilly ground, its z axis along the ground's normal. Landmarks stand in a ring
-about the circle, up to 3 m above the ground. It sees the 12 nearest ahead of it, within 30 m and 70 degrees to either
-side. The noise is 2 cm and 0.1 degree on an increment, 0.1 m and 0.5 degree on an observation. The records are those
-that log.hpp describes.
+A vehicle drives two laps of a circle over hilly ground; its z axis is the normal of the ground. Landmarks lie in a ring
+around the circle, up to 3 m above the ground. The vehicle sees the 12 nearest ones ahead of it, within 30 m and 70
+degrees to either side. The noise is 2 cm and 0.1 degree on an increment, 0.1 m and 0.5 degree on an observation. log.hpp
+describes the records.
 """
 import math
 import random
@@ -42,13 +42,13 @@ def unit(a):
 
 
 def euler(axes):
-    """Roll, pitch and yaw of a body whose x, y and z axes these are."""
+    """Roll, pitch and yaw of a body with these x, y and z axes."""
     x, y, z = axes
     return math.atan2(y[2], z[2]), math.asin(max(-1.0, min(1.0, -x[2]))), math.atan2(x[1], x[0])
 
 
 class Vehicle:
-    """Where it is, and its axes in the map."""
+    """Position and axes of the vehicle in the map."""
 
     def __init__(self, phase):
         x, y = RADIUS * math.cos(phase), RADIUS * math.sin(phase)
@@ -64,7 +64,7 @@ class Vehicle:
         return tuple(dot(offset, axis) for axis in self.axes)
 
     def turn_to(self, other):
-        """Axes of another pose in this one's."""
+        """Axes of another pose in the axes of this one."""
         return tuple(tuple(dot(axis, own) for own in self.axes) for axis in other.axes)
 
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Noise of a MRCLAM folder, read from the recordings: the derivation of docs/mrclam.md. mrclam_noise.py FOLDER [UNTIL]
+"""Noise of an MRCLAM folder, estimated from the recordings as docs/mrclam.md derives it. mrclam_noise.py FOLDER [UNTIL]
 
-Parts A and B compare odometry and sightings with the truth, part C goes without truth. UNTIL, in seconds: the beginning
-of the recordings alone.
+Parts A and B compare odometry and sightings with the truth, part C needs no truth. UNTIL limits the recordings to their
+first seconds.
 """
 import glob
 import os
@@ -41,7 +41,7 @@ class Robot:
                         + [np.interp(time, self.truth[:, 0], np.unwrap(self.truth[:, 3]))], 1)
 
     def reckoned(self, delay=0.0):
-        """Path, turned angle, x and y by the odometry alone, as functions of time."""
+        """Path, turned angle, x and y by odometry only, as functions of time."""
         time = self.odometry[:, 0] + delay
         dt, speed, rate = np.diff(time), self.odometry[:-1, 1], self.odometry[:-1, 2]
         middle = np.concatenate([[0], np.cumsum(rate * dt)])[:-1] + 0.5 * rate * dt
@@ -62,7 +62,7 @@ def read(folder, until):
 
 
 def window_errors(robot, window, delay=0.0):
-    """Truth minus odometry over windows: path along the robot's axis, turned angle, sideways; and the odometry's path."""
+    """Truth minus odometry over windows: path along the robot's axis, turned angle, sideways; and the path by odometry."""
     time = np.arange(robot.odometry[0, 0] + 1, robot.odometry[-1, 0] - 1, GRID)
     pose, (path, turn, _, _) = robot.pose(time), robot.reckoned(delay)
     step, heading = np.diff(pose[:, :2], axis=0), 0.5 * (pose[1:, 2] + pose[:-1, 2])
@@ -93,7 +93,7 @@ def odometry(robots):
 
 
 def sightings(robots, landmarks):
-    """Rows of robot, subject, time, true range, errors of range and bearing; misread barcodes left out."""
+    """Rows of robot, subject, time, true range, errors of range and bearing. Misread barcodes are left out."""
     rows = []
     for robot in robots.values():
         time, pose = robot.seen[:, 0], robot.pose(robot.seen[:, 0])
@@ -116,8 +116,8 @@ def sightings(robots, landmarks):
 
 
 def persistence(error, rows, name):
-    """By how much sightings say the same again: 1 + 2 (sum of the correlations with the later ones of one robot and one
-    subject, up to 30 s)."""
+    """Persistence of the errors of sightings: 1 + 2 (sum of the correlations with later sightings of the same subject by the
+    same robot, up to 30 s)."""
     total, pairs = np.zeros(len(LAGS) - 1), np.zeros(len(LAGS) - 1)
     for key in np.unique(rows[:, :2], axis=0):
         of = (rows[:, :2] == key).all(axis=1)
@@ -150,8 +150,8 @@ def radar(robots, landmarks):
 
 
 def carried(robot, landmarks, low, high, delay=0.0):
-    """Landmarks seen twice, `low` to `high` seconds apart: bearing at the second sight minus that reckoned from the first,
-    the range likewise, gap, range, both bearings."""
+    """Landmarks seen twice, `low` to `high` seconds apart: bearing of the second sighting minus the bearing predicted from the
+    first, the same for the range, time gap, range, both bearings."""
     _, turn, x, y = robot.reckoned(delay)
     time, out = robot.seen[:, 0], [np.zeros((0, 6))]
     for subject in sorted(set(robot.subject.tolist()) & set(landmarks)):

@@ -4,8 +4,8 @@
 //
 //   mrpt_rival LOG [--second-half-samples K]
 //
-// MRPT does not move the vehicle before it has a landmark: the log should show some at step 0.
-// K ends the run after so many steps of the second half; the errors are then those up to there, and the line says so.
+// MRPT does not move the vehicle before it has a landmark, so the log should have observations at step 0. K ends the
+// run after K steps of the second half. The errors are then those up to this step, and the JSON line says so.
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/slam/CRangeBearingKFSLAM.h>
@@ -32,7 +32,7 @@ CPose3D pose_of(const bench::Vector6& p) {
   return {p[0], p[1], p[2], p[5], p[4], p[3]};
 }
 
-// Step 0 has no increment: the vehicle stood still, and that is known.
+// Step 0 has no increment: the vehicle has not moved, and this is known.
 mrpt::obs::CActionCollection::Ptr action_of(const bench::Step& step) {
   mrpt::obs::CActionRobotMovement3D motion;
   motion.estimationMethod = mrpt::obs::CActionRobotMovement3D::emOdometry;
@@ -50,8 +50,8 @@ mrpt::obs::CActionCollection::Ptr action_of(const bench::Step& step) {
   return actions;
 }
 
-// What the sensor can see, as far as the log shows it: MRPT predicts the landmarks in that cone only, and does some of
-// its work a second time, with a warning, where one is seen outside.
+// The field of view of the sensor, as far as the log shows it. MRPT predicts only landmarks in this cone, and repeats a
+// part of its work, with a warning, for a landmark that is seen outside.
 struct Cone {
   explicit Cone(const bench::Log& log) {
     for (const bench::Step& step : log.steps) {
@@ -93,7 +93,7 @@ struct Result {
   double landmark_rmse = 0.0;
 };
 
-// MRPT starts at the identity with a known pose: its map is the log's seen from the first true pose.
+// MRPT starts at the identity with a known pose: its map is in the frame of the first true pose of the log.
 double landmark_rmse(const mrpt::slam::CRangeBearingKFSLAM& slam, const CPose3D& start, const bench::Log& log,
                      std::size_t* count) {
   mrpt::poses::CPose3DQuatPDFGaussian pose;

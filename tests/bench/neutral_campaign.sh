@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Accuracy and consistency over many logs: runs the program cairn on each, with both kinds of error, and prints the
-# means and how often the pose's NEES, averaged over the runs, stays in its 95 % band.
+# Accuracy and consistency over many logs: runs the program cairn on each with both error states. Prints the means, and
+# the share of steps at which the NEES of the pose, averaged over the runs, lies in its 95 % band.
 #
 #   tests/bench/neutral_campaign.sh [--seeds M] [--landmarks N] [--steps S] [--program CAIRN] [LOGS|GENERATOR]
 #
-# LOGS is a folder of neutral logs (*.txt). GENERATOR is a program that writes one to stdout, called as
-# GENERATOR LANDMARKS STEPS SEED for seeds 1 to M; make_log.py beside this script where none is given. Without
-# --program, builds into build/bench first.
+# LOGS is a folder of neutral logs (*.txt). GENERATOR is a program that writes a log to stdout. It is called as
+# GENERATOR LANDMARKS STEPS SEED for seeds 1 to M; the default is make_log.py in the folder of this script. Without
+# --program the script builds into build/bench first.
 set -euo pipefail
 # shellcheck source=../support/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../support/setup.sh"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Questions to a filter and to its map.
+// Queries of a filter and of its map.
 #include <benchmark/benchmark.h>
 
 #include <numeric>

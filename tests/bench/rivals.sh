@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Runs the library, one BLAS dsyrk of the same size and, where it is installed, MRPT's EKF-SLAM over the same logs, in
-# turns, and prints a table of medians and of ratios taken in the same round. Builds into build/bench first.
+# Runs the library, one BLAS dsyrk of the same size and, if it is installed, MRPT's EKF-SLAM alternately over the same
+# logs. Prints a table of medians and of ratios from the same round. Builds into build/bench first.
 #
 #   tests/bench/rivals.sh [--rounds R] [--mrpt-samples K] [--landmarks "N ..."] [LOG ...]
 #
-# Without a log it makes its own, one for each number of landmarks. --mrpt-samples ends MRPT's run K steps into the
-# second half (0: never): it takes minutes otherwise.
+# Without a log the script makes its own logs, one for each number of landmarks. --mrpt-samples ends the run of MRPT
+# after K steps of the second half (0: never). Without it MRPT takes minutes.
 set -euo pipefail
 # shellcheck source=../support/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../support/setup.sh"
@@ -45,7 +45,7 @@ if ((${#logs[@]} == 0)); then
   done
 fi
 
-# OpenBLAS picks its kernels for the processor, whatever the environment asks for.
+# OpenBLAS must pick its kernels for the processor, whatever the environment says.
 blas=(env -u OPENBLAS_CORETYPE -u OPENBLAS_L2_SIZE OPENBLAS_NUM_THREADS=1)
 mrpt_options=()
 if ((mrpt_samples > 0)); then mrpt_options=(--second-half-samples "$mrpt_samples"); fi

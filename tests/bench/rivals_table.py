@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prints the table of rivals.sh: rivals_table.py FOLDER LOGS.
 
-FOLDER/<log>.ours and FOLDER/<log>.mrpt hold one JSON object a round.
+FOLDER/<log>.ours and FOLDER/<log>.mrpt hold one JSON object for each round.
 """
 import json
 import pathlib

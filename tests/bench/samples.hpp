@@ -12,8 +12,8 @@
 
 namespace bench {
 
-// Processor time of the calling thread: all that is timed here runs in one thread and waits for nothing, and on a
-// machine that others use too a wall clock would time them as well.
+// Processor time of the calling thread. Everything that is timed runs in one thread and does not wait; a wall clock
+// would also measure other programs on a shared machine.
 class Stopwatch {
  public:
   double milliseconds() const { return 1e3 * (now() - start_); }
@@ -36,7 +36,7 @@ class Samples {
   double mean() const {
     double sum = 0.0;
     for (double value : values_) sum += value;
-    return sum / static_cast<double>(values_.size());  // not a number where there are none
+    return sum / static_cast<double>(values_.size());  // NaN if there are no samples
   }
 
   double quantile(double share) const {

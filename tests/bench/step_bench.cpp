@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps of the filter and their parts, through the C functions. Only the calls named are timed, by hand and in
-// processor time: what draws the next frame is not, nor are other programs.
+// Steps of the filter and their parts, through the C functions. Only the named calls are timed, in processor time and
+// by hand, so that drawing the next frame and other programs are not measured.
 #include <benchmark/benchmark.h>
 
 #include "course.hpp"
@@ -38,7 +38,7 @@ void step(benchmark::State& state) {
 }
 BENCHMARK(step)->Apply(sizes);
 
-// An update alone, right after one prediction, by the number of its observations: what it costs to have more rows.
+// One update right after one prediction, by the number of observations: the cost of more rows.
 void update_of(benchmark::State& state) {
   Course course(static_cast<int>(state.range(0)));
   const auto count = static_cast<std::size_t>(state.range(1));
@@ -56,7 +56,7 @@ BENCHMARK(update_of)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-// Three rows on the pose: no landmark's Jacobian, the same covariance.
+// Three rows that depend on the pose only: no Jacobian of a landmark, the same covariance.
 void update_position(benchmark::State& state) {
   Course course(static_cast<int>(state.range(0)));
   const double covariance[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
@@ -85,8 +85,8 @@ void update_heading(benchmark::State& state) {
 }
 BENCHMARK(update_heading)->Apply(sizes);
 
-// A prediction costs the same whatever the size of the map. Many of them follow one another here without an update, as
-// at the rate of an inertial sensor; the covariance that grows is not looked at.
+// The cost of a prediction does not depend on the size of the map. Here many predictions follow one another without an
+// update, at the rate of an inertial sensor. The growing covariance is not used.
 void predict_increment(benchmark::State& state) {
   Course course(static_cast<int>(state.range(0)));
   cairn_pose increment;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the library over a neutral log and, in between, one BLAS dsyrk of the same size: the arithmetic that no dense
-// update can do without. Prints one line of JSON with the times and their ratio, and what the steps took from the heap.
+// Runs the library over a neutral log and, between steps, one BLAS dsyrk of the same size: the arithmetic that every
+// dense update needs. Prints one line of JSON with the times, their ratio, and the heap allocations of the steps.
 //
 //   step_ratio LOG
 //
-// Every few steps of the second half, the dsyrk that corresponds to this step is timed (syrk.hpp).
+// Every few steps of the second half, the dsyrk of the size of this step is timed (syrk.hpp).
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -17,7 +17,7 @@
 
 namespace {
 
-constexpr std::size_t kInterval = 5;  // steps from one row of dsyrk calls to the next
+constexpr std::size_t kInterval = 5;  // steps between two series of dsyrk calls
 
 struct Result {
   bench::Samples steps, states, rows;

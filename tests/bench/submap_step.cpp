@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step costs in a submap, and whether it knows how large the map behind it is. Prints one line of JSON:
+// Time of a step in a submap, and whether it depends on the size of the map. Prints one line of JSON:
 //
 //   submap_step [LANDMARKS]      of the large map; default 100000
 //
-// First, predict and update with 12 observations in an open submap of 60 landmarks, against one BLAS dsyrk of that size
-// (186 states, 36 rows) in the same run. Then the steps of submaps of 60 with a map of 100 landmarks behind them and
-// with one of LANDMARKS, in turns, closings left out and told apart: the two see the same pattern of old and new
-// landmarks. Processor time.
+// First, predict and update with 12 observations in an open submap of 60 landmarks are compared with one BLAS dsyrk of
+// that size (186 states, 36 rows) in the same run. Then the steps of submaps of 60 landmarks are timed alternately with
+// a map of 100 landmarks and with a map of LANDMARKS. Steps that close a submap are reported separately. Both drives
+// have the same pattern of known and new landmarks. Processor time.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -20,14 +20,14 @@ namespace {
 using bench::Course;
 
 constexpr int kSubmap = 60, kSmall = 100, kRounds = 500;
-constexpr int kWarm = 200;         // steps before samples count
+constexpr int kWarm = 200;         // steps before the first sample
 constexpr double kSpacing = 1.42;  // m, between landmarks along the ring
 
 double radius_of(int landmarks) {
   return kSpacing * landmarks / 6.283185307179586;
 }
 
-// Steps of a drive, those that close a submap apart.
+// The steps of a drive. Steps that close a submap are kept separately.
 struct Drive {
   Drive(int landmarks, int placed) : course(landmarks, radius_of(landmarks), kSubmap, CAIRN_JOIN_SPARSE) {
     course.drive((placed + Course::kAdvance - 1) / Course::kAdvance);
@@ -74,7 +74,7 @@ int main(int argc, char** argv) try {
   std::printf("{\"program\": \"cairn %s\", \"build\": \"%s\", \"blas_core\": \"%s\", ", cairn_version(), cairn_build(),
               openblas_get_corename());
 
-  // One more would close it.
+  // One more landmark would close the submap.
   Course open(kSubmap, radius_of(kSubmap), kSubmap + 1, CAIRN_JOIN_SPARSE);
   open.drive(kSubmap / Course::kAdvance + 2 + kWarm);
   constexpr std::size_t kStates = 6 + 3 * kSubmap, kRows = 3 * Course::kSeen;
@@ -95,7 +95,7 @@ int main(int argc, char** argv) try {
               steps.median() / syrk.hot.median());
   std::fflush(stdout);
 
-  // The large ring is not driven to its end: as many landmarks more as the rounds take in.
+  // The large ring is not driven to its end: it has landmarks left for the timed rounds.
   Drive small_map(kSmall, 2 * kSmall), large_map(large + (kRounds + kWarm + 4) * Course::kAdvance, large);
   for (int round = -kWarm; round < kRounds; ++round) {
     small_map.step(round >= 0);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One BLAS dsyrk: the arithmetic that no dense update can do without. Lower triangle, as many rows as the state has, as
-// many columns as the batch had rows, one thread, alpha = -1, beta = 1, on a matrix of its own.
+// One BLAS dsyrk: the arithmetic that every dense update needs. Lower triangle, one row for each state, one column for
+// each row of the batch, one thread, alpha = -1, beta = 1, on its own matrix.
 //
-// Right after our step its operands are cold: our covariance has just gone through the caches. Timed that way it would
-// look slower than it is, and our ratio better. It is therefore called several times in a row, and the median of the
-// calls after the first counts, their operands as warm as they get. Our own steps get no such favour, and the step
-// after such a row starts with cold caches. The cold time is kept too, and counts for nothing.
+// Right after a step of the library the operands of dsyrk are not in the caches, because the covariance of the filter
+// has just replaced them. Timed like this dsyrk would look slower, and our ratio better, than it is. Therefore dsyrk is
+// called several times in a row, and the median of the calls after the first is used. The steps of the library get no
+// such advantage; the step after such a series starts with cold caches. The cold time is stored too, but not used.
 #pragma once
 
 #include <cblas.h>
@@ -20,7 +20,7 @@ namespace bench {
 class Syrk {
  public:
   Syrk(std::size_t max_states, std::size_t max_rows) : C_(max_states * max_states), W_(max_states * max_rows) {
-    // Small enough for a thousand downdates of C not to lead anywhere.
+    // Small enough that the values of C stay bounded after a thousand updates.
     for (std::size_t i = 0; i < W_.size(); ++i) W_[i] = 1e-4 * std::sin(static_cast<double>(i));
     openblas_set_num_threads(1);
   }

@@ -3,9 +3,10 @@
 #
 #   tests/bench/traverse.sh [--landmarks "N ..."] [--closed] [--program CAIRN] [-- OPTION...]
 #
-# 10000, 30000 and 100000 landmarks where none are named, joined sparsely; --closed lets the traverse come home. What
-# follows -- goes to 'cairn simulate mars' as it is. Without --program, builds into build/bench first. Time is that of the
-# filter alone (steps and closings, without the simulation); memory that of the whole process, as the kernel tells.
+# The default is 10000, 30000 and 100000 landmarks with sparse joining. --closed makes the traverse return to its start.
+# Options after -- are passed to 'cairn simulate mars'. Without --program the script builds into build/bench first. Time
+# is the time in the filter (steps and closings, without the simulation). Memory is that of the whole process, from the
+# kernel.
 set -euo pipefail
 # shellcheck source=../support/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../support/setup.sh"
@@ -37,7 +38,7 @@ for size in "${sizes[@]}"; do
     done_ones+=("$size")
   fi
 done
-((${#done_ones[@]} > 0)) || fail "none of the runs came to its end"
+((${#done_ones[@]} > 0)) || fail "no run finished"
 echo "$("$program" --version): cairn simulate mars ${options[*]}"
 python3 "$root/tests/bench/traverse_table.py" "$work" "${done_ones[@]}"
-((${#done_ones[@]} == ${#sizes[@]})) || fail "of ${#sizes[@]} runs, ${#done_ones[@]} came to their end: see above"
+((${#done_ones[@]} == ${#sizes[@]})) || fail "only ${#done_ones[@]} of ${#sizes[@]} runs finished: see above"

@@ -16,7 +16,7 @@ COLUMNS = [("landmarks", "landmarks", "{:.0f}"), ("steps", "steps", "{:.0f}"), (
 
 
 def exponent(runs, key):
-    """Slope of the straight line through the logarithms, by least squares."""
+    """Slope of the least-squares line through the logarithms."""
     points = [(math.log(run["landmarks"]), math.log(run[key])) for run in runs]
     x_mean, y_mean = (sum(values) / len(points) for values in zip(*points))
     return (sum((x - x_mean) * (y - y_mean) for x, y in points)

@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* After its creation a filter takes no memory, and cairn_filter_required_bytes says beforehand what it takes. This
- * program puts itself before the C library's allocator (glibc) and counts. */
+/* A filter allocates no memory after its creation, and cairn_filter_required_bytes tells beforehand how much it needs.
+ * This program replaces the allocator of the C library (glibc) by one that counts. */
 #include "interposer.h"
 #include "support.h"
 
-static void the_counter_counts(void **state) {
+static void the_interposer_counts_allocations(void** state) {
   (void)state;
   arm();
-  void *volatile a = malloc(100), *volatile b = calloc(3, 50), *volatile c = NULL;
+  void* volatile a = malloc(100), * volatile b = calloc(3, 50), * volatile c = NULL;
   a = realloc(a, 300);
-  assert_int_equal(posix_memalign((void **)&c, 64, 1000), 0);
+  assert_int_equal(posix_memalign((void**)&c, 64, 1000), 0);
   counter.armed = false;
   assert_int_equal(counter.calls, 5);
   assert_int_equal(counter.live, 300 + 150 + 1000);
   free(a), free(b), free(c);
 }
 
-/* Landmarks on a spiral about the origin, as many as wanted; a noisy look at any of them by any sensor. */
+/* Landmarks on a spiral about the origin, and a noisy observation of any of them by any sensor. */
 static void spot(size_t i, double point[3]) {
   const double angle = 0.7 * (double)i, radius = 6 + 0.05 * (double)i;
   point[0] = radius * cos(angle), point[1] = radius * sin(angle), point[2] = 0.01 * (double)(i % 100) - 0.5;
 }
 
-static size_t look(world *w, int sensor, size_t first, size_t landmarks, size_t most, cairn_observation *out) {
+static size_t look(world* w, int sensor, size_t first, size_t landmarks, size_t most, cairn_observation* out) {
   size_t count = 0;
   memset(out, 0, most * sizeof *out);
   for (size_t k = 0; k < landmarks && count < most; ++k) {
@@ -42,15 +42,15 @@ typedef struct scale {
   int32_t error, association;
 } scale;
 
-/* Everything a filter does in its life, `steps` times, under the counter. */
-static void live(const scale *s) {
+/* Every call of a filter's life, `steps` times, while allocations are counted. */
+static void live(const scale* s) {
   cairn_filter_options options = test_options();
-  cairn_observation *o = calloc(s->observations, sizeof *o);
-  cairn_match *m = calloc(s->observations, sizeof *m);
+  cairn_observation* o = calloc(s->observations, sizeof *o);
+  cairn_match* m = calloc(s->observations, sizeof *m);
   const size_t rows = 3 * s->observations;
   double *residual = calloc(rows, sizeof *residual), *noise = calloc(rows * rows, sizeof *noise);
   double *jp = calloc(rows * 6, sizeof *jp), *jl = calloc(rows * rows, sizeof *jl);
-  uint64_t *ids = calloc(s->observations, sizeof *ids);
+  uint64_t* ids = calloc(s->observations, sizeof *ids);
   rig r;
   world w;
   size_t result[4] = {0}, reasons[6] = {0}, most = 0, failed = 0;
@@ -60,12 +60,13 @@ static void live(const scale *s) {
   assert_true(o != NULL && m != NULL && residual != NULL && noise != NULL && jp != NULL && jl != NULL && ids != NULL);
   options.max_landmarks = s->association == CAIRN_ASSOCIATION_KNOWN ? s->landmarks : 25 * s->landmarks;
   options.max_observations = s->observations;
-  options.iterations = 5, options.iteration_tolerance = 1e-9, options.error = s->error, options.association = s->association;
+  options.iterations = 5, options.iteration_tolerance = 1e-9, options.error = s->error,
+  options.association = s->association;
   world_init(&w, 31);
   w.truth = options.initial_pose = pose_at(0.5, 0.3, 0.2, 0.02, 0.03, 0.1);
   rig_open(&r, &options);
-  cairn_filter *f = r.filter;
-  const cairn_map *map = cairn_filter_map(f);
+  cairn_filter* f = r.filter;
+  const cairn_map* map = cairn_filter_map(f);
   size_t n = look(&w, CARTESIAN, 0, s->landmarks, s->observations, o);
   assert_ok(cairn_filter_update(f, r.sensors[CARTESIAN], o, n, m));
   diagonal(covariance, 6, 1e-8), diagonal(small, 3, 1e-2), diagonal(noise, (int)rows, 1e-2);
@@ -113,7 +114,7 @@ static void live(const scale *s) {
   free(o), free(m), free(residual), free(noise), free(jp), free(jl), free(ids);
 }
 
-static void a_small_filter_takes_nothing(void **state) {
+static void a_small_filter_allocates_nothing(void** state) {
   (void)state;
   live(&(scale){WORLD_LANDMARKS, 6, 300, CAIRN_ERROR_INVARIANT, CAIRN_ASSOCIATION_KNOWN});
   live(&(scale){WORLD_LANDMARKS, 6, 300, CAIRN_ERROR_STANDARD, CAIRN_ASSOCIATION_KNOWN});
@@ -121,13 +122,13 @@ static void a_small_filter_takes_nothing(void **state) {
   live(&(scale){WORLD_LANDMARKS, 6, 300, CAIRN_ERROR_INVARIANT, CAIRN_ASSOCIATION_JOINT});
 }
 
-static void a_large_filter_takes_nothing(void **state) {
+static void a_large_filter_allocates_nothing(void** state) {
   (void)state;
   live(&(scale){300, 60, 40, CAIRN_ERROR_INVARIANT, CAIRN_ASSOCIATION_KNOWN});
   live(&(scale){300, 60, 25, CAIRN_ERROR_STANDARD, CAIRN_ASSOCIATION_KNOWN});
 }
 
-static void the_bytes_are_foretold(void **state) {
+static void the_required_bytes_are_told_beforehand(void** state) {
   static const struct {
     uint32_t landmarks, observations, sensors, submap_landmarks;
     int32_t join;
@@ -144,7 +145,7 @@ static void the_bytes_are_foretold(void **state) {
   (void)state;
   for (size_t k = 0; k < LENGTH(cases); ++k) {
     cairn_filter_options options = test_options();
-    cairn_filter *f = NULL;
+    cairn_filter* f = NULL;
     size_t foretold = 0;
     const cairn_stereo_head head = test_head();
     const cairn_custom point = test_point();
@@ -168,7 +169,7 @@ static void the_bytes_are_foretold(void **state) {
     counter.armed = false;
     assert_ok(created);
     assert_int_equal(failed, 0);
-    assert_true(at_creation > 0); /* the counter does stand before the library's allocator */
+    assert_true(at_creation > 0); /* the interposer does replace the library's allocator */
     assert_int_equal(counter.live, 0);
     if (at_creation > foretold + 4096 || peak_at_creation > foretold + 4096 || peak > foretold + 4096 ||
         (double)at_creation < 0.9 * (double)foretold - 4096)
@@ -177,13 +178,13 @@ static void the_bytes_are_foretold(void **state) {
   }
 }
 
-/* Each allocation of a creation fails once: a status, nothing written, nothing lost. */
+/* Each allocation of a creation fails once. The call must return a status, write nothing and leak nothing. */
 static void refuse_creation(uint32_t submap_landmarks, int32_t join) {
   cairn_filter_options options = test_options();
   size_t failures = 0;
   options.submap_landmarks = submap_landmarks, options.join = join;
   for (size_t at = 1;; ++at) {
-    cairn_filter *f = NULL;
+    cairn_filter* f = NULL;
     arm();
     counter.fail_at = at;
     const cairn_status status = cairn_filter_create(&options, &f);
@@ -201,7 +202,7 @@ static void refuse_creation(uint32_t submap_landmarks, int32_t join) {
   assert_true(failures > 0);
 }
 
-static void want_of_memory_is_a_status(void **state) {
+static void lack_of_memory_is_a_status(void** state) {
   (void)state;
   refuse_creation(0, CAIRN_JOIN_AUTO);
   refuse_creation(6, CAIRN_JOIN_DENSE);
@@ -210,9 +211,9 @@ static void want_of_memory_is_a_status(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_counter_counts),           cmocka_unit_test(a_small_filter_takes_nothing),
-      cmocka_unit_test(a_large_filter_takes_nothing), cmocka_unit_test(the_bytes_are_foretold),
-      cmocka_unit_test(want_of_memory_is_a_status),
+      cmocka_unit_test(the_interposer_counts_allocations), cmocka_unit_test(a_small_filter_allocates_nothing),
+      cmocka_unit_test(a_large_filter_allocates_nothing),  cmocka_unit_test(the_required_bytes_are_told_beforehand),
+      cmocka_unit_test(lack_of_memory_is_a_status),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

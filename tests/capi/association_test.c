@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Observations without names: which landmark the filter takes them for, and when it rather takes them for none. */
-#include "support.h"
+/* Observations without ids: which landmark each one is matched with, and when it is refused instead. */
+#include "submaps.h"
 
 static cairn_filter_options unnamed(int32_t association) {
   cairn_filter_options options = test_options();
@@ -16,8 +16,9 @@ static cairn_observation at(double x, double y, double z) {
   return o;
 }
 
-/* A rig that stands at the origin, knows it, and has seen `count` points; then it is pushed along x, by `sigma`. */
-static void open_pushed(rig *r, cairn_filter_options options, const cairn_observation *points, size_t count,
+/* A rig that stands at the origin with a known pose and has seen `count` points. Then its x position becomes uncertain
+ * by `sigma`. */
+static void open_pushed(rig* r, cairn_filter_options options, const cairn_observation* points, size_t count,
                         double sigma) {
   const cairn_pose stay = {{0, 0, 0}, {1, 0, 0, 0}};
   double covariance[36];
@@ -31,7 +32,7 @@ static void open_pushed(rig *r, cairn_filter_options options, const cairn_observ
   assert_ok(cairn_filter_predict_increment(r->filter, &stay, covariance));
 }
 
-static void names_are_not_asked_for(void **state) {
+static void without_ids_a_filter_decides_as_with_ids(void** state) {
   const int32_t ways[] = {CAIRN_ASSOCIATION_NEAREST, CAIRN_ASSOCIATION_JOINT};
   (void)state;
   for (size_t k = 0; k < LENGTH(ways); ++k) {
@@ -46,7 +47,7 @@ static void names_are_not_asked_for(void **state) {
     w.noise = 0.2;
     for (int step = 0; step < 80; ++step) {
       frame f;
-      cairn_match told[WORLD_LANDMARKS], found[WORLD_LANDMARKS];
+      cairn_match known_matches[WORLD_LANDMARKS], found_matches[WORLD_LANDMARKS];
       world_frame(&w, &f);
       f.sensor = CARTESIAN;
       f.count = 0;
@@ -57,30 +58,19 @@ static void names_are_not_asked_for(void **state) {
         o.id = i + 1;
         f.observations[f.count++] = o;
       }
-      assert_ok(rig_take(&known, &f, told));
+      assert_ok(rig_take(&known, &f, known_matches));
       for (size_t i = 0; i < f.count; ++i) f.observations[i].id = step % 2 == 0 ? CAIRN_ID_NONE : 5;
-      assert_ok(rig_take(&unknown, &f, found));
-      for (size_t i = 0; i < f.count; ++i) {
-        assert_int_equal(found[i].result, told[i].result);
-        if (found[i].result == CAIRN_NEW) name_of[found[i].landmark] = told[i].landmark;
-        if (found[i].result != CAIRN_MATCHED) continue;
-        assert_int_equal(name_of[found[i].landmark], told[i].landmark);
-        ++matched;
-      }
+      assert_ok(rig_take(&unknown, &f, found_matches));
+      matched += check_same_matches(known_matches, found_matches, f.count, name_of);
     }
     assert_true(matched > 300);
-    cairn_pose a, b;
-    double pa[36], pb[36];
-    assert_ok(cairn_filter_pose(known.filter, &a, pa));
-    assert_ok(cairn_filter_pose(unknown.filter, &b, pb));
-    assert_memory_equal(&a, &b, sizeof a); /* the very same updates */
-    assert_memory_equal(pa, pb, sizeof pa);
+    check_same_pose(known.filter, unknown.filter);
     rig_close(&known);
     rig_close(&unknown);
   }
 }
 
-static void what_cannot_be_true_together_is_paired_once(void **state) {
+static void pairs_that_contradict_each_other_are_not_accepted_together(void** state) {
   const cairn_observation points[] = {{0, {10, -50, 0}, {0}}, {0, {10, 50, 0}, {0}}};
   const cairn_observation looked[] = {{0, {12.5, -50, 0}, {0}}, {0, {7.5, 50, 0}, {0}}};
   cairn_match m[2];
@@ -88,18 +78,12 @@ static void what_cannot_be_true_together_is_paired_once(void **state) {
   (void)state;
   open_pushed(&r, unnamed(CAIRN_ASSOCIATION_JOINT), points, 2, 1.0);
   assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, 2, m));
-  const int paired = m[0].result == CAIRN_MATCHED ? 0 : 1;
-  assert_int_equal(m[paired].result, CAIRN_MATCHED);
-  assert_int_equal(m[paired].landmark, paired);
-  assert_int_equal(m[1 - paired].result, CAIRN_REJECTED);
-  assert_int_equal(m[1 - paired].reason, CAIRN_REASON_AMBIGUOUS);
-  assert_int_equal(m[1 - paired].landmark, 1 - paired);
-  assert_true(m[1 - paired].distance < m[1 - paired].threshold);
+  check_one_of_two_matches(m);
   const cairn_update_report report = last_update(r.filter);
   assert_true(report.association_nodes >= 2 && report.association_exhausted == 0);
   assert_true(report.association_seconds > 0);
   rig_close(&r);
-  /* Nearest neighbour takes both; the gate of the batch finds that they do not fit. */
+  /* Nearest neighbour matches both. The batch gate finds that they contradict each other. */
   open_pushed(&r, unnamed(CAIRN_ASSOCIATION_NEAREST), points, 2, 1.0);
   assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, 2, m));
   assert_true((m[0].reason == CAIRN_REASON_BATCH_GATE) != (m[1].reason == CAIRN_REASON_BATCH_GATE));
@@ -107,7 +91,7 @@ static void what_cannot_be_true_together_is_paired_once(void **state) {
   rig_close(&r);
 }
 
-static void one_that_could_be_another_waits_for_more(void **state) {
+static void an_ambiguous_observation_needs_the_support_of_others(void** state) {
   const cairn_observation points[] = {{0, {10, 0, 0}, {0}}, {0, {12, 0.5, 0}, {0}}, {0, {13, -0.5, 0}, {0}}};
   cairn_observation looked[3];
   cairn_match m[3];
@@ -129,9 +113,10 @@ static void one_that_could_be_another_waits_for_more(void **state) {
   }
 }
 
-static void new_landmarks_keep_their_distance(void **state) {
+static void a_new_landmark_keeps_its_distance_from_known_ones(void** state) {
   const cairn_observation point = at(10, 0, 0);
-  /* one axis at noise 0.1, twice: squared distance d^2 / 0.02; bounds of 0.99 and 0.9999 at 11.34 and 21.11 */
+  /* Both sightings have noise 0.1, so the squared distance is d^2 / 0.02. The bounds of 0.99 and 0.9999 are 11.34 and
+   * 21.11. */
   const struct {
     double offset;
     int32_t result, reason;
@@ -156,11 +141,12 @@ static void new_landmarks_keep_their_distance(void **state) {
   }
 }
 
-/* Two observations of a frame are of two landmarks: what noise sets apart from one that was paired is new, though it
- * lies too near the mapped one to be new by itself. */
-static void one_landmark_is_seen_once_a_frame(void **state) {
+/* Two observations of one frame belong to two landmarks. An observation that noise clearly separates from a matched one
+ * is new, although it is too near the mapped landmark to be new otherwise. */
+static void one_landmark_is_seen_once_a_frame(void** state) {
   const cairn_observation point = at(10, 0, 0);
-  /* one axis at noise 0.1: of the second to the landmark d^2 / 0.02, bounds 11.34 and 21.11; to the first d^2 / 0.02 */
+  /* Noise 0.1 on one axis. The second observation has squared distance d^2 / 0.02 to the landmark (bounds 11.34 and
+   * 21.11), and d^2 / 0.02 to the first observation. */
   const struct {
     double offset;
     int32_t result, reason;
@@ -179,7 +165,7 @@ static void one_landmark_is_seen_once_a_frame(void **state) {
     assert_int_equal(m[0].landmark, 0);
     assert_int_equal(m[1].result, looks[k].result);
     assert_int_equal(m[1].reason, looks[k].reason);
-    if (looks[k].result == CAIRN_NEW) { /* each finds its own */
+    if (looks[k].result == CAIRN_NEW) { /* each observation is matched with its own landmark */
       assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], both, 2, m));
       for (size_t i = 0; i < 2; ++i) {
         assert_int_equal(m[i].result, CAIRN_MATCHED);
@@ -188,7 +174,8 @@ static void one_landmark_is_seen_once_a_frame(void **state) {
     }
     rig_close(&r);
   }
-  /* Each of two would do by itself, and the gate of the batch refuses one: beside that one nothing is new. */
+  /* Each of two observations passes alone, and the batch gate refuses one of them. No landmark is placed next to the
+   * refused one. */
   const cairn_observation two[] = {at(10, -50, 0), at(10, 50, 0)};
   cairn_observation known[2], four[] = {at(10.72, -50, 0), at(11.25, -50, 0), at(9.28, 50, 0), at(8.75, 50, 0)};
   cairn_match of_four[4];
@@ -208,7 +195,7 @@ static void one_landmark_is_seen_once_a_frame(void **state) {
   assert_int_equal(of_four[taken + 1].result, CAIRN_NEW);
   assert_int_equal(of_four[taken + 1].landmark, 2);
   rig_close(&refusing);
-  /* Where the one beside it is doubtful itself, nothing is placed. */
+  /* No landmark is placed next to an observation that is itself doubtful. */
   const cairn_observation apart[] = {at(10, 0, 0), at(12, 0, 0)};
   cairn_match m[2];
   rig r;
@@ -218,8 +205,8 @@ static void one_landmark_is_seen_once_a_frame(void **state) {
   rig_close(&r);
 }
 
-/* Sightings whose errors last: an update believes them as much less, association and placing as they are. */
-static void errors_that_last_count_in_updates_alone(void **state) {
+/* Sightings with persistent errors: an update gives them less weight, association and placing do not. */
+static void persistent_errors_count_in_updates_only(void** state) {
   cairn_observation point = at(10, 0, 0);
   cairn_filter_options lasting = test_options(), plain = test_options();
   rig a, b;
@@ -244,7 +231,7 @@ static void errors_that_last_count_in_updates_alone(void **state) {
   rig_close(&a);
   rig_close(&b);
 
-  /* 0.6 m off at noise 0.1, twice: beyond the gate of 0.99, whatever lasts of it. */
+  /* 0.6 m off at noise 0.1 for both sightings: beyond the gate of 0.99, whatever the persistence. */
   cairn_observation first = point, off;
   cairn_match m;
   for (int i = 0; i < 3; ++i) first.covariance[4 * i] = 0.01;
@@ -259,7 +246,7 @@ static void errors_that_last_count_in_updates_alone(void **state) {
   rig_close(&a);
 }
 
-static void a_bound_of_tests_is_kept_and_told(void **state) {
+static void the_limit_of_joint_tests_is_kept_and_reported(void** state) {
   cairn_filter_options options = unnamed(CAIRN_ASSOCIATION_JOINT);
   cairn_observation points[WORLD_LANDMARKS];
   cairn_match m[WORLD_LANDMARKS];
@@ -268,7 +255,8 @@ static void a_bound_of_tests_is_kept_and_told(void **state) {
   options.association_nodes = 1;
   for (int i = 0; i < WORLD_LANDMARKS; ++i) points[i] = at(10 + 0.9 * (i % 4), 0.9 * (i / 4), 0.1 * i);
   open_pushed(&r, options, points, WORLD_LANDMARKS, 2.0);
-  for (int i = 0; i < WORLD_LANDMARKS; ++i) points[i].z[0] += i % 3 == 0 ? 1.3 : i % 3 == 1 ? 0.4 : -0.7; /* no push */
+  for (int i = 0; i < WORLD_LANDMARKS; ++i)
+    points[i].z[0] += i % 3 == 0 ? 1.3 : i % 3 == 1 ? 0.4 : -0.7; /* offsets that no shift along x explains */
   assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], points, WORLD_LANDMARKS, m));
   const cairn_update_report report = last_update(r.filter);
   assert_int_equal(report.association_exhausted, 1);
@@ -277,14 +265,13 @@ static void a_bound_of_tests_is_kept_and_told(void **state) {
   rig_close(&r);
 }
 
-/* Twice over the same ground in submaps: what the second pass closes is found in the map. */
-static void closings_find_what_the_map_knows(void **state) {
+/* Drives over the same ground twice in submaps. The closings of the second pass must find the landmarks of the map. */
+static void closings_find_the_landmarks_of_the_map(void** state) {
   const int32_t joins[] = {CAIRN_JOIN_DENSE, CAIRN_JOIN_SPARSE};
   (void)state;
   for (size_t k = 0; k < LENGTH(joins); ++k) {
     cairn_filter_options options = unnamed(CAIRN_ASSOCIATION_JOINT);
     cairn_pose back = pose_at(-20, 0, 0, 0, 0, 0), step = pose_at(2, 0, 0, 0, 0, 0);
-    cairn_closing_report report;
     uint32_t fused = 0, closings = 0;
     double covariance[36];
     size_t size;
@@ -305,15 +292,13 @@ static void closings_find_what_the_map_knows(void **state) {
         if (x > 1 && x < 9) o[count++] = at(x, l % 2 == 0 ? 3 : -3, 0.2 * l);
       }
       assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, count, NULL));
-      memset(&report, 0, sizeof report);
-      report.struct_size = sizeof report;
-      assert_ok(cairn_filter_last_closing(r.filter, &report));
+      const cairn_closing_report report = last_closing(r.filter);
       assert_int_equal(report.status, CAIRN_OK);
       if (report.submaps == closings) continue;
       closings = report.submaps;
-      assert_int_equal(report.landmarks_new + report.landmarks_fused + report.landmarks_refused +
-                           report.landmarks_ambiguous,
-                       report.landmarks);
+      assert_int_equal(
+          report.landmarks_new + report.landmarks_fused + report.landmarks_refused + report.landmarks_ambiguous,
+          report.landmarks);
       assert_int_equal(report.landmarks_ambiguous, 0);
       assert_int_equal(report.association_exhausted, 0);
       fused += report.landmarks_fused;
@@ -322,12 +307,12 @@ static void closings_find_what_the_map_knows(void **state) {
     if (size > 0) assert_ok(cairn_filter_close_submap(r.filter));
     assert_true(closings >= 4 && fused >= 8);
     assert_ok(cairn_map_size(cairn_filter_map(r.filter), &size));
-    assert_int_equal(size, 11); /* that were in sight, each once */
+    assert_int_equal(size, 11); /* the landmarks that were in sight, each once */
     rig_close(&r);
   }
 }
 
-static void a_frame_that_does_not_fit_changes_nothing(void **state) {
+static void a_frame_that_does_not_fit_changes_nothing(void** state) {
   cairn_filter_options options = unnamed(CAIRN_ASSOCIATION_JOINT);
   snapshot before = {0, NULL}, after = {0, NULL};
   cairn_observation o[3];
@@ -346,14 +331,14 @@ static void a_frame_that_does_not_fit_changes_nothing(void **state) {
   snapshot_take(&after, r.filter);
   assert_true(snapshot_same(&before, &after));
   assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 1, &m));
-  assert_int_equal(m.landmark, 0); /* no number was used up */
+  assert_int_equal(m.landmark, 0); /* the failed calls used no number */
   snapshot_free(&before);
   snapshot_free(&after);
   rig_close(&r);
 }
 
-static void options_that_cannot_be(void **state) {
-  cairn_filter *filter = NULL;
+static void options_out_of_range_are_refused(void** state) {
+  cairn_filter* filter = NULL;
   (void)state;
   const int32_t ways[] = {-1, 3, 77};
   for (size_t i = 0; i < LENGTH(ways); ++i) {
@@ -383,16 +368,16 @@ static void options_that_cannot_be(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(names_are_not_asked_for),
-      cmocka_unit_test(what_cannot_be_true_together_is_paired_once),
-      cmocka_unit_test(one_that_could_be_another_waits_for_more),
-      cmocka_unit_test(new_landmarks_keep_their_distance),
+      cmocka_unit_test(without_ids_a_filter_decides_as_with_ids),
+      cmocka_unit_test(pairs_that_contradict_each_other_are_not_accepted_together),
+      cmocka_unit_test(an_ambiguous_observation_needs_the_support_of_others),
+      cmocka_unit_test(a_new_landmark_keeps_its_distance_from_known_ones),
       cmocka_unit_test(one_landmark_is_seen_once_a_frame),
-      cmocka_unit_test(errors_that_last_count_in_updates_alone),
-      cmocka_unit_test(a_bound_of_tests_is_kept_and_told),
-      cmocka_unit_test(closings_find_what_the_map_knows),
+      cmocka_unit_test(persistent_errors_count_in_updates_only),
+      cmocka_unit_test(the_limit_of_joint_tests_is_kept_and_reported),
+      cmocka_unit_test(closings_find_the_landmarks_of_the_map),
       cmocka_unit_test(a_frame_that_does_not_fit_changes_nothing),
-      cmocka_unit_test(options_that_cannot_be),
+      cmocka_unit_test(options_out_of_range_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

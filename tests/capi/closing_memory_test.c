@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A closing takes memory. Whichever of its requests is refused, the filter is as it was, to the bit, and closes once
- * there is memory again. Between closings nothing is taken. */
+/* A closing allocates memory. Whichever of its requests fails, the filter must be unchanged to the bit, and it must
+ * close when there is memory again. Between closings nothing is allocated. */
 #include "interposer.h"
 #include "submaps.h"
 
@@ -13,7 +13,7 @@ static const setting settings[] = {{CAIRN_JOIN_DENSE, CAIRN_ERROR_INVARIANT},
                                    {CAIRN_JOIN_SPARSE, CAIRN_ERROR_STANDARD}};
 
 static size_t seen_by_log;
-static void count_lines(void *payload, const char *line) {
+static void count_lines(void* payload, const char* line) {
   (void)payload;
   seen_by_log += line[0] != '\0';
 }
@@ -24,7 +24,7 @@ typedef struct stage {
   snapshot before, after, other;
 } stage;
 
-static void stage_open(stage *s, const setting *how, uint32_t landmarks) {
+static void stage_open(stage* s, const setting* how, uint32_t landmarks) {
   memset(s, 0, sizeof *s);
   ring_init(&s->course, 11);
   cairn_filter_options options = ring_options(&s->course, landmarks, how->join);
@@ -33,25 +33,25 @@ static void stage_open(stage *s, const setting *how, uint32_t landmarks) {
   s->twin = ring_filter(&options);
 }
 
-static void stage_close(stage *s) {
+static void stage_close(stage* s) {
   cairn_filter_destroy(s->filter), cairn_filter_destroy(s->twin);
   snapshot_free(&s->before), snapshot_free(&s->after), snapshot_free(&s->other);
 }
 
-static void stage_drive(stage *s, unsigned steps) {
-  cairn_filter *const both[] = {s->filter, s->twin};
+static void stage_drive(stage* s, unsigned steps) {
+  cairn_filter* const both[] = {s->filter, s->twin};
   ring_drive(&s->course, both, 2, steps);
 }
 
-static void assert_unchanged(stage *s, const char *what, size_t at) {
+static void assert_unchanged(stage* s, const char* what, size_t at) {
   submaps_take(&s->after, s->filter);
   if (!snapshot_same(&s->before, &s->after)) fail_msg("%s: request %zu refused, and the filter changed", what, at);
 }
 
-/* Refuses each request of a call in turn, or with a stride all from one on, until the call gets what it wants. Gives
- * how often it was refused. */
-typedef cairn_status (*call)(cairn_filter *filter);
-static size_t refuse_each(stage *s, const char *what, call make, bool for_good) {
+/* Lets each request of a call fail in turn, or every request from one on with a stride, until the call succeeds.
+ * Returns the number of refusals. */
+typedef cairn_status (*call)(cairn_filter* filter);
+static size_t refuse_each(stage* s, const char* what, call make, bool for_good) {
   size_t refusals = 0;
   submaps_take(&s->before, s->filter);
   for (size_t at = 1;; at += for_good ? 5 : 1) {
@@ -69,15 +69,16 @@ static size_t refuse_each(stage *s, const char *what, call make, bool for_good) 
   }
 }
 
-/* Both filters have seen the same, and only one of them was ever refused anything. */
-static void assert_alike(stage *s, const char *what) {
+/* Both filters have the same inputs. Only one of them had failed requests. */
+static void assert_alike(stage* s, const char* what) {
   submaps_take(&s->after, s->filter);
   submaps_take(&s->other, s->twin);
   if (!snapshot_same(&s->after, &s->other)) fail_msg("%s: the two filters differ", what);
 }
 
-/* Closings as the map grows: the first, such that see new landmarks too, the loop's end, well-known landmarks alone. */
-static void a_refused_closing_leaves_the_filter_as_it_was(void **state) {
+/* Closings as the map grows: the first one, closings with new landmarks, the end of the loop, and closings with known
+ * landmarks only. */
+static void a_refused_closing_leaves_the_filter_as_it_was(void** state) {
   static const unsigned legs[] = {3, 7, 20, 29, 5, 9};
   (void)state;
   for (size_t k = 0; k < LENGTH(settings); ++k) {
@@ -90,20 +91,20 @@ static void a_refused_closing_leaves_the_filter_as_it_was(void **state) {
       assert_ok(cairn_filter_close_submap(s.twin));
       assert_alike(&s, "cairn_filter_close_submap");
     }
-    assert_true(refusals > 100); /* the interposer does stand before the library's allocator */
+    assert_true(refusals > 100); /* the interposer does replace the library's allocator */
     stage_close(&s);
   }
 }
 
-static cairn_status fix_position(cairn_filter *filter) {
+static cairn_status fix_position(cairn_filter* filter) {
   const double there[3] = {0.2, 9.8, 0.4};
   double covariance[9];
   diagonal(covariance, 3, 25);
   return cairn_filter_update_position(filter, there, covariance, NULL, NULL);
 }
 
-/* A fix closes the open submap and then moves the base: all of it, or nothing. */
-static void a_refused_fix_leaves_the_filter_as_it_was(void **state) {
+/* A fix closes the open submap and then moves the base. Both must happen, or neither. */
+static void a_refused_fix_leaves_the_filter_as_it_was(void** state) {
   (void)state;
   for (size_t k = 0; k < LENGTH(settings); ++k)
     for (int for_good = 0; for_good < 2; ++for_good) {
@@ -115,7 +116,7 @@ static void a_refused_fix_leaves_the_filter_as_it_was(void **state) {
         refusals += refuse_each(&s, "cairn_filter_update_position", fix_position, for_good != 0);
         assert_ok(fix_position(s.twin));
         assert_alike(&s, "cairn_filter_update_position");
-        if (settings[k].join == CAIRN_JOIN_SPARSE) /* and another one, with nothing to close */
+        if (settings[k].join == CAIRN_JOIN_SPARSE) /* a second fix, with no submap to close */
           refusals += refuse_each(&s, "cairn_filter_update_position", fix_position, for_good != 0);
         else
           assert_ok(fix_position(s.filter));
@@ -127,13 +128,13 @@ static void a_refused_fix_leaves_the_filter_as_it_was(void **state) {
     }
 }
 
-static cairn_status ask_all(cairn_filter *filter) {
+static cairn_status ask_all(cairn_filter* filter) {
   cairn_landmark l[RING_LANDMARKS];
   double joint[36 * 36];
   size_t needed = 0;
   const uint64_t ids[] = {1, 2, 5};
   const double point[3] = {5, 5, 0};
-  const cairn_map *map = cairn_filter_map(filter);
+  const cairn_map* map = cairn_filter_map(filter);
   cairn_status status = cairn_map_landmarks(map, l, LENGTH(l), &needed);
   if (status == CAIRN_OK) status = cairn_map_nearest(map, point, 5, l, LENGTH(l), &needed);
   if (status == CAIRN_OK) status = cairn_map_landmark(map, 2, l);
@@ -141,14 +142,15 @@ static cairn_status ask_all(cairn_filter *filter) {
   return status != CAIRN_OK ? status : cairn_filter_joint_covariance(filter, ids, 3, joint, LENGTH(joint), &needed);
 }
 
-static void a_refused_query_spoils_no_later_one(void **state) {
+static void a_refused_query_does_not_harm_later_ones(void** state) {
   (void)state;
   for (size_t k = 0; k < LENGTH(settings); ++k)
     for (int for_good = 0; for_good < 2; ++for_good) {
       stage s;
       stage_open(&s, &settings[k], 6);
       stage_drive(&s, 35);
-      /* Nothing was asked yet since the last closing: what a query keeps for the next one is made under refusals. */
+      /* No query was made since the last closing. The data that a query keeps for the next one is created while
+       * requests fail. */
       size_t at = 1;
       for (bool failed = true; failed; at += for_good ? 5 : 1) {
         arm_to_fail(at, for_good != 0);
@@ -165,8 +167,8 @@ static void a_refused_query_spoils_no_later_one(void **state) {
     }
 }
 
-/* In cairn_filter_update a refused closing is put off: the frame counts, and a later one closes. */
-static void a_closing_of_an_update_is_put_off(void **state) {
+/* In cairn_filter_update a failed closing is postponed: the frame counts, and a later frame closes the submap. */
+static void a_failed_closing_of_an_update_is_postponed(void** state) {
   (void)state;
   for (size_t k = 0; k < LENGTH(settings); ++k)
     for (int late = 0; late < 2; ++late) {
@@ -179,7 +181,7 @@ static void a_closing_of_an_update_is_put_off(void **state) {
         stage_drive(&s, late ? 60 : 1);
         size_t closed = 0, count = 0, left = 0;
         assert_ok(cairn_filter_submap_count(s.twin, &closed));
-        for (count = closed; count == closed;) { /* the twin closes with this frame; the other one shall too */
+        for (count = closed; count == closed;) { /* the twin closes with this frame; the other filter must close too */
           ring_next(&s.course, &f);
           assert_ok(ring_take(s.twin, &f));
           assert_ok(cairn_filter_submap_count(s.twin, &count));
@@ -209,7 +211,7 @@ static void a_closing_of_an_update_is_put_off(void **state) {
           ++refusals;
           assert_int_equal(seen_by_log, 1);
           assert_ok(cairn_filter_pose(s.filter, &a, NULL));
-          assert_ok(cairn_filter_pose(s.twin, &b, NULL)); /* the base, which fused landmarks may have moved */
+          assert_ok(cairn_filter_pose(s.twin, &b, NULL)); /* the base: fused landmarks may have moved it */
           for (int i = 0; i < 3; ++i) assert_near(a.position[i], b.position[i], 0.3);
           for (int wait = 0; wait < 3 && count == closed; ++wait) {
             ring_next(&s.course, &f);
@@ -226,8 +228,8 @@ static void a_closing_of_an_update_is_put_off(void **state) {
     }
 }
 
-/* Predictions, and updates that close nothing. */
-static void between_closings_nothing_is_taken(void **state) {
+/* Predictions, and updates that close no submap. */
+static void between_closings_nothing_is_allocated(void** state) {
   (void)state;
   for (size_t k = 0; k < LENGTH(settings); ++k) {
     stage s;
@@ -261,9 +263,9 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_refused_closing_leaves_the_filter_as_it_was),
       cmocka_unit_test(a_refused_fix_leaves_the_filter_as_it_was),
-      cmocka_unit_test(a_refused_query_spoils_no_later_one),
-      cmocka_unit_test(a_closing_of_an_update_is_put_off),
-      cmocka_unit_test(between_closings_nothing_is_taken),
+      cmocka_unit_test(a_refused_query_does_not_harm_later_ones),
+      cmocka_unit_test(a_failed_closing_of_an_update_is_postponed),
+      cmocka_unit_test(between_closings_nothing_is_allocated),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

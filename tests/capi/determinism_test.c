@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same inputs give the same bits: twice in a row, interleaved with another handle, and in threads of their own. */
+/* The same inputs give the same bits: repeated, interleaved with another handle, and in separate threads. */
 #include <pthread.h>
 
 #include "support.h"
@@ -12,13 +12,13 @@ static void frames_of(uint64_t seed, frame frames[STEPS]) {
   for (int n = 0; n < STEPS; ++n) world_frame(&w, &frames[n]);
 }
 
-static void open_as(rig *r, int32_t error) {
+static void open_as(rig* r, int32_t error) {
   cairn_filter_options options = test_options();
   options.error = error;
   rig_open(r, &options);
 }
 
-static void run(const frame frames[STEPS], int32_t error, snapshot *end) {
+static void run(const frame frames[STEPS], int32_t error, snapshot* end) {
   rig r;
   open_as(&r, error);
   for (int n = 0; n < STEPS; ++n) assert_ok(rig_take(&r, &frames[n], NULL));
@@ -26,27 +26,27 @@ static void run(const frame frames[STEPS], int32_t error, snapshot *end) {
   rig_close(&r);
 }
 
-static void twice_the_same_is_the_same(void **state) {
+static void repeated_runs_give_the_same_bits(void** state) {
   (void)state;
   for (int32_t error = CAIRN_ERROR_INVARIANT; error <= CAIRN_ERROR_STANDARD; ++error) {
     frame frames[STEPS];
     snapshot a = {0, NULL}, b = {0, NULL}, other = {0, NULL};
     frames_of(1, frames);
     run(frames, error, &a);
-    void *between = malloc(4096 + 17); /* other addresses */
+    void* between = malloc(4096 + 17); /* different memory addresses */
     run(frames, error, &b);
     free(between);
     assert_true(snapshot_same(&a, &b));
     frames[3].observations[0].z[0] += 1e-9;
     run(frames, error, &other);
-    assert_false(snapshot_same(&a, &other)); /* the comparison can fail */
+    assert_false(snapshot_same(&a, &other)); /* the comparison does detect a difference */
     snapshot_free(&a);
     snapshot_free(&b);
     snapshot_free(&other);
   }
 }
 
-static void interleaved_handles_do_not_hear_each_other(void **state) {
+static void interleaved_handles_are_independent(void** state) {
   static frame frames[2][STEPS];
   snapshot alone[2] = {{0, NULL}, {0, NULL}}, mixed[2] = {{0, NULL}, {0, NULL}};
   rig r[2];
@@ -67,8 +67,8 @@ static void interleaved_handles_do_not_hear_each_other(void **state) {
   }
 }
 
-/* Queries between the steps leave no trace. */
-static void asking_changes_nothing(void **state) {
+/* Queries between the steps change nothing. */
+static void queries_change_nothing(void** state) {
   static frame frames[STEPS];
   snapshot quiet = {0, NULL}, asked = {0, NULL};
   rig r;
@@ -96,20 +96,20 @@ typedef struct job {
   cairn_status status;
 } job;
 
-static void *work(void *argument) {
-  job *j = argument;
+static void* work(void* argument) {
+  job* j = argument;
   j->status = CAIRN_OK;
   for (int n = 0; n < STEPS && j->status == CAIRN_OK; ++n) j->status = rig_take(&j->rig, &j->frames[n], NULL);
   return NULL;
 }
 
-static void threads_give_the_bits_of_a_serial_run(void **state) {
+static void threads_give_the_same_bits_as_a_serial_run(void** state) {
   enum { JOBS = 4 };
   static job jobs[JOBS];
   pthread_t threads[JOBS];
   (void)state;
   for (int k = 0; k < JOBS; ++k) {
-    frames_of((uint64_t)k / 2 + 20, jobs[k].frames); /* two pairs of twins */
+    frames_of((uint64_t)k / 2 + 20, jobs[k].frames); /* two pairs of filters with the same inputs */
     open_as(&jobs[k].rig, k % 2);
   }
   for (int k = 0; k < JOBS; ++k) assert_int_equal(pthread_create(&threads[k], NULL, work, &jobs[k]), 0);
@@ -127,18 +127,18 @@ static void threads_give_the_bits_of_a_serial_run(void **state) {
 }
 
 typedef struct reader {
-  const cairn_filter *filter;
+  const cairn_filter* filter;
   bool same;
 } reader;
 
-static void *read_side_by_side(void *argument) {
-  reader *r = argument;
+static void* read_side_by_side(void* argument) {
+  reader* r = argument;
   cairn_landmark first[WORLD_LANDMARKS], again[WORLD_LANDMARKS];
   const uint64_t ids[3] = {3, 1, 7};
   const double centre[3] = {1, 2, 0};
   double a[225], b[225];
   size_t n, m;
-  const cairn_map *map = cairn_filter_map(r->filter);
+  const cairn_map* map = cairn_filter_map(r->filter);
   r->same = cairn_map_within(map, centre, 14, first, WORLD_LANDMARKS, &n) == CAIRN_OK &&
             cairn_filter_joint_covariance(r->filter, ids, 3, a, 225, &m) == CAIRN_OK;
   for (int k = 0; k < 300 && r->same; ++k)
@@ -148,9 +148,9 @@ static void *read_side_by_side(void *argument) {
   return NULL;
 }
 
-/* Const queries of one handle may run at the same time (a sanitizer for threads sees it if they may not). */
-static void queries_run_side_by_side(void **state) {
-  bench *b = *state;
+/* Const queries of one handle may run in parallel. A thread sanitizer detects it if they may not. */
+static void queries_run_in_parallel(void** state) {
+  bench* b = *state;
   reader readers[3];
   pthread_t threads[3];
   for (int k = 0; k < 3; ++k) readers[k].filter = b->main.filter;
@@ -159,20 +159,21 @@ static void queries_run_side_by_side(void **state) {
   for (int k = 0; k < 3; ++k) assert_true(readers[k].same);
 }
 
-/* The log: silent by default, the caller's payload, a line for what was refused, and no influence. */
+/* The log: silent by default, passes the caller's payload, has one line for each refusal, and does not influence the
+ * filter. */
 typedef struct diary {
   int lines;
   bool whole;
 } diary;
 
-static void write_down(void *payload, const char *line) {
-  diary *d = payload;
+static void write_down(void* payload, const char* line) {
+  diary* d = payload;
   ++d->lines;
   d->whole &= line != NULL && line[0] != '\0' && strchr(line, '\n') == NULL;
 }
 
-static void the_log_hears_of_rejections_and_changes_nothing(void **state) {
-  bench *b = *state;
+static void the_log_reports_rejections_and_changes_nothing(void** state) {
+  bench* b = *state;
   diary d = {0, true};
   double covariance[9];
   const double far[3] = {1000, 1000, 1000};
@@ -183,7 +184,7 @@ static void the_log_hears_of_rejections_and_changes_nothing(void **state) {
     assert_ok(cairn_filter_update_position(k == 0 ? b->main.filter : b->shadow.filter, far, covariance, NULL, &m));
   assert_int_equal(m.result, CAIRN_REJECTED);
   assert_int_equal(d.lines, 1);
-  frame f = bench_until(b, CARTESIAN); /* each value a little off, all together too far */
+  frame f = bench_until(b, CARTESIAN); /* each value is slightly off; together they are too far off */
   for (size_t i = 0; i < f.count; ++i) f.observations[i].z[i % 3] += i % 2 ? 0.4 : -0.4;
   cairn_match matches[WORLD_LANDMARKS];
   assert_ok(cairn_filter_update(b->main.filter, b->main.sensors[CARTESIAN], f.observations, f.count, matches));
@@ -202,12 +203,12 @@ static void the_log_hears_of_rejections_and_changes_nothing(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(twice_the_same_is_the_same),
-      cmocka_unit_test(interleaved_handles_do_not_hear_each_other),
-      cmocka_unit_test(asking_changes_nothing),
-      cmocka_unit_test(threads_give_the_bits_of_a_serial_run),
-      cmocka_unit_test_setup_teardown(queries_run_side_by_side, bench_setup, bench_teardown),
-      cmocka_unit_test_setup_teardown(the_log_hears_of_rejections_and_changes_nothing, bench_setup, bench_teardown),
+      cmocka_unit_test(repeated_runs_give_the_same_bits),
+      cmocka_unit_test(interleaved_handles_are_independent),
+      cmocka_unit_test(queries_change_nothing),
+      cmocka_unit_test(threads_give_the_same_bits_as_a_serial_run),
+      cmocka_unit_test_setup_teardown(queries_run_in_parallel, bench_setup, bench_teardown),
+      cmocka_unit_test_setup_teardown(the_log_reports_rejections_and_changes_nothing, bench_setup, bench_teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Absolute position, attitude and heading, what the caller linearised, and both errors of the state. */
+/* Absolute position, attitude and heading, updates that the caller linearised, and both error states. */
 #include "support.h"
 
-static cairn_filter *create(const cairn_pose *start, int32_t error, uint32_t iterations) {
+static cairn_filter* create(const cairn_pose* start, int32_t error, uint32_t iterations) {
   cairn_filter_options options = test_options();
-  cairn_filter *filter = NULL;
+  cairn_filter* filter = NULL;
   options.error = error;
   options.iterations = iterations;
   options.iteration_tolerance = 1e-6;
@@ -15,7 +15,7 @@ static cairn_filter *create(const cairn_pose *start, int32_t error, uint32_t ite
   return filter;
 }
 
-static void assert_alike(const cairn_filter *a, const cairn_filter *b, double tolerance) {
+static void assert_alike(const cairn_filter* a, const cairn_filter* b, double tolerance) {
   cairn_pose pa, pb;
   double error[6], ca[36], cb[36];
   assert_ok(cairn_filter_pose(a, &pa, ca));
@@ -25,7 +25,7 @@ static void assert_alike(const cairn_filter *a, const cairn_filter *b, double to
   for (int i = 0; i < 36; ++i) assert_near(ca[i], cb[i], tolerance);
 }
 
-static double variance(const cairn_filter *filter, int i) {
+static double variance(const cairn_filter* filter, int i) {
   double covariance[36];
   assert_ok(cairn_filter_pose(filter, NULL, covariance));
   return covariance[7 * i];
@@ -33,7 +33,7 @@ static double variance(const cairn_filter *filter, int i) {
 
 static const cairn_pose origin = {{0, 0, 0}, {1, 0, 0, 0}};
 
-static void linear_equals_position_with_and_without_a_lever(void **state) {
+static void linear_equals_position_with_and_without_a_lever(void** state) {
   const cairn_pose start = pose_at(3, -2, 1, 0.3, 0.2, -0.9);
   const double lever[3] = {0.5, -0.3, 1.2}, covariance[9] = {0.04, 0.01, 0, 0.01, 0.09, 0, 0, 0, 0.01};
   (void)state;
@@ -65,10 +65,11 @@ static void linear_equals_position_with_and_without_a_lever(void **state) {
     }
 }
 
-static void linear_equals_attitude(void **state) {
+static void linear_equals_attitude(void** state) {
   const cairn_pose start = pose_at(3, -2, 1, 0.3, 0.2, -0.9);
   const double residual[3] = {0.02, -0.03, 0.05}, covariance[9] = {4e-3, 1e-3, 0, 1e-3, 9e-3, 0, 0, 0, 1e-3};
-  /* r = Log(Z R^T) moves by -J_r(r)^-1 dtheta: J_r^-1 = I + [r]x / 2 + (1/a^2 - (1 + cos a) / (2 a sin a)) [r]x^2 */
+  /* r = Log(Z R^T) changes by -J_r(r)^-1 dtheta with J_r^-1 = I + [r]x / 2 + (1/a^2 - (1 + cos a) / (2 a sin a)) [r]x^2
+   * (docs/sensors.md) */
   const double a = sqrt(0.0038), factor = 1 / (a * a) - (1 + cos(a)) / (2 * a * sin(a));
   double cross[9], square[9], J[18] = {0};
   (void)state;
@@ -90,8 +91,8 @@ static void linear_equals_attitude(void **state) {
   }
 }
 
-/* The frame of a cartesian sensor, linearised by the caller: three rows a landmark. */
-static void linear_equals_a_frame_of_points(void **state) {
+/* The frame of a cartesian sensor, linearised by the caller: three rows for each landmark. */
+static void linear_equals_a_frame_of_points(void** state) {
   (void)state;
   for (int32_t error = CAIRN_ERROR_INVARIANT; error <= CAIRN_ERROR_STANDARD; ++error) {
     cairn_filter_options options = test_options();
@@ -108,7 +109,7 @@ static void linear_equals_a_frame_of_points(void **state) {
     memset(o, 0, sizeof o);
     for (int k = 0; k < 2; ++k) o[k].id = ids[k], memcpy(o[k].z, points[k], sizeof points[k]);
     for (int k = 0; k < 2; ++k) {
-      rig *r = k == 0 ? &a : &b;
+      rig* r = k == 0 ? &a : &b;
       assert_ok(cairn_filter_update(r->filter, r->sensors[CARTESIAN], o, 2, NULL));
       assert_ok(cairn_filter_predict_wheels(r->filter, 0.5, 2, 2.5));
     }
@@ -143,10 +144,10 @@ static void linear_equals_a_frame_of_points(void **state) {
   }
 }
 
-static void an_absolute_value_pulls_and_sharpens(void **state) {
+static void an_absolute_value_corrects_and_reduces_the_covariance(void** state) {
   (void)state;
   for (int32_t error = CAIRN_ERROR_INVARIANT; error <= CAIRN_ERROR_STANDARD; ++error) {
-    cairn_filter *f = create(&origin, error, 3);
+    cairn_filter* f = create(&origin, error, 3);
     double before[6], covariance[9], q[4];
     const double position[3] = {0.1, -0.05, 0.02}, tilt[3] = {0.05, 0, 0};
     cairn_pose pose;
@@ -164,7 +165,7 @@ static void an_absolute_value_pulls_and_sharpens(void **state) {
     cairn_filter_destroy(f);
     f = create(&origin, error, 3);
     assert_ok(cairn_quaternion_exp(tilt, q));
-    for (int i = 0; i < 4; ++i) q[i] *= -2; /* either sign and any length is the same attitude */
+    for (int i = 0; i < 4; ++i) q[i] *= -2; /* the sign and the length of a quaternion do not matter */
     assert_ok(cairn_filter_update_attitude(f, q, covariance, &m));
     assert_int_equal(m.result, CAIRN_MATCHED);
     assert_ok(cairn_filter_pose(f, &pose, NULL));
@@ -183,13 +184,12 @@ static void an_absolute_value_pulls_and_sharpens(void **state) {
   }
 }
 
-static void an_absolute_outlier_is_gated(void **state) {
-  bench *b = *state;
+static void an_absolute_outlier_is_gated(void** state) {
+  bench* b = *state;
   cairn_match m;
   cairn_pose pose;
   double covariance[9], far[3], q[4], residual[1] = {100}, one[1] = {1}, J[6] = {1, 0, 0, 0, 0, 0};
   double angle[3] = {0, 0, 3};
-  cairn_update_report report;
   diagonal(covariance, 3, 1e-4);
   for (int call = 0; call < 4; ++call) {
     cairn_pose after;
@@ -209,24 +209,22 @@ static void an_absolute_outlier_is_gated(void **state) {
     assert_int_equal(m.result, CAIRN_REJECTED);
     assert_true(m.reason == CAIRN_REASON_GATE || m.reason == CAIRN_REASON_BATCH_GATE);
     assert_true(m.distance > m.threshold && m.threshold > 0);
-    memset(&report, 0, sizeof report);
-    report.struct_size = sizeof report;
-    assert_ok(cairn_filter_last_update(b->main.filter, &report));
+    const cairn_update_report report = last_update(b->main.filter);
     assert_true(report.rejected == 1 && report.matched == 0 && report.rows == 0);
     assert_ok(cairn_filter_pose(b->main.filter, &after, cb));
     assert_memory_equal(&pose, &after, sizeof pose);
     assert_memory_equal(ca, cb, sizeof ca);
-    bench_continue(b, 3); /* a refused value leaves no trace but its report */
+    bench_continue(b, 3); /* a refused value changes only the report */
   }
 }
 
-static void heading_wraps(void **state) {
+static void heading_wraps(void** state) {
   static const double sides[][2] = {
       {3.13, -3.13}, {-3.13, 3.13}, {3.13, 3.15318530717958623}, {0.01, 6.29}, {-0.02, -12.58}};
   (void)state;
   for (size_t n = 0; n < LENGTH(sides); ++n) {
     const cairn_pose start = pose_at(0, 0, 0, 0, 0, sides[n][0]);
-    cairn_filter *f = create(&start, CAIRN_ERROR_INVARIANT, 3);
+    cairn_filter* f = create(&start, CAIRN_ERROR_INVARIANT, 3);
     cairn_match m;
     cairn_pose pose;
     const double yaw_variance = variance(f, 5);
@@ -242,7 +240,7 @@ static void heading_wraps(void **state) {
   }
 }
 
-static void heading_is_refused_near_the_vertical(void **state) {
+static void heading_is_refused_near_the_vertical(void** state) {
   static const struct {
     double pitch;
     bool refused;
@@ -251,7 +249,7 @@ static void heading_is_refused_near_the_vertical(void **state) {
   (void)state;
   for (size_t n = 0; n < LENGTH(cases); ++n) {
     const cairn_pose start = pose_at(1, 2, 3, 0, cases[n].pitch * DEGREE, 0.3);
-    cairn_filter *f = create(&start, CAIRN_ERROR_INVARIANT, 3);
+    cairn_filter* f = create(&start, CAIRN_ERROR_INVARIANT, 3);
     cairn_match m;
     cairn_pose a, b;
     assert_ok(cairn_filter_pose(f, &a, NULL));
@@ -265,8 +263,9 @@ static void heading_is_refused_near_the_vertical(void **state) {
   }
 }
 
-/* From a known pose and with perfect values both errors say the same: no estimate has moved their axes apart yet. */
-static void both_errors_agree_at_the_start(void **state) {
+/* With a known pose and perfect values both error states give the same result, because no correction has moved their
+ * axes apart. */
+static void both_errors_agree_at_the_start(void** state) {
   world w;
   frame f;
   rig r[2];
@@ -290,14 +289,14 @@ static void both_errors_agree_at_the_start(void **state) {
       assert_ok(cairn_filter_pose(r[k].filter, NULL, covariance[k]));
     }
     assert_alike(r[0].filter, r[1].filter, 1e-9);
-    for (int i = 0; i < 6; ++i) assert_true(covariance[0][7 * i] > 1e-9); /* not for want of a covariance */
+    for (int i = 0; i < 6; ++i) assert_true(covariance[0][7 * i] > 1e-9); /* the covariance is not zero */
     for (int i = 0; i < 36; ++i) assert_near(covariance[0][i], covariance[1][i], 1e-12);
     for (int k = 0; k < 2; ++k) rig_close(&r[k]);
   }
 }
 
-/* Both run through the whole world and stay near the truth, and they are not the same filter. */
-static void both_errors_follow_the_truth(void **state) {
+/* Both filters drive through the whole world and stay near the truth. They are different filters. */
+static void both_errors_follow_the_truth(void** state) {
   cairn_pose estimates[2];
   (void)state;
   for (int k = 0; k < 2; ++k) {
@@ -331,7 +330,7 @@ int main(void) {
       cmocka_unit_test(linear_equals_position_with_and_without_a_lever),
       cmocka_unit_test(linear_equals_attitude),
       cmocka_unit_test(linear_equals_a_frame_of_points),
-      cmocka_unit_test(an_absolute_value_pulls_and_sharpens),
+      cmocka_unit_test(an_absolute_value_corrects_and_reduces_the_covariance),
       cmocka_unit_test_setup_teardown(an_absolute_outlier_is_gated, bench_setup, bench_teardown),
       cmocka_unit_test(heading_wraps),
       cmocka_unit_test(heading_is_refused_near_the_vertical),

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a filter refuses: each bad value in each place, its status, the name in the message, and a state that stays
- * the same to the bit, shown by a second filter that never saw the call. */
+/* Bad values that a filter refuses: each bad value in each place. The status, the name in the message, and the state
+ * are checked: the state must stay the same to the bit as that of a second filter that never got the call. */
 #include "support.h"
 
-/* Spoils one double at a time of `values`, by each of the values that are not finite, and makes the call. */
+/* Replaces one double of `values` at a time by each value that is not finite, and makes the call. */
 #define FOR_EACH_SPOILT(array, call_statement)                 \
   for (size_t at = 0; at < LENGTH(array); ++at)                \
     for (size_t with = 0; with < LENGTH(not_finite); ++with) { \
@@ -14,10 +14,11 @@
     }
 
 typedef struct matrix_case {
-  const char *what;
+  const char* what;
   double values[9];
 } matrix_case;
-/* No 3x3 covariance: not symmetric, a negative variance, an impossible correlation, indefinite, negative definite. */
+/* 3 x 3 matrices that are not covariances: not symmetric, a negative variance, an impossible correlation, indefinite,
+ * negative definite. */
 static const matrix_case no_covariance[] = {
     {"not symmetric", {1, 0.5, 0, 0, 1, 0, 0, 0, 1}},
     {"negative variance", {1, 0, 0, 0, -1e-6, 0, 0, 0, 1}},
@@ -25,16 +26,16 @@ static const matrix_case no_covariance[] = {
     {"indefinite though all pairs are fine", {1, 0.9, 0.9, 0.9, 1, -0.9, 0.9, -0.9, 1}},
     {"negative", {-1, 0, 0, 0, -1, 0, 0, 0, -1}},
 };
-/* Semidefinite: refused where the noise has to be positive definite. */
+/* Semidefinite: refused where the noise must be positive definite. */
 static const matrix_case semidefinite[] = {
     {"zero", {0}},
     {"a variance of zero", {1, 0, 0, 0, 0, 0, 0, 0, 1}},
     {"rank one", {1, 1, 1, 1, 1, 1, 1, 1, 1}},
 };
 
-static void wheels_and_times(void **state) {
-  bench *b = *state;
-  cairn_filter *f = b->main.filter;
+static void wheels_and_times(void** state) {
+  bench* b = *state;
+  cairn_filter* f = b->main.filter;
   static const double times[] = {0, -0.1, -0.0, NAN, INFINITY, -INFINITY};
   const double v[3] = {1, 0, 0}, w[3] = {0, 0, 0.1};
   for (size_t n = 0; n < LENGTH(times); ++n) {
@@ -48,9 +49,9 @@ static void wheels_and_times(void **state) {
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_predict_wheels(NULL, 0.1, 1, 2));
 }
 
-static void twists(void **state) {
-  bench *b = *state;
-  cairn_filter *f = b->main.filter;
+static void twists(void** state) {
+  bench* b = *state;
+  cairn_filter* f = b->main.filter;
   double v[3] = {1, 0.1, 0.2}, w[3] = {0.1, 0.2, 0.1};
   FOR_EACH_SPOILT(v, assert_refused(b, CAIRN_ERROR_ARGUMENT, "velocity", cairn_filter_predict_twist(f, 0.1, v, w)));
   FOR_EACH_SPOILT(w, assert_refused(b, CAIRN_ERROR_ARGUMENT, "rate", cairn_filter_predict_twist(f, 0.1, v, w)));
@@ -59,9 +60,9 @@ static void twists(void **state) {
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_predict_twist(NULL, 0.1, v, w));
 }
 
-static void increments(void **state) {
-  bench *b = *state;
-  cairn_filter *f = b->main.filter;
+static void increments(void** state) {
+  bench* b = *state;
+  cairn_filter* f = b->main.filter;
   cairn_pose move = pose_at(0.3, 0.1, 0.05, 0.02, 0.01, 0.1);
   double c[36];
   diagonal(c, 6, 1e-4);
@@ -84,21 +85,21 @@ static void increments(void **state) {
         const int row = i / 3 + 3 * (block & 1), column = i % 3 + 3 * (block & 1);
         if (block < 2) c[6 * row + column] = no_covariance[n].values[i];
       }
-      if (block == 2) c[3] = 0.5;                     /* across the blocks, without its mirror */
-      if (block == 3) c[5] = c[30] = 4.1 + (double)n; /* across the blocks, above the variances */
+      if (block == 2) c[3] = 0.5;                     /* correlates two blocks, without the symmetric entry */
+      if (block == 3) c[5] = c[30] = 4.1 + (double)n; /* correlates two blocks more than the variances allow */
       assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_predict_increment(f, &move, c));
     }
 }
 
-/* Frames in which one observation is bad and the others would move the state. Nothing of it may get through, and the
- * caller's matches stay as they were. */
-static frame frame_of(bench *b, int sensor) {
+/* Frames in which one observation is bad and the others would change the state. No observation may be used, and the
+ * caller's matches must stay unchanged. */
+static frame frame_of(bench* b, int sensor) {
   frame f = bench_until(b, sensor);
   for (size_t i = 0; i < f.count; ++i) f.observations[i].z[0] *= 1.01;
   return f;
 }
 
-static void refuse_frame(bench *b, const frame *f, cairn_status status, const char *name) {
+static void refuse_frame(bench* b, const frame* f, cairn_status status, const char* name) {
   cairn_match matches[WORLD_LANDMARKS + 1], kept[WORLD_LANDMARKS + 1];
   memset(matches, 0xa5, sizeof matches);
   memset(kept, 0xa5, sizeof kept);
@@ -109,8 +110,8 @@ static void refuse_frame(bench *b, const frame *f, cairn_status status, const ch
                  cairn_filter_update(b->main.filter, b->main.sensors[f->sensor], f->observations, f->count, NULL));
 }
 
-static void values_of_observations(void **state) {
-  bench *b = *state;
+static void values_of_observations(void** state) {
+  bench* b = *state;
   for (int sensor = 0; sensor < SENSORS; ++sensor)
     for (size_t n = 0; n < LENGTH(not_finite); ++n)
       for (int k = 0; k < (sensor == RANGE ? 1 : 3); ++k)
@@ -121,8 +122,8 @@ static void values_of_observations(void **state) {
         }
 }
 
-static void noise_of_observations(void **state) {
-  bench *b = *state;
+static void noise_of_observations(void** state) {
+  bench* b = *state;
   for (int sensor = 0; sensor < RANGE; ++sensor) {
     for (size_t n = 0; n < LENGTH(not_finite); ++n)
       for (int k = 0; k < 9; ++k) {
@@ -132,8 +133,8 @@ static void noise_of_observations(void **state) {
         refuse_frame(b, &f, CAIRN_ERROR_ARGUMENT, "covariance");
       }
     for (size_t n = 0; n < LENGTH(no_covariance) + LENGTH(semidefinite) - 1; ++n) {
-      /* all zero is left out: it asks for the sensor's own */
-      const double *c =
+      /* all zero is left out: it selects the noise of the sensor */
+      const double* c =
           n < LENGTH(no_covariance) ? no_covariance[n].values : semidefinite[n - LENGTH(no_covariance) + 1].values;
       frame f = frame_of(b, sensor);
       memcpy(f.observations[f.count - 1].covariance, c, 9 * sizeof c[0]);
@@ -145,23 +146,23 @@ static void noise_of_observations(void **state) {
   refuse_frame(b, &f, CAIRN_ERROR_ARGUMENT, "covariance");
 }
 
-static void ids_of_observations(void **state) {
-  bench *b = *state;
+static void ids_of_observations(void** state) {
+  bench* b = *state;
   frame f = frame_of(b, CARTESIAN);
   f.observations[f.count - 1].id = CAIRN_ID_NONE;
   refuse_frame(b, &f, CAIRN_ERROR_ARGUMENT, "observations");
   f = frame_of(b, HEAD);
   f.observations[f.count - 1].id = f.observations[0].id;
   refuse_frame(b, &f, CAIRN_ERROR_ARGUMENT, "observations");
-  f = frame_of(b, CARTESIAN); /* twice the same new one */
+  f = frame_of(b, CARTESIAN); /* the same new landmark twice */
   assert_ok(cairn_filter_remove_landmark(b->main.filter, f.observations[1].id));
   assert_ok(cairn_filter_remove_landmark(b->shadow.filter, f.observations[1].id));
   f.observations[0].id = f.observations[1].id;
   refuse_frame(b, &f, CAIRN_ERROR_ARGUMENT, "observations");
 }
 
-static void sensors_of_frames(void **state) {
-  bench *b = *state;
+static void sensors_of_frames(void** state) {
+  bench* b = *state;
   static const int32_t unknown[] = {-1, SENSORS, 99, INT32_MAX, INT32_MIN};
   frame f = frame_of(b, CARTESIAN);
   cairn_match matches[WORLD_LANDMARKS], kept[WORLD_LANDMARKS];
@@ -178,8 +179,8 @@ static void sensors_of_frames(void **state) {
   assert_memory_equal(matches, kept, sizeof kept);
 }
 
-static void capacities(void **state) {
-  bench *b = *state;
+static void capacities(void** state) {
+  bench* b = *state;
   frame f = frame_of(b, CARTESIAN); /* the map is full: one new id among known ones */
   assert_int_equal(f.count, WORLD_LANDMARKS);
   f.observations[f.count - 1].id = 1000;
@@ -198,7 +199,7 @@ static void capacities(void **state) {
   assert_refused(b, CAIRN_ERROR_CAPACITY, "max_observations",
                  cairn_filter_update(b->main.filter, b->main.sensors[RANGE], many, SIZE_MAX / 2, matches));
   assert_memory_equal(matches, kept, sizeof kept);
-  f = frame_of(b, RANGE); /* full, but this one is no landmark: a result, no error */
+  f = frame_of(b, RANGE); /* the map is full, but this observation cannot place a landmark: a match, not an error */
   f.observations[0].id = 1002;
   cairn_match m[WORLD_LANDMARKS];
   for (int k = 0; k < 2; ++k)
@@ -207,13 +208,13 @@ static void capacities(void **state) {
   assert_int_equal(m[0].reason, CAIRN_REASON_NO_PLACE);
 }
 
-static void absolute_position(void **state) {
-  bench *b = *state;
-  cairn_filter *f = b->main.filter;
+static void absolute_position(void** state) {
+  bench* b = *state;
+  cairn_filter* f = b->main.filter;
   double z[3] = {1, 2, 3}, c[9], lever[3] = {0.1, 0.2, 0.3};
   cairn_match m, kept;
   memset(&m, 0xa5, sizeof m), kept = m;
-  diagonal(c, 3, 1e3); /* so that nothing is gated */
+  diagonal(c, 3, 1e3); /* no gate refuses anything */
   FOR_EACH_SPOILT(
       z, assert_refused(b, CAIRN_ERROR_ARGUMENT, "position", cairn_filter_update_position(f, z, c, lever, &m)));
   FOR_EACH_SPOILT(
@@ -232,9 +233,9 @@ static void absolute_position(void **state) {
   assert_memory_equal(&m, &kept, sizeof m);
 }
 
-static void absolute_attitude_and_heading(void **state) {
-  bench *b = *state;
-  cairn_filter *f = b->main.filter;
+static void absolute_attitude_and_heading(void** state) {
+  bench* b = *state;
+  cairn_filter* f = b->main.filter;
   static const double sigmas[] = {0, -0.1, NAN, INFINITY, -INFINITY};
   double q[4] = {0.5, 0.5, 0.5, 0.5}, c[9], zero[4] = {0, 0, 0, 0};
   cairn_match m, kept;
@@ -260,9 +261,9 @@ static void absolute_attitude_and_heading(void **state) {
   assert_memory_equal(&m, &kept, sizeof m);
 }
 
-static void linear(void **state) {
-  bench *b = *state;
-  cairn_filter *f = b->main.filter;
+static void linear(void** state) {
+  bench* b = *state;
+  cairn_filter* f = b->main.filter;
   double r[3] = {0.1, 0.2, 0.3}, c[9], jp[18] = {1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}, jl[18] = {0.1};
   const uint64_t ids[2] = {4, 2}, unknown[2] = {4, 4711}, twice[2] = {4, 4}, none[2] = {4, CAIRN_ID_NONE};
   static uint64_t many[WORLD_LANDMARKS + 1];
@@ -295,17 +296,17 @@ static void linear(void **state) {
 #undef LINEAR
 }
 
-static void removal(void **state) {
-  bench *b = *state;
+static void removal(void** state) {
+  bench* b = *state;
   assert_refused(b, CAIRN_ERROR_NOT_FOUND, "id", cairn_filter_remove_landmark(b->main.filter, 4711));
   assert_refused(b, CAIRN_ERROR_NOT_FOUND, "id", cairn_filter_remove_landmark(b->main.filter, CAIRN_ID_NONE));
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_remove_landmark(NULL, 1));
 }
 
-/* A result that would not be finite is a numerical error, and the state is that of before. */
-static void overflow(void **state) {
-  bench *b = *state;
-  cairn_filter *f = b->main.filter;
+/* A result that would not be finite is a numerical error, and the state stays unchanged. */
+static void overflow(void** state) {
+  bench* b = *state;
+  cairn_filter* f = b->main.filter;
   const double huge[3] = {1e300, 1e300, 1e300}, still[3] = {0, 0, 0};
   double covariance[36];
   cairn_pose far = pose_at(1e308, 0, 0, 0, 0, 0);
@@ -315,28 +316,29 @@ static void overflow(void **state) {
   assert_refused(b, CAIRN_ERROR_NUMERICAL, "", cairn_filter_predict_increment(f, &far, covariance));
 }
 
-static int32_t poisoned_predict(void *user, const cairn_pose *pose, const double landmark[3], double *z,
-                                double *jacobian_pose, double *jacobian_landmark) {
+static int32_t poisoned_predict(void* user, const cairn_pose* pose, const double landmark[3], double* z,
+                                double* jacobian_pose, double* jacobian_landmark) {
   (void)point_predict(NULL, pose, landmark, z, jacobian_pose, jacobian_landmark);
-  const int where = *(const int *)user;
+  const int where = *(const int*)user;
   if (where == 0) z[1] = NAN;
   if (where == 1) jacobian_pose[7] = INFINITY;
   if (where == 2) jacobian_landmark[4] = NAN;
   return where == 3 ? -1 : 0;
 }
 
-static int32_t poisoned_place(void *user, const cairn_pose *pose, const double *z, double landmark[3],
-                              double *jacobian_pose, double *jacobian_z) {
+static int32_t poisoned_place(void* user, const cairn_pose* pose, const double* z, double landmark[3],
+                              double* jacobian_pose, double* jacobian_z) {
   (void)point_place(NULL, pose, z, landmark, jacobian_pose, jacobian_z);
-  const int where = *(const int *)user;
+  const int where = *(const int*)user;
   if (where == 0) landmark[1] = NAN;
   if (where == 1) jacobian_pose[7] = INFINITY;
   if (where == 2) jacobian_z[4] = NAN;
   return where == 3 ? 42 : 0;
 }
 
-/* A callback that gives no numbers refuses, as one that returns other than 0: a result, and a state as before. */
-static void a_custom_sensor_that_gives_no_numbers_is_refused(void **state) {
+/* A callback that gives no numbers refuses, like a callback that does not return 0: a match, and the state stays
+ * unchanged. */
+static void a_custom_sensor_that_gives_no_numbers_is_refused(void** state) {
   cairn_filter_options options = test_options();
   bench b;
   int where = -1;
@@ -362,7 +364,7 @@ static void a_custom_sensor_that_gives_no_numbers_is_refused(void **state) {
     bench_continue(&b, 3);
   }
   to_body(&b.world.truth, b.world.landmarks[0], o[0].z);
-  where = -1; /* and with numbers it is a sensor like any other */
+  where = -1; /* with numbers it is an ordinary sensor */
   cairn_match m[2];
   assert_ok(cairn_filter_update(b.main.filter, sensor, o, 2, m));
   assert_int_equal(m[0].result, CAIRN_MATCHED);

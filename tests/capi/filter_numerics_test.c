@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where arithmetic is strained: maps far from their origin, sharp sensors after vague starts, long runs, and a caller's
- * sensor that changes its mind. */
+/* Difficult arithmetic: maps far from their origin, precise sensors after an uncertain start, long runs, and a custom
+ * sensor that changes its behaviour. */
 #include "support.h"
 
-static double pivot_of(cairn_filter *f) {
+static double pivot_of(cairn_filter* f) {
   double pivot = NAN;
   assert_ok(cairn_filter_audit(f, &pivot));
   return pivot;
 }
 
-/* The same world, seen from a map whose origin lies elsewhere (UTM: 400 km and 5000 km): the same filter. */
-static void the_place_of_the_origin_does_not_matter(void **state) {
+/* The same world in a map with a distant origin (UTM: 400 km and 5000 km). The filter must behave the same. */
+static void the_position_of_the_origin_does_not_matter(void** state) {
   static const double offsets[][3] = {{10, -20, 3}, {1e3, 1e3, -50}, {4e5, 5e6, 300}};
   (void)state;
   for (size_t k = 0; k < LENGTH(offsets); ++k)
@@ -22,7 +22,7 @@ static void the_place_of_the_origin_does_not_matter(void **state) {
       double a[36], b[36];
       cairn_pose pa, pb;
       options.error = error;
-      options.initial_covariance[35] = 0.04; /* the heading is hardly known */
+      options.initial_covariance[35] = 0.04; /* the heading is almost unknown */
       rig_open(&near, &options);
       for (int i = 0; i < 3; ++i) options.initial_pose.position[i] += offsets[k][i];
       rig_open(&far, &options);
@@ -54,8 +54,8 @@ static void the_place_of_the_origin_does_not_matter(void **state) {
     }
 }
 
-/* A hundred metres at the start, a millimetre after one fix. */
-static void a_sharp_fix_ends_a_vague_start(void **state) {
+/* The start is uncertain by a hundred metres; one fix reduces that to a millimetre. */
+static void a_precise_fix_ends_an_uncertain_start(void** state) {
   (void)state;
   for (int32_t error = CAIRN_ERROR_INVARIANT; error <= CAIRN_ERROR_STANDARD; ++error) {
     cairn_filter_options options = test_options();
@@ -82,7 +82,7 @@ static void a_sharp_fix_ends_a_vague_start(void **state) {
   }
 }
 
-static void a_long_run_stays_positive_definite_and_near_the_truth(void **state) {
+static void a_long_run_stays_positive_definite_and_near_the_truth(void** state) {
   (void)state;
   for (int32_t error = CAIRN_ERROR_INVARIANT; error <= CAIRN_ERROR_STANDARD; ++error) {
     cairn_filter_options options = test_options();
@@ -106,22 +106,22 @@ static void a_long_run_stays_positive_definite_and_near_the_truth(void **state) 
   }
 }
 
-/* A sensor that refuses a landmark at its n-th call, or gives a Jacobian that is no number, and did not before. */
+/* A sensor that refuses a landmark at its n-th call, or gives a Jacobian that is not a number, and worked before. */
 typedef struct mood {
   int calls, turn_at;
   bool refuse;
 } mood;
 
-static int32_t moody_predict(void *user, const cairn_pose *pose, const double landmark[3], double *z,
-                             double *jacobian_pose, double *jacobian_landmark) {
-  mood *m = user;
+static int32_t moody_predict(void* user, const cairn_pose* pose, const double landmark[3], double* z,
+                             double* jacobian_pose, double* jacobian_landmark) {
+  mood* m = user;
   (void)point_predict(NULL, pose, landmark, z, jacobian_pose, jacobian_landmark);
   if (++m->calls != m->turn_at) return 0;
   if (!m->refuse) jacobian_pose[3] = NAN;
   return m->refuse;
 }
 
-static void a_sensor_that_changes_its_mind_spoils_nothing(void **state) {
+static void a_sensor_that_changes_its_behaviour_harms_nothing(void** state) {
   enum { POINTS = 5 };
   (void)state;
   for (int refuse = 0; refuse < 2; ++refuse)
@@ -131,7 +131,6 @@ static void a_sensor_that_changes_its_mind_spoils_nothing(void **state) {
       cairn_custom custom = test_point();
       cairn_observation o[POINTS];
       cairn_match matches[POINTS];
-      cairn_update_report report;
       const cairn_pose stay = {{0, 0, 0}, {1, 0, 0, 0}};
       double noise[36], before[36], after[36];
       int32_t sensor;
@@ -153,11 +152,9 @@ static void a_sensor_that_changes_its_mind_spoils_nothing(void **state) {
       const bool done = m.calls < turn_at;
       assert_ok(cairn_filter_pose(r.filter, NULL, after));
       assert_true(pivot_of(r.filter) > 0);
-      if (status == CAIRN_OK) { /* what is said to have updated has done so */
+      if (status == CAIRN_OK) { /* a match that says it updated did update */
         uint32_t matched = 0;
-        memset(&report, 0, sizeof report);
-        report.struct_size = sizeof report;
-        assert_ok(cairn_filter_last_update(r.filter, &report));
+        const cairn_update_report report = last_update(r.filter);
         for (int i = 0; i < POINTS; ++i) matched += matches[i].result == CAIRN_MATCHED;
         assert_int_equal(report.matched, matched);
         assert_int_equal(report.rows, 3 * matched);
@@ -174,10 +171,10 @@ static void a_sensor_that_changes_its_mind_spoils_nothing(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_place_of_the_origin_does_not_matter),
-      cmocka_unit_test(a_sharp_fix_ends_a_vague_start),
+      cmocka_unit_test(the_position_of_the_origin_does_not_matter),
+      cmocka_unit_test(a_precise_fix_ends_an_uncertain_start),
       cmocka_unit_test(a_long_run_stays_positive_definite_and_near_the_truth),
-      cmocka_unit_test(a_sensor_that_changes_its_mind_spoils_nothing),
+      cmocka_unit_test(a_sensor_that_changes_its_behaviour_harms_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

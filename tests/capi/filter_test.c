@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A filter's life: options, creation, what it tells about itself, landmarks that it forgets. */
+/* The life of a filter: options, creation, queries about itself, removed landmarks. */
 #include "support.h"
 
-static void options_defaults(void **state) {
+static void options_defaults(void** state) {
   cairn_filter_options o;
   (void)state;
   memset(&o, 0x5a, sizeof o);
@@ -19,7 +19,7 @@ static void options_defaults(void **state) {
   for (int i = 0; i < 36; ++i) assert_true(o.initial_covariance[i] == 0);
 }
 
-static void options_init_fills_at_most_what_it_is_given(void **state) {
+static void options_init_fills_at_most_what_it_is_given(void** state) {
   static const size_t none[] = {0, 1, 3, (size_t)1 << 31, (size_t)1 << 32, SIZE_MAX};
   cairn_filter_options whole, part;
   unsigned char a[sizeof whole], b[sizeof whole];
@@ -42,9 +42,9 @@ static void options_init_fills_at_most_what_it_is_given(void **state) {
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options", cairn_filter_options_init(NULL, sizeof part));
 }
 
-/* Neither function takes them, and the caller's variable stays. */
-static void refuse_options(const cairn_filter_options *options, const char *name) {
-  cairn_filter *filter = (cairn_filter *)(void *)&filter, *const kept = filter;
+/* Neither function accepts them, and the caller's variable stays unchanged. */
+static void refuse_options(const cairn_filter_options* options, const char* name) {
+  cairn_filter *filter = (cairn_filter*)(void*)&filter, *const kept = filter;
   size_t bytes = 4711;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, name, cairn_filter_create(options, &filter));
   assert_ptr_equal(filter, kept);
@@ -52,10 +52,10 @@ static void refuse_options(const cairn_filter_options *options, const char *name
   assert_int_equal(bytes, 4711);
 }
 
-static void options_out_of_range_are_refused_one_by_one(void **state) {
+static void options_out_of_range_are_refused_one_by_one(void** state) {
   const cairn_filter_options good = test_options();
   static const struct {
-    const char *name;
+    const char* name;
     size_t offset;
     uint32_t last;
   } counts[] = {{"max_landmarks", offsetof(cairn_filter_options, max_landmarks), 30000},
@@ -67,12 +67,12 @@ static void options_out_of_range_are_refused_one_by_one(void **state) {
     const uint32_t bad[] = {0, counts[k].last + 1, (uint32_t)1 << 31, UINT32_MAX};
     for (size_t n = 0; n < LENGTH(bad); ++n) {
       cairn_filter_options o = good;
-      memcpy((unsigned char *)&o + counts[k].offset, &bad[n], sizeof bad[n]);
+      memcpy((unsigned char*)&o + counts[k].offset, &bad[n], sizeof bad[n]);
       refuse_options(&o, counts[k].name);
     }
     cairn_filter_options edge = good;
     size_t bytes = 0;
-    memcpy((unsigned char *)&edge + counts[k].offset, &counts[k].last, sizeof counts[k].last);
+    memcpy((unsigned char*)&edge + counts[k].offset, &counts[k].last, sizeof counts[k].last);
     assert_ok(cairn_filter_required_bytes(&edge, &bytes));
     assert_true(bytes > 0);
   }
@@ -97,7 +97,7 @@ static void options_out_of_range_are_refused_one_by_one(void **state) {
   }
 }
 
-static void a_bad_start_is_refused(void **state) {
+static void a_bad_initial_pose_is_refused(void** state) {
   const cairn_filter_options good = test_options();
   cairn_filter_options o;
   (void)state;
@@ -117,7 +117,7 @@ static void a_bad_start_is_refused(void **state) {
   memset(o.initial_pose.quaternion, 0, sizeof o.initial_pose.quaternion);
   refuse_options(&o, "initial_pose");
   o = good;
-  o.initial_covariance[1] = 1e-3; /* its mirror stays 0 */
+  o.initial_covariance[1] = 1e-3; /* the symmetric entry stays 0 */
   refuse_options(&o, "initial_covariance");
   o = good;
   o.initial_covariance[14] = -1e-6;
@@ -126,16 +126,16 @@ static void a_bad_start_is_refused(void **state) {
   o.initial_covariance[3] = o.initial_covariance[18] = 0.5; /* a correlation of 500 */
   refuse_options(&o, "initial_covariance");
   o = good;
-  o.initial_covariance[21] = 0; /* semidefinite is fine: one component known */
-  cairn_filter *filter = NULL;
+  o.initial_covariance[21] = 0; /* semidefinite is accepted: one component is known */
+  cairn_filter* filter = NULL;
   assert_ok(cairn_filter_create(&o, &filter));
   cairn_filter_destroy(filter);
 }
 
-static void nulls_and_sizes_at_creation(void **state) {
+static void nulls_and_sizes_at_creation(void** state) {
   static const uint32_t none[] = {0, 3, (uint32_t)1 << 31, UINT32_MAX};
   cairn_filter_options o = test_options();
-  cairn_filter *filter = NULL;
+  cairn_filter* filter = NULL;
   size_t bytes;
   (void)state;
   refuse_options(NULL, "options");
@@ -153,8 +153,8 @@ static void nulls_and_sizes_at_creation(void **state) {
   assert_ok(cairn_filter_required_bytes(&o, &bytes));
 }
 
-/* A caller that knows the options up to `iterations` alone, and one that knows more than the library. */
-static void options_of_another_age_work(void **state) {
+/* A caller whose options end at `iterations`, and a caller whose options have more fields than the library's. */
+static void options_of_other_versions_work(void** state) {
   struct {
     cairn_filter_options now;
     double later[5];
@@ -165,14 +165,14 @@ static void options_of_another_age_work(void **state) {
   size_t bytes[3];
   (void)state;
   assert_ok(cairn_filter_options_init(&exact, sizeof exact));
-  memset(&old, 0xff, sizeof old); /* what the old caller doesn't know is NaN */
+  memset(&old, 0xff, sizeof old); /* NaN in the fields that the old caller does not know */
   assert_ok(cairn_filter_options_init(&old, known));
   exact.max_landmarks = old.max_landmarks = WORLD_LANDMARKS;
   exact.max_sensors = old.max_sensors = SENSORS;
   memset(&future, 0xff, sizeof future);
   future.now = exact;
   future.now.struct_size = sizeof future;
-  const cairn_filter_options *all[] = {&exact, &old, &future.now};
+  const cairn_filter_options* all[] = {&exact, &old, &future.now};
   for (size_t k = 0; k < LENGTH(all); ++k) {
     rig r;
     cairn_observation o = {3, {4, 5, 6}, {0}};
@@ -192,7 +192,7 @@ static void options_of_another_age_work(void **state) {
   snapshot_free(&b);
 }
 
-static void a_new_filter_stands_at_its_start(void **state) {
+static void a_new_filter_stands_at_its_start(void** state) {
   const cairn_filter_options options = test_options();
   cairn_update_report report, zero;
   cairn_pose pose;
@@ -215,8 +215,8 @@ static void a_new_filter_stands_at_its_start(void **state) {
   rig_close(&r);
 }
 
-static void pose_queries(void **state) {
-  bench *b = *state;
+static void pose_queries(void** state) {
+  bench* b = *state;
   cairn_pose both, alone;
   double c[36], d[36];
   assert_ok(cairn_filter_pose(b->main.filter, &both, c));
@@ -230,8 +230,8 @@ static void pose_queries(void **state) {
   assert_ptr_equal(cairn_filter_map(b->main.filter), cairn_filter_map(b->main.filter));
 }
 
-static void report_of_another_age(void **state) {
-  bench *b = *state;
+static void reports_of_other_versions_work(void** state) {
+  bench* b = *state;
   cairn_update_report whole, part;
   struct {
     cairn_update_report now;
@@ -247,13 +247,13 @@ static void report_of_another_age(void **state) {
     part.struct_size = (uint32_t)size;
     assert_ok(cairn_filter_last_update(b->main.filter, &part));
     assert_int_equal(part.struct_size, size);
-    assert_memory_equal((unsigned char *)&part + 4, (unsigned char *)&whole + 4, size - 4);
-    for (size_t i = size; i < sizeof part; ++i) assert_int_equal(((unsigned char *)&part)[i], 0x5a);
+    assert_memory_equal((unsigned char*)&part + 4, (unsigned char*)&whole + 4, size - 4);
+    for (size_t i = size; i < sizeof part; ++i) assert_int_equal(((unsigned char*)&part)[i], 0x5a);
   }
   memset(&future, 0x5a, sizeof future);
   future.now.struct_size = sizeof future;
   assert_ok(cairn_filter_last_update(b->main.filter, &future.now));
-  assert_memory_equal((unsigned char *)&future.now + 4, (unsigned char *)&whole + 4, sizeof whole - 4);
+  assert_memory_equal((unsigned char*)&future.now + 4, (unsigned char*)&whole + 4, sizeof whole - 4);
   for (size_t n = 0; n < LENGTH(none); ++n) {
     memset(&part, 0x5a, sizeof part);
     part.struct_size = none[n];
@@ -264,21 +264,21 @@ static void report_of_another_age(void **state) {
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_last_update(NULL, &whole));
 }
 
-static void audit_of_a_healthy_filter_is_positive(void **state) {
-  bench *b = *state;
+static void audit_of_a_healthy_filter_is_positive(void** state) {
+  bench* b = *state;
   double pivot = 0;
   assert_ok(cairn_filter_audit(b->main.filter, &pivot));
   assert_true(pivot > 0 && pivot <= 1);
   snapshot_take(&b->after, b->main.filter);
-  assert_true(snapshot_same(&b->before, &b->after)); /* it uses the workspace and nothing else */
+  assert_true(snapshot_same(&b->before, &b->after)); /* it uses only the workspace */
   bench_continue(b, 4);
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_audit(NULL, &pivot));
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "min_pivot", cairn_filter_audit(b->main.filter, NULL));
 }
 
-static void nees_of_a_known_offset(void **state) {
+static void nees_of_a_known_offset(void** state) {
   cairn_filter_options options = test_options();
-  cairn_filter *filter = NULL;
+  cairn_filter* filter = NULL;
   double nees = 4711;
   (void)state;
   options.initial_pose = pose_at(0, 0, 0, 0, 0, 0);
@@ -316,12 +316,12 @@ int main(void) {
       cmocka_unit_test(options_defaults),
       cmocka_unit_test(options_init_fills_at_most_what_it_is_given),
       cmocka_unit_test(options_out_of_range_are_refused_one_by_one),
-      cmocka_unit_test(a_bad_start_is_refused),
+      cmocka_unit_test(a_bad_initial_pose_is_refused),
       cmocka_unit_test(nulls_and_sizes_at_creation),
-      cmocka_unit_test(options_of_another_age_work),
+      cmocka_unit_test(options_of_other_versions_work),
       cmocka_unit_test(a_new_filter_stands_at_its_start),
       cmocka_unit_test_setup_teardown(pose_queries, bench_setup, bench_teardown),
-      cmocka_unit_test_setup_teardown(report_of_another_age, bench_setup, bench_teardown),
+      cmocka_unit_test_setup_teardown(reports_of_other_versions_work, bench_setup, bench_teardown),
       cmocka_unit_test_setup_teardown(audit_of_a_healthy_filter_is_positive, bench_setup, bench_teardown),
       cmocka_unit_test(nees_of_a_known_offset),
   };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frames of observations: decisions, gates, reports, and landmarks that are forgotten. */
+/* Frames of observations: matches, gates, reports, and removed landmarks. */
 #include "support.h"
 
 #define CHI2_3_999 16.26623619623813 /* 0.999 quantile, 3 degrees of freedom */
@@ -12,15 +12,16 @@ static cairn_observation seen(uint64_t id, double x, double y, double z) {
   return o;
 }
 
-/* A rig at the origin with a modest start covariance and one landmark, 1, at (8, 2, 1), seen without error. */
-static void open_with_one(rig *r, cairn_filter_options options) {
+/* A rig at the origin with a moderate start covariance. It has seen one landmark, number 1 at (8, 2, 1), without error.
+ * */
+static void open_with_one(rig* r, cairn_filter_options options) {
   const cairn_observation first = seen(1, 8, 2, 1);
   options.initial_pose = pose_at(0, 0, 0, 0, 0, 0);
   rig_open(r, &options);
   assert_ok(cairn_filter_update(r->filter, r->sensors[CARTESIAN], &first, 1, NULL));
 }
 
-static void an_unknown_id_places_and_a_known_one_updates(void **state) {
+static void an_unknown_id_places_and_a_known_one_updates(void** state) {
   rig r;
   cairn_match m;
   cairn_landmark before, after;
@@ -29,7 +30,7 @@ static void an_unknown_id_places_and_a_known_one_updates(void **state) {
   open_with_one(&r, test_options());
   cairn_update_report report = last_update(r.filter);
   assert_true(report.placed == 1 && report.matched == 0 && report.rejected == 0 && report.rows == 0);
-  const cairn_map *map = cairn_filter_map(r.filter);
+  const cairn_map* map = cairn_filter_map(r.filter);
   assert_ok(cairn_map_landmark(map, 1, &before));
   assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], &o, 1, &m));
   assert_ok(cairn_map_landmark(map, 1, &after));
@@ -37,7 +38,7 @@ static void an_unknown_id_places_and_a_known_one_updates(void **state) {
   assert_int_equal(m.reason, CAIRN_REASON_NONE);
   assert_int_equal(m.landmark, 1);
   assert_near(m.threshold, CHI2_3_999, 1e-6);
-  /* placed at noise N, seen again with N: the innovation's covariance is exactly 2 N */
+  /* placed with noise N, seen again with N: the covariance of the innovation is exactly 2 N */
   assert_near(m.distance, (0.05 * 0.05 + 0.1 * 0.1 + 0.1 * 0.1) / 0.02, 1e-6);
   report = last_update(r.filter);
   assert_true(report.placed == 0 && report.matched == 1 && report.rejected == 0 && report.rows == 3);
@@ -51,7 +52,7 @@ static void an_unknown_id_places_and_a_known_one_updates(void **state) {
   rig_close(&r);
 }
 
-static void an_outlier_is_gated_and_changes_nothing(void **state) {
+static void an_outlier_is_gated_and_changes_nothing(void** state) {
   rig r;
   cairn_match m;
   cairn_observation o = seen(1, 8, 7, 1);
@@ -60,7 +61,7 @@ static void an_outlier_is_gated_and_changes_nothing(void **state) {
   cairn_landmark la, lb;
   (void)state;
   open_with_one(&r, test_options());
-  const cairn_map *map = cairn_filter_map(r.filter);
+  const cairn_map* map = cairn_filter_map(r.filter);
   assert_ok(cairn_filter_pose(r.filter, &pa, ca));
   assert_ok(cairn_map_landmark(map, 1, &la));
   assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], &o, 1, &m));
@@ -79,7 +80,7 @@ static void an_outlier_is_gated_and_changes_nothing(void **state) {
   rig_close(&r);
 }
 
-static void an_outlier_does_not_touch_what_the_rest_of_its_frame_does(void **state) {
+static void an_outlier_does_not_touch_what_the_rest_of_its_frame_does(void** state) {
   rig a, b;
   const cairn_observation frame_a[] = {seen(1, 8.1, 2, 1), seen(3, 5, -5, 0), seen(2, -4, 3, 9)};
   const cairn_observation frame_b[] = {seen(1, 8.1, 2, 1), seen(3, 5, -5, 0)}, second = seen(2, -4, 3, 1);
@@ -105,7 +106,7 @@ static void an_outlier_does_not_touch_what_the_rest_of_its_frame_does(void **sta
   rig_close(&b);
 }
 
-static void gates_of_probability_one_let_all_pass(void **state) {
+static void gates_of_probability_one_let_all_pass(void** state) {
   rig r;
   cairn_match m;
   const cairn_observation o = seen(1, 8, 7, 1);
@@ -119,7 +120,7 @@ static void gates_of_probability_one_let_all_pass(void **state) {
   rig_close(&r);
 }
 
-static void a_batch_that_is_too_far_off_together_is_reported_so(void **state) {
+static void a_batch_that_is_jointly_too_far_off_is_reported(void** state) {
   rig r;
   cairn_match m[WORLD_LANDMARKS];
   cairn_observation o[WORLD_LANDMARKS];
@@ -130,7 +131,8 @@ static void a_batch_that_is_too_far_off_together_is_reported_so(void **state) {
   for (int i = 0; i < WORLD_LANDMARKS; ++i) o[i] = seen((uint64_t)i + 1, 6 + 0.5 * i, i - 5, 0.3 * i);
   assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o + 1, WORLD_LANDMARKS - 1, NULL));
   o[0] = seen(1, 8, 2, 1);
-  for (int i = 0; i < WORLD_LANDMARKS; ++i) o[i].z[i % 3] += (i % 2 ? -1 : 1) * 0.53; /* each about 14 of 16.3 */
+  for (int i = 0; i < WORLD_LANDMARKS; ++i)
+    o[i].z[i % 3] += (i % 2 ? -1 : 1) * 0.53; /* each squared distance is about 14; the bound is 16.3 */
   assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, WORLD_LANDMARKS, m));
   for (int i = 0; i < WORLD_LANDMARKS; ++i) {
     batch += m[i].result == CAIRN_REJECTED && m[i].reason == CAIRN_REASON_BATCH_GATE;
@@ -146,7 +148,7 @@ static void a_batch_that_is_too_far_off_together_is_reported_so(void **state) {
   rig_close(&r);
 }
 
-static void a_landmark_without_an_image_is_refused(void **state) {
+static void a_landmark_without_an_image_is_refused(void** state) {
   rig r;
   cairn_match m;
   const cairn_observation behind = seen(5, -6, 1, 0), above = seen(6, 0.1, 0, 9), image = seen(5, 320, 300, 240);
@@ -162,8 +164,9 @@ static void a_landmark_without_an_image_is_refused(void **state) {
   assert_true(m.distance == 0 && m.threshold == 0);
   assert_int_equal(last_update(r.filter).rejected, 1);
   cairn_filter_options options = test_options();
-  cairn_stereo_head head; /* the camera frame is the body frame: landmark 6 stands at 89 degrees, above 85 */
-  cairn_filter *filter = NULL;
+  cairn_stereo_head
+      head; /* the camera frame is the body frame: landmark 6 is at an elevation of 89 degrees, above 85 */
+  cairn_filter* filter = NULL;
   int32_t added;
   assert_ok(cairn_stereo_head_init(&head, sizeof head));
   options.initial_pose = pose_at(0, 0, 0, 0, 0, 0);
@@ -179,19 +182,19 @@ static void a_landmark_without_an_image_is_refused(void **state) {
   rig_close(&r);
 }
 
-static void an_observation_that_places_nothing_is_refused(void **state) {
+static void an_observation_that_places_nothing_is_refused(void** state) {
   rig r;
   const struct {
     int sensor;
     cairn_observation o;
   } cases[] = {
       {CAMERA, seen(9, 320.5, 320, 240)}, /* disparity 0.5, below 1 */
-      {CAMERA, seen(9, 323, 320, 240)},   /* disparity 3, below 2.5 of its 1.41 */
-      {CAMERA, seen(9, 300, 320, 240)},   /* behind infinity */
+      {CAMERA, seen(9, 323, 320, 240)},   /* disparity 3, below 2.5 standard deviations of 1.41 */
+      {CAMERA, seen(9, 300, 320, 240)},   /* negative disparity */
       {HEAD, seen(9, 0.05, 0, 0)},        /* nearer than near_range */
-      {HEAD, seen(9, -3, 0, 0)},          /* no range at all */
+      {HEAD, seen(9, -3, 0, 0)},          /* range 0 */
       {HEAD, seen(9, 5, 0, 1.55)},        /* steeper than max_elevation */
-      {RANGE, seen(9, 5, 0, 0)},          /* a sensor that can't place */
+      {RANGE, seen(9, 5, 0, 0)},          /* a sensor that cannot place landmarks */
   };
   (void)state;
   open_with_one(&r, test_options());
@@ -211,8 +214,8 @@ static void an_observation_that_places_nothing_is_refused(void **state) {
   rig_close(&r);
 }
 
-static void an_empty_frame_is_a_frame(void **state) {
-  bench *b = *state;
+static void an_empty_frame_is_a_frame(void** state) {
+  bench* b = *state;
   const cairn_observation o = seen(1, 1, 1, 1);
   assert_ok(cairn_filter_update(b->main.filter, b->main.sensors[HEAD], NULL, 0, NULL));
   assert_ok(cairn_filter_update(b->shadow.filter, b->shadow.sensors[HEAD], &o, 0, NULL));
@@ -221,8 +224,8 @@ static void an_empty_frame_is_a_frame(void **state) {
   bench_continue(b, 3);
 }
 
-static void matches_are_optional_and_unused_values_are_not_read(void **state) {
-  bench *b = *state;
+static void matches_are_optional_and_unused_values_are_not_read(void** state) {
+  bench* b = *state;
   frame f = bench_until(b, RANGE);
   assert_ok(cairn_filter_update(b->main.filter, b->main.sensors[RANGE], f.observations, f.count, NULL));
   for (size_t i = 0; i < f.count; ++i) {
@@ -234,7 +237,7 @@ static void matches_are_optional_and_unused_values_are_not_read(void **state) {
   bench_continue(b, 3);
 }
 
-static void an_observation_brings_its_own_noise(void **state) {
+static void an_observation_brings_its_own_noise(void** state) {
   rig a, b;
   cairn_match ma, mb;
   cairn_observation o = seen(1, 8, 2.3, 1);
@@ -242,7 +245,7 @@ static void an_observation_brings_its_own_noise(void **state) {
   open_with_one(&a, test_options());
   open_with_one(&b, test_options());
   assert_ok(cairn_filter_update(a.filter, a.sensors[CARTESIAN], &o, 1, &ma));
-  diagonal(o.covariance, 3, 0.01); /* the sensor's own */
+  diagonal(o.covariance, 3, 0.01); /* the noise of the sensor */
   assert_ok(cairn_filter_update(b.filter, b.sensors[CARTESIAN], &o, 1, &mb));
   assert_near(ma.distance, mb.distance, 1e-9);
   assert_near(ma.distance, 0.09 / 0.02, 1e-9);
@@ -261,10 +264,10 @@ static void an_observation_brings_its_own_noise(void **state) {
   rig_close(&b);
 }
 
-/* What a landmark taught about the others stays; its id is free, and the place in the map too. */
-static void a_forgotten_landmark_is_gone(void **state) {
-  bench *b = *state;
-  const cairn_map *map = cairn_filter_map(b->main.filter);
+/* The information that a removed landmark gave about others stays. Its id and its place in the map are free. */
+static void a_removed_landmark_is_gone(void** state) {
+  bench* b = *state;
+  const cairn_map* map = cairn_filter_map(b->main.filter);
   cairn_landmark before[WORLD_LANDMARKS], after[WORLD_LANDMARKS], near[WORLD_LANDMARKS];
   double ja[(6 + 33) * (6 + 33)], jb[(6 + 33) * (6 + 33)];
   uint64_t ids[WORLD_LANDMARKS - 1];
@@ -296,8 +299,8 @@ static void a_forgotten_landmark_is_gone(void **state) {
   assert_refused(b, CAIRN_ERROR_NOT_FOUND, "id", cairn_filter_remove_landmark(b->main.filter, 7));
 }
 
-static void every_landmark_can_go_and_come_back(void **state) {
-  bench *b = *state;
+static void every_landmark_can_be_removed_and_placed_again(void** state) {
+  bench* b = *state;
   size_t count;
   cairn_landmark landmark;
   double pivot;
@@ -313,7 +316,7 @@ static void every_landmark_can_go_and_come_back(void **state) {
   assert_ok(cairn_map_size(cairn_filter_map(b->main.filter), &count));
   assert_int_equal(count, WORLD_LANDMARKS);
   assert_ok(cairn_map_landmark(cairn_filter_map(b->main.filter), 4, &landmark));
-  assert_true(landmark.observations <= 10); /* counted from its new life */
+  assert_true(landmark.observations <= 10); /* counted since it was placed again */
 }
 
 int main(void) {
@@ -322,14 +325,14 @@ int main(void) {
       cmocka_unit_test(an_outlier_is_gated_and_changes_nothing),
       cmocka_unit_test(an_outlier_does_not_touch_what_the_rest_of_its_frame_does),
       cmocka_unit_test(gates_of_probability_one_let_all_pass),
-      cmocka_unit_test(a_batch_that_is_too_far_off_together_is_reported_so),
+      cmocka_unit_test(a_batch_that_is_jointly_too_far_off_is_reported),
       cmocka_unit_test(a_landmark_without_an_image_is_refused),
       cmocka_unit_test(an_observation_that_places_nothing_is_refused),
       cmocka_unit_test_setup_teardown(an_empty_frame_is_a_frame, bench_setup, bench_teardown),
       cmocka_unit_test_setup_teardown(matches_are_optional_and_unused_values_are_not_read, bench_setup, bench_teardown),
       cmocka_unit_test(an_observation_brings_its_own_noise),
-      cmocka_unit_test_setup_teardown(a_forgotten_landmark_is_gone, bench_setup, bench_teardown),
-      cmocka_unit_test_setup_teardown(every_landmark_can_go_and_come_back, bench_setup, bench_teardown),
+      cmocka_unit_test_setup_teardown(a_removed_landmark_is_gone, bench_setup, bench_teardown),
+      cmocka_unit_test_setup_teardown(every_landmark_can_be_removed_and_placed_again, bench_setup, bench_teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

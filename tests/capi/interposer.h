@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Puts a test program before the C library's allocator (glibc): it counts what is asked for, and can refuse. Include it
- * in one file of a program alone. */
+/* Replaces the allocator of the C library (glibc) in a test program: it counts requests and can refuse them. Include it
+ * in only one file of a program. */
 #ifndef CAIRN_TESTS_CAPI_INTERPOSER_H
 #define CAIRN_TESTS_CAPI_INTERPOSER_H
 
@@ -11,24 +11,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-extern void *__libc_malloc(size_t size);
-extern void *__libc_calloc(size_t count, size_t size);
-extern void *__libc_realloc(void *block, size_t size);
-extern void *__libc_memalign(size_t alignment, size_t size);
-extern void __libc_free(void *block);
+extern void* __libc_malloc(size_t size);
+extern void* __libc_calloc(size_t count, size_t size);
+extern void* __libc_realloc(void* block, size_t size);
+extern void* __libc_memalign(size_t alignment, size_t size);
+extern void __libc_free(void* block);
 
 #define VISIBLE __attribute__((visibility("default"), noinline))
 
 static struct {
-  bool armed, follow; /* follow: know the blocks, so that `live` and `peak` are right */
-  size_t calls;       /* that asked for memory or gave it back */
-  size_t fail_at;     /* number of the request that gets none; 0: all get what they ask for */
-  bool for_good;      /* nor does any request after it */
+  bool armed, follow; /* follow: track the blocks, so that `live` and `peak` are right */
+  size_t calls;       /* calls that allocated or freed memory */
+  size_t fail_at;     /* number of the request that fails; 0: none fails */
+  bool for_good;      /* all later requests fail too */
   bool failed;
-  size_t live, peak; /* bytes asked for and not given back */
+  size_t live, peak; /* bytes allocated and not freed */
   size_t count;
   struct {
-    void *block;
+    void* block;
     size_t size;
   } blocks[4096];
 } counter;
@@ -39,7 +39,7 @@ static inline void arm(void) {
   counter.armed = true;
 }
 
-/* Refuses request number `at`, counted from 1, and with `for_good` all that follow. */
+/* Lets request number `at` fail, counted from 1, and with `for_good` also all later ones. */
 static inline void arm_to_fail(size_t at, bool for_good) {
   memset(&counter, 0, offsetof(__typeof__(counter), blocks));
   counter.fail_at = at;
@@ -47,7 +47,7 @@ static inline void arm_to_fail(size_t at, bool for_good) {
   counter.armed = true;
 }
 
-static void *taken(void *block, size_t size) {
+static void* taken(void* block, size_t size) {
   if (!counter.armed || block == NULL) return block;
   ++counter.calls;
   if (!counter.follow) return block;
@@ -58,7 +58,7 @@ static void *taken(void *block, size_t size) {
   return block;
 }
 
-static void given(void *block) {
+static void given(void* block) {
   if (!counter.armed || block == NULL) return;
   ++counter.calls;
   for (size_t i = 0; counter.follow && i < counter.count; ++i)
@@ -80,33 +80,37 @@ static bool refused(void) {
   return true;
 }
 
-/* operator new(std::size_t, std::nothrow_t const &): whoever uses it (std::stable_sort) can do without. With refusals on
- * the way it never gets anything, and counts as no refusal. */
-VISIBLE void *_ZnwmRKSt9nothrow_t(size_t size, const void *nothrow);
-VISIBLE void *_ZnwmRKSt9nothrow_t(size_t size, const void *nothrow) {
+/* operator new(std::size_t, std::nothrow_t const &): its callers (std::stable_sort) can work without memory. While
+ * requests may fail it always returns null, and this does not count as a refusal. */
+VISIBLE void* _ZnwmRKSt9nothrow_t(size_t size, const void* nothrow);
+VISIBLE void* _ZnwmRKSt9nothrow_t(size_t size, const void* nothrow) {
   (void)nothrow;
   if (counter.armed && !counter.follow && counter.fail_at != 0) return NULL;
   return taken(__libc_malloc(size), size);
 }
 
-VISIBLE void *malloc(size_t size) { return refused() ? NULL : taken(__libc_malloc(size), size); }
-VISIBLE void *calloc(size_t count, size_t size) {
+VISIBLE void* malloc(size_t size) {
+  return refused() ? NULL : taken(__libc_malloc(size), size);
+}
+VISIBLE void* calloc(size_t count, size_t size) {
   return refused() ? NULL : taken(__libc_calloc(count, size), count * size);
 }
-VISIBLE void *realloc(void *block, size_t size) {
+VISIBLE void* realloc(void* block, size_t size) {
   if (refused()) return NULL;
   given(block);
   return taken(__libc_realloc(block, size), size);
 }
-VISIBLE void *memalign(size_t alignment, size_t size) {
+VISIBLE void* memalign(size_t alignment, size_t size) {
   return refused() ? NULL : taken(__libc_memalign(alignment, size), size);
 }
-VISIBLE void *aligned_alloc(size_t alignment, size_t size) { return memalign(alignment, size); }
-VISIBLE int posix_memalign(void **block, size_t alignment, size_t size) {
+VISIBLE void* aligned_alloc(size_t alignment, size_t size) {
+  return memalign(alignment, size);
+}
+VISIBLE int posix_memalign(void** block, size_t alignment, size_t size) {
   *block = memalign(alignment, size);
   return *block == NULL ? ENOMEM : 0;
 }
-VISIBLE void free(void *block) {
+VISIBLE void free(void* block) {
   given(block);
   __libc_free(block);
 }

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* When a landmark counts, when it goes, when two are one: in the plane, where a cartesian sensor tells it by hand. */
+/* The life of a landmark: when it counts, when it is removed, and when two landmarks are merged. The vehicle is planar
+ * and has a cartesian sensor, so that expected values can be computed by hand. */
 #include "support.h"
 
 typedef struct scene {
-  cairn_filter *filter;
+  cairn_filter* filter;
   int32_t sensor;
 } scene;
 
-static scene open_scene(void (*change)(cairn_filter_options *)) {
+static scene open_scene(void (*change)(cairn_filter_options*)) {
   scene s = {NULL, -1};
   cairn_filter_options options;
   assert_ok(cairn_filter_options_init(&options, sizeof options));
@@ -21,7 +22,7 @@ static scene open_scene(void (*change)(cairn_filter_options *)) {
   return s;
 }
 
-static void look(scene *s, const uint64_t *ids, const double (*points)[2], size_t count, cairn_match *matches) {
+static void look(scene* s, const uint64_t* ids, const double (*points)[2], size_t count, cairn_match* matches) {
   cairn_observation o[8];
   memset(o, 0, sizeof o);
   for (size_t i = 0; i < count; ++i) {
@@ -31,13 +32,13 @@ static void look(scene *s, const uint64_t *ids, const double (*points)[2], size_
   assert_ok(cairn_filter_update(s->filter, s->sensor, o, count, matches));
 }
 
-static size_t map_size(const scene *s) {
+static size_t map_size(const scene* s) {
   size_t size = 0;
   assert_ok(cairn_map_size(cairn_filter_map(s->filter), &size));
   return size;
 }
 
-static cairn_landmark landmark(const scene *s, uint64_t id) {
+static cairn_landmark landmark(const scene* s, uint64_t id) {
   cairn_landmark out;
   assert_ok(cairn_map_landmark(cairn_filter_map(s->filter), id, &out));
   return out;
@@ -46,12 +47,12 @@ static cairn_landmark landmark(const scene *s, uint64_t id) {
 static const uint64_t names[4] = {11, 12, 13, 14};
 static const double places[4][2] = {{2, 0}, {0, 3}, {-2, 1}, {4, 4}};
 
-static void defer_three(cairn_filter_options *options) {
+static void defer_three(cairn_filter_options* options) {
   options->deferred_sightings = 3;
   options->deferred_frames = 4;
 }
 
-static void a_deferred_landmark_counts_after_enough_sightings(void **state) {
+static void a_deferred_landmark_counts_after_enough_sightings(void** state) {
   (void)state;
   scene s = open_scene(defer_three), plain = open_scene(NULL);
   cairn_match matches[4];
@@ -62,16 +63,16 @@ static void a_deferred_landmark_counts_after_enough_sightings(void **state) {
   look(&s, names, places, 2, matches);
   assert_int_equal(matches[0].result, CAIRN_MATCHED);
   assert_int_equal(map_size(&s), 0);
-  look(&s, names, places, 1, matches); /* the first alone: it counts now */
+  look(&s, names, places, 1, matches); /* only the first landmark: it counts now */
   assert_int_equal(map_size(&s), 1);
   assert_int_equal(last_update(s.filter).deferred, 1);
-  look(&s, names + 2, places + 2, 2, matches); /* two more, deferred, behind those that count */
+  look(&s, names + 2, places + 2, 2, matches); /* two more, deferred, listed behind those that count */
   look(&s, names + 1, places + 1, 1, matches);
   assert_int_equal(map_size(&s), 2);
   for (int i = 0; i < 2; ++i) assert_near(landmark(&s, names[i]).position[1], places[i][1], 1e-9);
   cairn_landmark missing;
   assert_status(cairn_map_landmark(cairn_filter_map(s.filter), names[2], &missing), CAIRN_ERROR_NOT_FOUND);
-  /* All that they told is in the estimate: deferral changes what is listed, not what is known. */
+  /* The estimate uses all their observations: deferral changes which landmarks are listed, not the estimate. */
   look(&plain, names, places, 2, NULL);
   look(&plain, names, places, 2, NULL);
   look(&plain, names, places, 1, NULL);
@@ -80,7 +81,7 @@ static void a_deferred_landmark_counts_after_enough_sightings(void **state) {
   for (int i = 0; i < 2; ++i)
     for (int k = 0; k < 9; ++k)
       assert_near(landmark(&s, names[i]).covariance[k], landmark(&plain, names[i]).covariance[k], 1e-15);
-  /* A landmark that counts goes, and the others keep their names. */
+  /* A landmark that counts is removed, and the other landmarks keep their ids. */
   assert_ok(cairn_filter_remove_landmark(s.filter, names[0]));
   assert_int_equal(map_size(&s), 1);
   assert_near(landmark(&s, names[1]).position[1], places[1][1], 1e-9);
@@ -92,7 +93,7 @@ static void a_deferred_landmark_counts_after_enough_sightings(void **state) {
   cairn_filter_destroy(plain.filter);
 }
 
-static void a_deferred_landmark_that_is_not_seen_again_goes(void **state) {
+static void a_deferred_landmark_that_is_not_seen_again_is_removed(void** state) {
   (void)state;
   scene s = open_scene(defer_three);
   cairn_match match;
@@ -106,33 +107,34 @@ static void a_deferred_landmark_that_is_not_seen_again_goes(void **state) {
   assert_int_equal(removed, 1);
   assert_int_equal(map_size(&s), 1);
   look(&s, names, places, 1, &match);
-  assert_int_equal(match.result, CAIRN_NEW); /* forgotten */
+  assert_int_equal(match.result, CAIRN_NEW); /* removed */
   cairn_filter_destroy(s.filter);
 }
 
-static void miss_two(cairn_filter_options *options) {
+static void miss_two(cairn_filter_options* options) {
   options->missed_frames = 2;
 }
 
-static void what_is_in_view_and_missed_goes(void **state) {
+static void a_landmark_in_view_that_is_missed_is_removed(void** state) {
   (void)state;
   scene s = open_scene(miss_two);
   const double lower[3] = {-3, -3, 0}, upper[3] = {3, 3.5, 0}, all[2] = {-INFINITY, -INFINITY};
   cairn_match matches[4];
   look(&s, names, places, 4, NULL);
   look(&s, names, places, 4, NULL);
-  for (int k = 0; k < 3; ++k) look(&s, names, places, 1, NULL); /* no view is told: nobody is missed */
+  for (int k = 0; k < 3; ++k)
+    look(&s, names, places, 1, NULL); /* no field of view is set: no landmark counts as missed */
   assert_int_equal(map_size(&s), 4);
   assert_ok(cairn_filter_set_view(s.filter, s.sensor, lower, upper));
   look(&s, names, places, 1, NULL);
-  look(&s, names + 1, places + 1, 1, NULL); /* number 12 was missed once, and is seen */
-  assert_int_equal(last_update(s.filter).removed, 1); /* number 13, missed twice; 14 is out of view */
+  look(&s, names + 1, places + 1, 1, NULL);           /* number 12 was missed once, and is seen now */
+  assert_int_equal(last_update(s.filter).removed, 1); /* number 13, missed twice; number 14 is out of view */
   look(&s, names + 1, places + 1, 1, NULL);
   assert_int_equal(last_update(s.filter).removed, 1); /* number 11, missed twice in a row */
   assert_int_equal(map_size(&s), 2);
   assert_near(landmark(&s, names[1]).position[1], places[1][1], 1e-9);
   assert_near(landmark(&s, names[3]).position[0], places[3][0], 1e-9);
-  /* An outlier tells that something is there: no miss. */
+  /* An outlier shows that something is there: it is not a miss. */
   const double astray[1][2] = {{1, 3}};
   for (int k = 0; k < 4; ++k) {
     look(&s, names + 1, astray, 1, matches);
@@ -150,14 +152,14 @@ static void what_is_in_view_and_missed_goes(void **state) {
   cairn_filter_destroy(s.filter);
 }
 
-/* Two observations of one place, as two landmarks: their mean, weighted, is what is left. */
-static void merging_is_observing_no_difference(void **state) {
+/* Two landmarks at one place. Merging leaves their mean, weighted by their covariances. */
+static void merging_equals_observing_a_difference_of_zero(void** state) {
   (void)state;
   scene s = open_scene(NULL);
   const double twice[2][2] = {{2, 0}, {2.1, 0.06}};
   cairn_match match;
   look(&s, names, twice, 2, NULL);
-  look(&s, names, twice, 1, NULL); /* the first is known twice as well: variances 0.005 and 0.01 */
+  look(&s, names, twice, 1, NULL); /* the first is observed twice as often: variances 0.005 and 0.01 */
   assert_ok(cairn_filter_merge_landmarks(s.filter, names[0], names[1], &match));
   assert_int_equal(match.result, CAIRN_MATCHED);
   assert_near(match.distance, (0.1 * 0.1 + 0.06 * 0.06) / 0.015, 1e-3);
@@ -167,7 +169,7 @@ static void merging_is_observing_no_difference(void **state) {
   assert_near(one.position[1], 0.02, 1e-6);
   assert_near(one.covariance[0], 0.01 / 3, 1e-7);
   assert_int_equal(one.observations, 3);
-  /* What contradicts is refused, and nothing changes. */
+  /* A merge that contradicts the estimates is refused, and nothing changes. */
   look(&s, names + 1, places + 1, 1, NULL);
   const cairn_landmark before = landmark(&s, names[0]);
   assert_ok(cairn_filter_merge_landmarks(s.filter, names[0], names[1], &match));
@@ -181,7 +183,7 @@ static void merging_is_observing_no_difference(void **state) {
   cairn_filter_destroy(s.filter);
 }
 
-static void a_split_landmark_is_two(void **state) {
+static void a_split_landmark_becomes_two(void** state) {
   (void)state;
   scene s = open_scene(NULL);
   double covariance[9];
@@ -196,7 +198,7 @@ static void a_split_landmark_is_two(void **state) {
   double joint[36];
   size_t needed = 0;
   assert_ok(cairn_map_joint_covariance(cairn_filter_map(s.filter), both, 2, joint, 36, &needed));
-  assert_near(joint[3], old.covariance[0], 1e-15); /* all that the old one's error is, the new one's is too */
+  assert_near(joint[3], old.covariance[0], 1e-15); /* the new landmark shares the whole error of the old one */
   const double apart[2][2] = {{2.4, 0}, {2, 0}};
   cairn_match matches[2];
   for (int k = 0; k < 30; ++k) look(&s, both, apart, 2, matches);
@@ -214,18 +216,18 @@ static void a_split_landmark_is_two(void **state) {
   cairn_filter_destroy(s.filter);
 }
 
-static void by_distance(cairn_filter_options *options) {
+static void by_distance(cairn_filter_options* options) {
   options->association = CAIRN_ASSOCIATION_NEAREST;
   options->new_probability = 0.999;
 }
-static void by_likelihood(cairn_filter_options *options) {
+static void by_likelihood(cairn_filter_options* options) {
   by_distance(options);
   options->association_distance = CAIRN_DISTANCE_LIKELIHOOD;
 }
 
-/* Number 0 is known vaguely, number 1 well. Half way by Mahalanobis distance the vague one is nearer; the likelier is
- * the one that is known well. */
-static void likelihood_prefers_what_is_known_better(void **state) {
+/* Number 0 is uncertain, number 1 is well known. Half way between them the uncertain one is nearer by Mahalanobis
+ * distance, and the well known one is more likely. */
+static void likelihood_prefers_the_better_known_landmark(void** state) {
   (void)state;
   for (int likely = 0; likely < 2; ++likely) {
     scene s = open_scene(likely ? by_likelihood : by_distance);
@@ -242,7 +244,7 @@ static void likelihood_prefers_what_is_known_better(void **state) {
     memset(&between, 0, sizeof between);
     between.z[0] = 4.6, between.z[1] = 5;
     between.covariance[0] = between.covariance[3] = 0.25;
-    /* d^2: 4.6^2 / 1.25 = 16.9 is beyond the gate; at 2.9: 6.7 of number 0, and 33 of number 1. */
+    /* d^2: 4.6^2 / 1.25 = 16.9 is beyond the gate. At 2.9: 6.7 to number 0, and 33 to number 1. */
     between.z[0] = 2.9;
     assert_ok(cairn_filter_update(s.filter, s.sensor, &between, 1, match));
     assert_int_equal(match[0].landmark, 0);
@@ -252,7 +254,7 @@ static void likelihood_prefers_what_is_known_better(void **state) {
     o[1].z[0] = 3;
     assert_ok(cairn_filter_update(s.filter, s.sensor, o, 2, match));
     assert_int_equal(match[1].result, CAIRN_NEW);
-    /* At 1.95: d^2 = 3.04 of number 0, 3.80 of number 1; with log det S 3.49 and 1.33. */
+    /* At 1.95: d^2 = 3.04 to number 0, 3.80 to number 1; with log det S: 3.49 and 1.33. */
     between.z[0] = 1.95;
     assert_ok(cairn_filter_update(s.filter, s.sensor, &between, 1, match));
     assert_int_equal(match[0].landmark, likely ? 1 : 0);
@@ -260,12 +262,12 @@ static void likelihood_prefers_what_is_known_better(void **state) {
   }
 }
 
-static void options_are_checked(void **state) {
+static void options_are_checked(void** state) {
   (void)state;
   static const struct {
     size_t at;
     uint32_t value;
-    const char *name;
+    const char* name;
   } bad[] = {{offsetof(cairn_filter_options, deferred_sightings), 0, "deferred_sightings"},
              {offsetof(cairn_filter_options, deferred_sightings), 1001, "deferred_sightings"},
              {offsetof(cairn_filter_options, deferred_frames), 0, "deferred_frames"},
@@ -274,9 +276,9 @@ static void options_are_checked(void **state) {
              {offsetof(cairn_filter_options, vehicle), 2, "vehicle"}};
   for (size_t i = 0; i < LENGTH(bad); ++i) {
     cairn_filter_options options;
-    cairn_filter *filter = NULL;
+    cairn_filter* filter = NULL;
     assert_ok(cairn_filter_options_init(&options, sizeof options));
-    memcpy((char *)&options + bad[i].at, &bad[i].value, sizeof bad[i].value);
+    memcpy((char*)&options + bad[i].at, &bad[i].value, sizeof bad[i].value);
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, bad[i].name, cairn_filter_create(&options, &filter));
     assert_null(filter);
   }
@@ -285,11 +287,11 @@ static void options_are_checked(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_deferred_landmark_counts_after_enough_sightings),
-      cmocka_unit_test(a_deferred_landmark_that_is_not_seen_again_goes),
-      cmocka_unit_test(what_is_in_view_and_missed_goes),
-      cmocka_unit_test(merging_is_observing_no_difference),
-      cmocka_unit_test(a_split_landmark_is_two),
-      cmocka_unit_test(likelihood_prefers_what_is_known_better),
+      cmocka_unit_test(a_deferred_landmark_that_is_not_seen_again_is_removed),
+      cmocka_unit_test(a_landmark_in_view_that_is_missed_is_removed),
+      cmocka_unit_test(merging_equals_observing_a_difference_of_zero),
+      cmocka_unit_test(a_split_landmark_becomes_two),
+      cmocka_unit_test(likelihood_prefers_the_better_known_landmark),
       cmocka_unit_test(options_are_checked),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Copies of maps: equal to what they were made from, and untouched by what becomes of it. */
+/* Copies of maps: equal to the original, and unchanged when the original changes. */
 #include "rovers.h"
 
-/* Landmarks to the bit; the joint covariance but for rounding, which goes by the order that it is asked for in. */
+/* Compares landmarks to the bit, and the joint covariance up to rounding, which depends on the order of the ids. */
 static void expect_equal(const snapshot* a, const snapshot* b, size_t landmarks) {
   assert_int_equal(a->size, b->size);
   assert_memory_equal(a->bytes, b->bytes, landmarks * sizeof(cairn_landmark));
@@ -11,7 +11,7 @@ static void expect_equal(const snapshot* a, const snapshot* b, size_t landmarks)
   for (size_t i = 0; i < 9 * landmarks * landmarks; ++i) assert_near(Q[i], P[i], 1e-15);
 }
 
-static void a_copy_is_equal_and_stays(void** state) {
+static void a_copy_is_equal_and_does_not_change(void** state) {
   (void)state;
   for (int kind = SINGLE; kind < KINDS; ++kind) {
     rover r;
@@ -34,9 +34,9 @@ static void a_copy_is_equal_and_stays(void** state) {
 
     rover_drive(&r, 25);
     map_take(&copied, map);
-    assert_false(snapshot_same(&original, &copied)); /* the filter went on, */
+    assert_false(snapshot_same(&original, &copied)); /* the filter changed */
     map_take(&copied, copy);
-    assert_true(snapshot_same(&original, &copied)); /* the copy did not */
+    assert_true(snapshot_same(&original, &copied)); /* the copy did not change */
     assert_ok(cairn_filter_remove_landmark(r.filter, 105));
     rover_close(&r);
     map_take(&copied, copy);
@@ -127,7 +127,7 @@ static void a_filters_map_is_not_destroyed(void** state) {
   rover_close(&r);
 }
 
-static void nothing_is_refused(void** state) {
+static void null_is_refused(void** state) {
   (void)state;
   cairn_map* copy = NULL;
   rover r;
@@ -147,11 +147,11 @@ static void nothing_is_refused(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_copy_is_equal_and_stays),
+      cmocka_unit_test(a_copy_is_equal_and_does_not_change),
       cmocka_unit_test(all_queries_work_on_copies),
       cmocka_unit_test(the_open_submap_and_an_empty_map_are_copied_too),
       cmocka_unit_test(a_filters_map_is_not_destroyed),
-      cmocka_unit_test(nothing_is_refused),
+      cmocka_unit_test(null_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

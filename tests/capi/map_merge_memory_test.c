@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Copies and merges take memory. Whichever of their requests is refused, both maps are as they were, to the bit,
- * nothing is lost, and the call does what it should once there is memory again. */
+/* Copies and merges allocate memory. Whichever request fails, both maps must be unchanged to the bit, nothing may leak,
+ * and the call must succeed when there is memory again. */
 #include "interposer.h"
 #include "rovers.h"
 
@@ -9,7 +9,7 @@ static void same(snapshot* after, const cairn_map* map, const snapshot* before, 
   if (!snapshot_same(before, after)) fail_msg("%s: request %zu refused, and a map changed", what, at);
 }
 
-static void a_merge_refused_its_memory_changes_nothing(void** state) {
+static void a_merge_without_memory_changes_nothing(void** state) {
   (void)state;
   for (int kind = SINGLE; kind < KINDS; ++kind)
     for (int32_t by = CAIRN_MERGE_BY_ID; by <= CAIRN_MERGE_BY_GEOMETRY; ++by) {
@@ -21,7 +21,7 @@ static void a_merge_refused_its_memory_changes_nothing(void** state) {
       assert_ok(cairn_merge_options_init(&options, sizeof options));
       options.association = by;
       map_take(&before[0], map), map_take(&before[1], other);
-      /* By geometry there are hundreds of thousands: ever sparser ones. */
+      /* A merge by geometry makes hundreds of thousands of requests. The test samples them, ever more sparsely. */
       size_t refusals = 0;
       for (size_t at = 1;; at += by == CAIRN_MERGE_BY_ID ? 1 + at / 40 : 1 + at / 4) {
         arm_to_fail(at, refusals % 2 == 0);
@@ -32,7 +32,7 @@ static void a_merge_refused_its_memory_changes_nothing(void** state) {
           assert_int_equal(status, CAIRN_OK);
           break;
         }
-        if (status == CAIRN_OK) fail_msg("kind %d: request %zu refused, and nobody noticed", kind, at);
+        if (status == CAIRN_OK) fail_msg("kind %d: request %zu refused, and the call succeeded", kind, at);
         assert_int_equal(status, CAIRN_ERROR_MEMORY);
         ++refusals;
         same(&after, map, &before[0], "map", at);
@@ -40,7 +40,7 @@ static void a_merge_refused_its_memory_changes_nothing(void** state) {
       }
       print_message("kind %d, association %d: refused %zu times\n", kind, (int)by, refusals);
       assert_true(refusals > 20);
-      assert_ok(cairn_map_merge(twin, other, &options, NULL)); /* the same that had all it asked for */
+      assert_ok(cairn_map_merge(twin, other, &options, NULL)); /* the same merge without failures */
       map_take(&before[0], twin);
       same(&after, map, &before[0], "merged", 0);
       for (int i = 0; i < 2; ++i) snapshot_free(&before[i]);
@@ -50,7 +50,7 @@ static void a_merge_refused_its_memory_changes_nothing(void** state) {
     }
 }
 
-static void a_copy_refused_its_memory_is_none(void** state) {
+static void a_copy_without_memory_does_not_exist(void** state) {
   (void)state;
   for (int kind = SINGLE; kind < KINDS; ++kind) {
     rover west;
@@ -79,8 +79,8 @@ static void a_copy_refused_its_memory_is_none(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_merge_refused_its_memory_changes_nothing),
-      cmocka_unit_test(a_copy_refused_its_memory_is_none),
+      cmocka_unit_test(a_merge_without_memory_changes_nothing),
+      cmocka_unit_test(a_copy_without_memory_does_not_exist),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Merges of two rovers' maps of one place, each in a frame of its own: against the truth, by either association, in
- * both kinds of maps; and that whatever is refused leaves both maps as they were, to the bit. */
+/* Merges of the maps of two rovers, each in its own frame. The merged maps are compared with truth, for both
+ * associations and both kinds of maps. Refused merges must leave both maps unchanged to the bit. */
 #include "rovers.h"
 
 static cairn_merge_report new_report(void) {
@@ -25,7 +25,7 @@ static cairn_pose between(const rover* a, const rover* b) {
   return T;
 }
 
-/* Squared error of the transform by its covariance, chi-square of 6. */
+/* Squared error of the transform, normalised by its covariance: chi-square with 6 degrees of freedom. */
 static double transform_nees(const cairn_merge_report* report, const cairn_pose* truth) {
   double L[36], e[6], sum = 0;
   assert_ok(cairn_pose_error(truth, &report->T_map_other, e));
@@ -50,7 +50,7 @@ static size_t count_common(const cairn_map* a, const cairn_map* b) {
   return common;
 }
 
-/* Over ten pairs of rovers: what the merged map says of itself is what it is. */
+/* Ten pairs of rovers: the merged map is as accurate as its covariance says. */
 static void merged_maps_are_true_and_consistent(void** state) {
   (void)state;
   for (int kind = SINGLE; kind < KINDS; ++kind) {
@@ -82,7 +82,7 @@ static void merged_maps_are_true_and_consistent(void** state) {
         assert_ok(cairn_map_landmark(map, was[i].id, &is));
         const bool paired = cairn_map_landmark(other, was[i].id, &there) == CAIRN_OK;
         assert_int_equal(is.observations, was[i].observations + (paired ? there.observations : 0));
-        /* Never knows less than before. */
+        /* A merge never increases the covariance. */
         for (int k = 0; k < 3; ++k) assert_true(is.covariance[4 * k] <= was[i].covariance[4 * k] * 1.01);
       }
       const cairn_pose T = between(&west, &east);
@@ -97,13 +97,13 @@ static void merged_maps_are_true_and_consistent(void** state) {
     print_message("kind %d: NEES %.3f a degree (%zu), of the transform %.2f, distance %.3f, largest error %.2f m\n",
                   kind, nees / (double)dof, dof, frame_nees / 60, distance / (double)rows, far_after);
     assert_true(nees / (double)dof > 0.85 && nees / (double)dof < 1.15);
-    assert_true(frame_nees / 60 > 0.5 && frame_nees / 60 < 1.7); /* once in 10,000 */
+    assert_true(frame_nees / 60 > 0.5 && frame_nees / 60 < 1.7); /* exceeded once in 10,000 */
     assert_true(distance / (double)rows > 0.75 && distance / (double)rows < 1.25);
     assert_true(far_after < 1.0);
   }
 }
 
-/* The same data in either kind of map: the same answer, but for what linearisation makes of it. */
+/* The same data in both kinds of maps give the same result, except for the effects of linearisation. */
 static void dense_and_sparse_agree(void** state) {
   (void)state;
   cairn_map* merged[KINDS];
@@ -131,7 +131,7 @@ static void dense_and_sparse_agree(void** state) {
   for (int kind = SINGLE; kind < KINDS; ++kind) cairn_map_destroy(merged[kind]);
 }
 
-/* Three rovers in any order; merged maps are copied, queried, and merged into others. */
+/* Three rovers in any order. Merged maps are copied, queried and merged into other maps. */
 static void merged_maps_merge_on(void** state) {
   (void)state;
   for (int kind = SINGLE; kind < KINDS; ++kind) {
@@ -140,14 +140,14 @@ static void merged_maps_merge_on(void** state) {
     cairn_map *a = rover_map(&west), *b = rover_map(&east), *c = rover_map(&middle), *copy = NULL;
     double far = 0;
     assert_ok(
-        cairn_map_merge(b, cairn_filter_map(middle.filter), NULL, NULL)); /* a filter's own map may be taken from */
+        cairn_map_merge(b, cairn_filter_map(middle.filter), NULL, NULL)); /* the map of a filter may be the source */
     assert_ok(cairn_map_copy(b, &copy));
     assert_ok(cairn_map_merge(a, copy, NULL, NULL));
     cairn_map_destroy(copy), cairn_map_destroy(b);
     const double nees = map_nees(a, &west.start, 100, &far) / (3.0 * (double)size_of(a));
     assert_true(nees > 0.6 && nees < 1.4);
     assert_true(far < 1.0);
-    /* What a part of it made counts once. */
+    /* Information that both maps share must count only once. */
     assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(a, c, NULL, NULL));
     assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(c, a, NULL, NULL));
 
@@ -176,7 +176,7 @@ static void merged_maps_merge_on(void** state) {
   }
 }
 
-/* The other calls its landmarks by names of its own, some of which the map has for others. */
+/* The other rover uses its own ids. Some of them belong to other landmarks in this map. */
 static void maps_merge_by_geometry(void** state) {
   (void)state;
   for (int kind = SINGLE; kind < KINDS; ++kind) {
@@ -223,7 +223,7 @@ static void maps_merge_by_geometry(void** state) {
   }
 }
 
-/* A transform known beforehand: exactly, well, hardly. */
+/* A transform that is known beforehand: exactly, well, hardly. */
 static void a_known_transform_helps(void** state) {
   (void)state;
   for (int kind = SINGLE; kind < KINDS; ++kind) {
@@ -260,12 +260,13 @@ static void a_known_transform_helps(void** state) {
       rover_close(&west), rover_close(&east);
     }
     assert_true(sigmas[0] < sigmas[1] && sigmas[1] < sigmas[2]);
-    assert_near(sigmas[2], sigmas[3], 0.02 * sigmas[3]); /* as good as unknown */
+    assert_near(sigmas[2], sigmas[3], 0.02 * sigmas[3]); /* practically unknown */
   }
 }
 
-/* A sparse map that was merged by a known transform hangs together in its own frame: it takes others in, no more. */
-static void parts_tied_to_a_frame_stay_in_it(void** state) {
+/* A sparse map that was merged by a known transform is tied to its frame: other maps can be merged into it, but it
+ * cannot be merged into another one. */
+static void maps_tied_to_a_frame_stay_in_it(void** state) {
   (void)state;
   for (int kind = SINGLE; kind < KINDS; ++kind) {
     rover west, east, middle;
@@ -324,7 +325,7 @@ static void refusals_change_nothing(void** state) {
     cairn_merge_options options = new_options(CAIRN_MERGE_BY_ID);
     cairn_merge_report report = new_report();
     cairn_map *copy = NULL, *empty = NULL;
-    rover nobody, foreign;
+    rover empty_rover, foreign;
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_merge(NULL, d.other, NULL, NULL));
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "other", cairn_map_merge(d.map, NULL, NULL, NULL));
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "other", cairn_map_merge(d.map, d.map, NULL, NULL));
@@ -335,27 +336,27 @@ static void refusals_change_nothing(void** state) {
     assert_refused(NULL, CAIRN_ERROR_STATE, "cairn_map_copy",
                    cairn_map_merge((cairn_map*)(uintptr_t)cairn_filter_map(d.west.filter), d.other, NULL, NULL));
     cairn_map_destroy(copy);
-    /* the other kind */
+    /* a map of the other kind */
     rover_east(&foreign, kind == SPARSE ? JOINED : SPARSE, 1, 100);
     copy = rover_map(&foreign);
     assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(d.map, copy, NULL, NULL));
     cairn_map_destroy(copy), rover_close(&foreign);
-    /* nothing in common, nothing at all */
+    /* nothing in common; an empty map */
     rover_east(&foreign, kind, 1, 500);
     copy = rover_map(&foreign);
     assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "other", cairn_map_merge(d.map, copy, NULL, &report));
     assert_true(report.common == 0 && report.broken_id == CAIRN_ID_NONE);
     cairn_map_destroy(copy), rover_close(&foreign);
-    rover_open(&nobody, kind, 1, pose_at(0, 0, 0, 0, 0, 0), 1);
-    assert_ok(cairn_map_copy(cairn_filter_map(nobody.filter), &empty));
+    rover_open(&empty_rover, kind, 1, pose_at(0, 0, 0, 0, 0, 0), 1);
+    assert_ok(cairn_map_copy(cairn_filter_map(empty_rover.filter), &empty));
     for (int32_t by = CAIRN_MERGE_BY_ID; by <= CAIRN_MERGE_BY_GEOMETRY; ++by) {
       options.association = by;
       assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "other", cairn_map_merge(d.map, empty, &options, NULL));
       assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "map", cairn_map_merge(empty, d.other, &options, NULL));
     }
     assert_int_equal(size_of(empty), 0);
-    cairn_map_destroy(empty), rover_close(&nobody);
-    /* room */
+    cairn_map_destroy(empty), rover_close(&empty_rover);
+    /* max_landmarks */
     options = new_options(CAIRN_MERGE_BY_ID);
     options.max_landmarks = size_of(d.map) + size_of(d.other) - count_common(d.map, d.other) - 1;
     assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_landmarks", cairn_map_merge(d.map, d.other, &options, NULL));
@@ -378,7 +379,7 @@ static void refusals_change_nothing(void** state) {
     options = new_options(2);
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "association", cairn_map_merge(d.map, d.other, &options, NULL));
     duo_same(&d);
-    /* and after all that it merges */
+    /* after all these refusals the merge succeeds */
     options.association = CAIRN_MERGE_BY_ID;
     options.max_landmarks = size_of(d.map) + size_of(d.other) - count_common(d.map, d.other);
     assert_ok(cairn_map_merge(d.map, d.other, &options, &report));
@@ -386,7 +387,7 @@ static void refusals_change_nothing(void** state) {
   }
 }
 
-/* Names that are shifted by one: every common landmark is another one in truth. */
+/* Ids that are shifted by one: every common landmark is a different one in truth. */
 static void contradictions_are_named(void** state) {
   (void)state;
   for (int kind = SINGLE; kind < KINDS; ++kind) {
@@ -402,7 +403,7 @@ static void contradictions_are_named(void** state) {
     snprintf(name, sizeof name, "%llu", (unsigned long long)report.broken_id);
     assert_non_null(strstr(cairn_last_message(), name));
     duo_same(&d);
-    /* A transform that is known, and wrong. */
+    /* A known transform that is wrong. */
     cairn_merge_options options = new_options(CAIRN_MERGE_BY_ID);
     options.has_transform = 1;
     options.T_map_other = pose_at(5, 5, 5, 0, 0, 1);
@@ -413,7 +414,7 @@ static void contradictions_are_named(void** state) {
   }
 }
 
-/* Options and reports of callers older and newer than the library. */
+/* Options and reports of older and newer callers. */
 static void structs_of_other_sizes(void** state) {
   (void)state;
   duo d;
@@ -444,7 +445,7 @@ int main(void) {
       cmocka_unit_test(merged_maps_merge_on),
       cmocka_unit_test(maps_merge_by_geometry),
       cmocka_unit_test(a_known_transform_helps),
-      cmocka_unit_test(parts_tied_to_a_frame_stay_in_it),
+      cmocka_unit_test(maps_tied_to_a_frame_stay_in_it),
       cmocka_unit_test(refusals_change_nothing),
       cmocka_unit_test(contradictions_are_named),
       cmocka_unit_test(structs_of_other_sizes),

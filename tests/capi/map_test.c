@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Queries of the map against a plain scan over all landmarks, buffers of the wrong size, joint covariances. */
+/* Queries of the map compared with a plain scan over all landmarks, buffers of wrong size, joint covariances. */
 #include "support.h"
 
 enum { MANY = 60 };
 
-/* A map of many landmarks on a grid, so that distances tie, with ids in no order. */
+/* A map of many landmarks on a grid, so that distances tie. The ids are in random order. */
 typedef struct atlas {
   rig rig;
-  const cairn_map *map;
+  const cairn_map* map;
   cairn_landmark all[MANY];
   size_t size;
 } atlas;
 
-static int setup(void **state) {
-  atlas *a = calloc(1, sizeof *a);
+static int setup(void** state) {
+  atlas* a = calloc(1, sizeof *a);
   cairn_filter_options options = test_options();
   assert_non_null(a);
   options.max_landmarks = MANY, options.max_observations = MANY;
@@ -26,7 +26,7 @@ static int setup(void **state) {
     o[i].id = ((uint64_t)i * 37 + 11) % 61 * (i % 3 == 0 ? UINT64_C(1000000007) : 1) + (uint64_t)(i % 3) * 100;
     o[i].z[0] = i % 5 - 2, o[i].z[1] = i / 5 % 4 - 1.5, o[i].z[2] = i / 20 - 1;
   }
-  o[8].id = CAIRN_ID_NONE - 1; /* and o[3] has 0: the ends of what an id may be */
+  o[8].id = CAIRN_ID_NONE - 1; /* o[3] has id 0: the smallest and the largest id */
   assert_ok(cairn_filter_update(a->rig.filter, a->rig.sensors[CARTESIAN], o, MANY / 2, NULL));
   assert_ok(cairn_filter_predict_wheels(a->rig.filter, 0.1, 0, 0));
   assert_ok(cairn_filter_update(a->rig.filter, a->rig.sensors[CARTESIAN], o + MANY / 2, MANY / 2, NULL));
@@ -37,15 +37,15 @@ static int setup(void **state) {
   return 0;
 }
 
-static int teardown(void **state) {
-  atlas *a = *state;
+static int teardown(void** state) {
+  atlas* a = *state;
   rig_close(&a->rig);
   free(a);
   return 0;
 }
 
-static void landmarks_come_by_ascending_id(void **state) {
-  const atlas *a = *state;
+static void landmarks_come_by_ascending_id(void** state) {
+  const atlas* a = *state;
   size_t count = 0;
   assert_ok(cairn_map_size(a->map, &count));
   assert_int_equal(count, MANY);
@@ -60,19 +60,19 @@ static void landmarks_come_by_ascending_id(void **state) {
   }
 }
 
-/* The scan that queries are held against. */
+/* The plain scan. */
 typedef struct found {
   double square;
   cairn_landmark landmark;
 } found;
 
-static int by_distance(const void *a, const void *b) {
+static int by_distance(const void* a, const void* b) {
   const found *x = a, *y = b;
   if (x->square != y->square) return x->square < y->square ? -1 : 1;
   return x->landmark.id < y->landmark.id ? -1 : x->landmark.id > y->landmark.id;
 }
 
-static size_t scan(const atlas *a, const double centre[3], found out[MANY]) {
+static size_t scan(const atlas* a, const double centre[3], found out[MANY]) {
   for (size_t i = 0; i < a->size; ++i) {
     double d[3];
     for (int k = 0; k < 3; ++k) d[k] = a->all[i].position[k] - centre[k];
@@ -83,8 +83,9 @@ static size_t scan(const atlas *a, const double centre[3], found out[MANY]) {
   return a->size;
 }
 
-/* Distances that agree but for rounding may come in either order in the scan; the query's own rule is held exactly. */
-static void expect_nearest_first(const cairn_landmark *got, size_t n, const double centre[3], const found *expected) {
+/* The scan may order distances that differ only by rounding either way. The order rule of the query is checked exactly.
+ * */
+static void expect_nearest_first(const cairn_landmark* got, size_t n, const double centre[3], const found* expected) {
   double last = -1;
   for (size_t i = 0; i < n; ++i) {
     double square = 0;
@@ -96,8 +97,8 @@ static void expect_nearest_first(const cairn_landmark *got, size_t n, const doub
   }
 }
 
-static void within_is_the_scan_cut_at_the_radius(void **state) {
-  const atlas *a = *state;
+static void within_is_the_scan_cut_at_the_radius(void** state) {
+  const atlas* a = *state;
   generator random = {12};
   for (int n = 0; n < 300; ++n) {
     const double centre[3] = {random_uniform(&random, -3, 3), random_uniform(&random, -3, 3),
@@ -114,8 +115,8 @@ static void within_is_the_scan_cut_at_the_radius(void **state) {
   }
 }
 
-static void nearest_is_the_scan_cut_at_the_count(void **state) {
-  const atlas *a = *state;
+static void nearest_is_the_scan_cut_at_the_count(void** state) {
+  const atlas* a = *state;
   generator random = {13};
   for (int n = 0; n < 300; ++n) {
     const double point[3] = {random_uniform(&random, -3, 3), random_uniform(&random, -3, 3),
@@ -138,9 +139,10 @@ static void nearest_is_the_scan_cut_at_the_count(void **state) {
   assert_int_equal(needed, MANY);
 }
 
-/* A landmark asked for at its own place comes first, with a radius of 0 alone; two at one place come by id. */
-static void ties_come_by_id(void **state) {
-  const atlas *a = *state;
+/* A landmark whose own position is queried comes first, and is the only one within radius 0. Two landmarks at one place
+ * are ordered by id. */
+static void ties_come_by_id(void** state) {
+  const atlas* a = *state;
   cairn_landmark got[MANY];
   found expected[MANY];
   size_t needed;
@@ -149,7 +151,7 @@ static void ties_come_by_id(void **state) {
     assert_int_equal(needed, 1);
     assert_int_equal(got[0].id, a->all[i].id);
   }
-  const double centre[3] = {0, 0, 0}; /* the grid is symmetric about it */
+  const double centre[3] = {0, 0, 0}; /* the grid is symmetric about this point */
   (void)scan(a, centre, expected);
   assert_ok(cairn_map_nearest(a->map, centre, MANY, got, MANY, &needed));
   expect_nearest_first(got, needed, centre, expected);
@@ -164,8 +166,8 @@ static void ties_come_by_id(void **state) {
   assert_true(ties > 5);
 }
 
-static void in_box_is_the_scan_by_id(void **state) {
-  const atlas *a = *state;
+static void in_box_is_the_scan_by_id(void** state) {
+  const atlas* a = *state;
   generator random = {14};
   for (int n = 0; n < 300; ++n) {
     double lower[3], upper[3];
@@ -174,7 +176,7 @@ static void in_box_is_the_scan_by_id(void **state) {
     for (int k = 0; k < 3; ++k) {
       lower[k] = random_uniform(&random, -3, 2), upper[k] = lower[k] + random_uniform(&random, 0, 4);
       if (n % 10 == 0)
-        lower[k] = a->all[n % MANY].position[k], upper[k] = a->all[(n + 7) % MANY].position[k]; /* closed */
+        lower[k] = a->all[n % MANY].position[k], upper[k] = a->all[(n + 7) % MANY].position[k]; /* closed intervals */
       if (lower[k] > upper[k]) upper[k] = lower[k];
     }
     assert_ok(cairn_map_in_box(a->map, lower, upper, got, MANY, &needed));
@@ -192,15 +194,15 @@ static void in_box_is_the_scan_by_id(void **state) {
 
 static const double centre_[3] = {0.1, 0.2, 0.3}, low_[3] = {-9, -9, -9}, high_[3] = {9, 9, 9};
 
-static cairn_status query(const atlas *a, int which, cairn_landmark *out, size_t capacity, size_t *needed) {
+static cairn_status query(const atlas* a, int which, cairn_landmark* out, size_t capacity, size_t* needed) {
   if (which == 0) return cairn_map_landmarks(a->map, out, capacity, needed);
   if (which == 1) return cairn_map_within(a->map, centre_, 1.5, out, capacity, needed);
   if (which == 2) return cairn_map_nearest(a->map, centre_, 13, out, capacity, needed);
   return cairn_map_in_box(a->map, low_, high_, out, capacity, needed);
 }
 
-static void short_buffers_are_told_and_not_touched(void **state) {
-  const atlas *a = *state;
+static void short_buffers_are_told_and_not_touched(void** state) {
+  const atlas* a = *state;
   for (int which = 0; which < 4; ++which) {
     size_t size = 4711, needed = 4711;
     cairn_landmark out[MANY + 1], kept[MANY + 1];
@@ -222,9 +224,9 @@ static void short_buffers_are_told_and_not_touched(void **state) {
   }
 }
 
-static void joint_covariance_of_the_map(void **state) {
-  bench *b = *state;
-  const cairn_map *map = cairn_filter_map(b->main.filter);
+static void joint_covariance_of_the_map(void** state) {
+  bench* b = *state;
+  const cairn_map* map = cairn_filter_map(b->main.filter);
   const uint64_t ids[3] = {9, 2, 12};
   double joint[81], with_pose[225], pose[36], canary[81];
   size_t needed = 0;
@@ -253,9 +255,9 @@ static void joint_covariance_of_the_map(void **state) {
     }
   }
   for (int i = 0; i < 9; ++i) cross += fabs(joint[9 * (i / 3) + 3 + i % 3]);
-  assert_true(cross > 1e-6); /* landmarks seen from one uncertain vehicle hang together */
+  assert_true(cross > 1e-6); /* landmarks that were seen from one uncertain vehicle are correlated */
 
-  /* short, and nothing at all */
+  /* too short, and NULL */
   memset(joint, 0x5a, sizeof joint);
   memcpy(canary, joint, sizeof canary);
   assert_refused(NULL, CAIRN_ERROR_BUFFER, "matrix", cairn_map_joint_covariance(map, ids, 3, joint, 80, &needed));
@@ -272,10 +274,10 @@ static void joint_covariance_of_the_map(void **state) {
   assert_memory_equal(with_pose, pose, sizeof pose);
 }
 
-static void joint_covariance_refuses(void **state) {
-  bench *b = *state;
-  const cairn_map *map = cairn_filter_map(b->main.filter);
-  cairn_filter *f = b->main.filter;
+static void joint_covariance_refuses(void** state) {
+  bench* b = *state;
+  const cairn_map* map = cairn_filter_map(b->main.filter);
+  cairn_filter* f = b->main.filter;
   const uint64_t ids[2] = {9, 2}, unknown[2] = {9, 4711}, twice[2] = {9, 9};
   double m[225];
   size_t n = 4711;
@@ -294,12 +296,12 @@ static void joint_covariance_refuses(void **state) {
   assert_int_equal(n, 4711);
 }
 
-static void bad_queries_are_refused_by_name(void **state) {
-  const atlas *a = *state;
+static void bad_queries_are_refused_by_name(void** state) {
+  const atlas* a = *state;
   cairn_landmark out[MANY];
   double p[3] = {0, 0, 0}, q[3] = {1, 1, 1};
   size_t n = 4711;
-  const cairn_map *m = a->map;
+  const cairn_map* m = a->map;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_size(NULL, &n));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "count", cairn_map_size(m, NULL));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_landmark(NULL, 1, out));
@@ -334,14 +336,14 @@ static void bad_queries_are_refused_by_name(void **state) {
   assert_int_equal(n, 4711);
 }
 
-static void an_empty_map_answers_too(void **state) {
+static void an_empty_map_can_be_queried(void** state) {
   rig r;
   const cairn_filter_options options = test_options();
   size_t n = 4711;
   cairn_landmark out;
   (void)state;
   rig_open(&r, &options);
-  const cairn_map *map = cairn_filter_map(r.filter);
+  const cairn_map* map = cairn_filter_map(r.filter);
   assert_ok(cairn_map_landmarks(map, NULL, 0, &n));
   assert_int_equal(n, 0);
   assert_ok(cairn_map_within(map, centre_, 100, &out, 1, &n));
@@ -366,7 +368,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(joint_covariance_of_the_map, bench_setup, bench_teardown),
       cmocka_unit_test_setup_teardown(joint_covariance_refuses, bench_setup, bench_teardown),
       TEST(bad_queries_are_refused_by_name),
-      cmocka_unit_test(an_empty_map_answers_too),
+      cmocka_unit_test(an_empty_map_can_be_queried),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

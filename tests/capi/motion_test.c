@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Motion: where each model takes the pose, how its noise grows the covariance, and what it refuses. */
+/* Motion: the pose and the covariance after each motion model, and refused inputs. */
 #include "support.h"
 
-static cairn_filter *create(const cairn_pose *start, const double *covariance, int32_t error) {
+static cairn_filter* create(const cairn_pose* start, const double* covariance, int32_t error) {
   cairn_filter_options options = test_options();
-  cairn_filter *filter = NULL;
+  cairn_filter* filter = NULL;
   options.error = error;
   options.initial_pose = *start;
   memset(options.initial_covariance, 0, sizeof options.initial_covariance);
@@ -13,7 +13,7 @@ static cairn_filter *create(const cairn_pose *start, const double *covariance, i
   return filter;
 }
 
-static void expect_pose(const cairn_filter *filter, const cairn_pose *expected, double tolerance) {
+static void expect_pose(const cairn_filter* filter, const cairn_pose* expected, double tolerance) {
   cairn_pose pose;
   double error[6];
   assert_ok(cairn_filter_pose(filter, &pose, NULL));
@@ -21,7 +21,7 @@ static void expect_pose(const cairn_filter *filter, const cairn_pose *expected, 
   for (int i = 0; i < 6; ++i) assert_near(error[i], 0, tolerance);
 }
 
-static void wheels_defaults(void **state) {
+static void wheels_defaults(void** state) {
   cairn_wheels w;
   (void)state;
   memset(&w, 0x5a, sizeof w);
@@ -38,7 +38,7 @@ static void wheels_defaults(void **state) {
   assert_near(w.pitch_rate_sigma, 0.05, 0);
 }
 
-static void twist_noise_defaults(void **state) {
+static void twist_noise_defaults(void** state) {
   cairn_twist_noise n;
   (void)state;
   memset(&n, 0x5a, sizeof n);
@@ -51,8 +51,8 @@ static void twist_noise_defaults(void **state) {
   }
 }
 
-/* Body velocity and rate held for dt is the group's exponential: checked against many small Euler steps. */
-static void twist_integrates_on_the_group(void **state) {
+/* Constant body velocity and rate over dt give the exponential of the group: compared with many small Euler steps. */
+static void twist_integrates_on_the_group(void** state) {
   const cairn_pose start = pose_at(1, 2, 3, 0.3, -0.4, 2.0);
   const double v[3] = {1.0, -0.4, 0.2}, w[3] = {0.3, -0.2, 0.8}, dt = 0.7;
   cairn_pose expected = start;
@@ -71,51 +71,51 @@ static void twist_integrates_on_the_group(void **state) {
     memcpy(whole.position, moved, sizeof moved);
     assert_ok(cairn_pose_compose(&expected, &whole, &expected));
   }
-  cairn_filter *filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
+  cairn_filter* filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
   assert_ok(cairn_filter_predict_twist(filter, dt, v, w));
   expect_pose(filter, &expected, 1e-9);
   cairn_filter_destroy(filter);
 }
 
-static void wheels_drive_an_arc(void **state) {
+static void wheels_drive_an_arc(void** state) {
   const cairn_pose start = pose_at(0, 0, 0, 0, 0, 0);
   const double left = 2, right = 3, dt = 1.5, speed = 0.3 * 2.5, turn = 0.3 / 1.0 * 1.0;
   (void)state;
   for (int sign = 0; sign < 2; ++sign) {
     cairn_wheels wheels;
-    cairn_filter *filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
+    cairn_filter* filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
     const double angle = (sign == 0 ? 1 : -1) * turn * dt;
     const cairn_pose expected =
         pose_at(speed * dt / angle * sin(angle), speed * dt / angle * (1 - cos(angle)), 0, 0, 0, angle);
     assert_ok(cairn_wheels_init(&wheels, sizeof wheels));
     wheels.yaw_sign = sign == 0 ? CAIRN_YAW_RIGHT_MINUS_LEFT : CAIRN_YAW_LEFT_MINUS_RIGHT;
-    if (sign == 1) assert_ok(cairn_filter_set_wheels(filter, &wheels)); /* sign 0 is what holds before any call */
+    if (sign == 1) assert_ok(cairn_filter_set_wheels(filter, &wheels)); /* sign 0 is the default before any call */
     assert_ok(cairn_filter_predict_wheels(filter, dt, left, right));
     expect_pose(filter, &expected, 1e-12);
     cairn_filter_destroy(filter);
   }
 }
 
-static void wheels_take_their_geometry_from_the_caller(void **state) {
+static void wheels_use_the_geometry_of_the_caller(void** state) {
   const cairn_pose start = pose_at(0, 0, 0, 0, 0, 0);
-  cairn_filter *filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
+  cairn_filter* filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
   cairn_wheels wheels;
   (void)state;
   assert_ok(cairn_wheels_init(&wheels, sizeof wheels));
   wheels.radius = 0.1, wheels.track = 0.4;
   assert_ok(cairn_filter_set_wheels(filter, &wheels));
-  memset(&wheels, 0, sizeof wheels); /* it was copied */
+  memset(&wheels, 0, sizeof wheels); /* the library copied it */
   assert_ok(cairn_filter_predict_wheels(filter, 1, -1, 1));
   const cairn_pose expected = pose_at(0, 0, 0, 0, 0, 0.1 / 0.4 * 2);
   expect_pose(filter, &expected, 1e-12);
   cairn_filter_destroy(filter);
 }
 
-static void increments_compose(void **state) {
+static void increments_compose(void** state) {
   const cairn_pose start = pose_at(1, 2, 3, 0.3, -0.4, 2.0), move = pose_at(0.5, 0.1, -0.2, 0.05, 0.02, -0.3);
   double covariance[36];
   cairn_pose expected;
-  cairn_filter *filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
+  cairn_filter* filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
   (void)state;
   diagonal(covariance, 6, 1e-4);
   assert_ok(cairn_pose_compose(&start, &move, &expected));
@@ -124,19 +124,19 @@ static void increments_compose(void **state) {
   cairn_filter_destroy(filter);
 }
 
-static void expect_covariance(const cairn_filter *filter, const double expected[36], double relative) {
+static void expect_covariance(const cairn_filter* filter, const double expected[36], double relative) {
   double covariance[36], scale = 0;
   assert_ok(cairn_filter_pose(filter, NULL, covariance));
   for (int i = 0; i < 36; ++i) scale = fmax(scale, fabs(expected[i]));
   for (int i = 0; i < 36; ++i) assert_near(covariance[i], expected[i], relative * scale);
 }
 
-static void noise_at_rest_is_a_sigma_times_dt(void **state) {
+static void noise_at_rest_is_a_sigma_times_dt(void** state) {
   const cairn_pose start = pose_at(0, 0, 0, 0, 0, 0);
   const double rest[3] = {0, 0, 0}, dt = 0.5;
   (void)state;
   for (int32_t error = CAIRN_ERROR_INVARIANT; error <= CAIRN_ERROR_STANDARD; ++error) {
-    cairn_filter *filter = create(&start, NULL, error);
+    cairn_filter* filter = create(&start, NULL, error);
     cairn_twist_noise noise;
     double expected[36] = {0};
     assert_ok(cairn_twist_noise_init(&noise, sizeof noise));
@@ -151,11 +151,11 @@ static void noise_at_rest_is_a_sigma_times_dt(void **state) {
   }
 }
 
-static void wheel_noise_is_that_of_eq_1(void **state) {
+static void wheel_noise_follows_eq_1(void** state) {
   const cairn_pose start = pose_at(0, 0, 0, 0, 0, 0);
-  const double dt = 1e-3, left = 2, right = 4; /* a short step: terms of order dt^3 are out of sight */
+  const double dt = 1e-3, left = 2, right = 4; /* a short step: terms of order dt^3 are negligible */
   cairn_wheels w;
-  cairn_filter *filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
+  cairn_filter* filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
   double expected[36] = {0};
   (void)state;
   assert_ok(cairn_wheels_init(&w, sizeof w));
@@ -175,8 +175,9 @@ static void wheel_noise_is_that_of_eq_1(void **state) {
   cairn_filter_destroy(filter);
 }
 
-/* The increment's error stands in the axes of the body before; the prior's lever turns attitude into position. */
-static void increment_covariance_is_turned_and_carried(void **state) {
+/* The error of the increment is in the axes of the body before the step; the lever arm turns the error of the prior
+ * attitude into a position error. */
+static void increment_covariance_is_rotated_and_propagated(void** state) {
   const cairn_pose start = pose_at(4, -3, 2, 0.4, -0.7, 1.9), move = pose_at(3, 1, -0.5, 0.2, 0.1, 0.6);
   double prior[36], noise[36], expected[36], R[9], arm[3], cross[9], full[36] = {0}, F[36];
   (void)state;
@@ -201,15 +202,16 @@ static void increment_covariance_is_turned_and_carried(void **state) {
               F[6 * i + k] * prior[6 * k + n] * F[6 * j + n] + full[6 * i + k] * noise[6 * k + n] * full[6 * j + n];
     }
   for (int32_t error = CAIRN_ERROR_INVARIANT; error <= CAIRN_ERROR_STANDARD; ++error) {
-    cairn_filter *filter = create(&start, prior, error);
+    cairn_filter* filter = create(&start, prior, error);
     assert_ok(cairn_filter_predict_increment(filter, &move, noise));
     expect_covariance(filter, expected, 1e-12);
     cairn_filter_destroy(filter);
   }
 }
 
-/* Structs of another age. A caller's canary behind a short struct stays; a longer one acts like the exact one. */
-static void wheels_of_another_age(void **state) {
+/* Structs of other versions. The bytes behind a short struct stay unchanged; a longer struct acts like the exact one.
+ * */
+static void wheels_of_other_versions(void** state) {
   struct {
     cairn_wheels wheels;
     double later[4];
@@ -223,20 +225,20 @@ static void wheels_of_another_age(void **state) {
   assert_ok(cairn_wheels_init(&old, known));
   assert_int_equal(old.struct_size, known);
   assert_near(old.radius, 0.3, 0);
-  for (size_t i = known; i < sizeof old; ++i) assert_int_equal(((unsigned char *)&old)[i], 0x5a);
+  for (size_t i = known; i < sizeof old; ++i) assert_int_equal(((unsigned char*)&old)[i], 0x5a);
 
   assert_ok(cairn_wheels_init(&exact, sizeof exact));
   exact.radius = old.radius = 0.5;
   memset(&future, 0x5a, sizeof future);
   memcpy(&future.wheels, &exact, sizeof exact);
   future.wheels.struct_size = sizeof future;
-  const cairn_wheels *others[] = {&old, &future.wheels};
-  cairn_filter *reference = create(&start, NULL, CAIRN_ERROR_INVARIANT);
+  const cairn_wheels* others[] = {&old, &future.wheels};
+  cairn_filter* reference = create(&start, NULL, CAIRN_ERROR_INVARIANT);
   assert_ok(cairn_filter_set_wheels(reference, &exact));
   assert_ok(cairn_filter_predict_wheels(reference, 0.1, 1, 2));
   assert_ok(cairn_filter_pose(reference, &a, pa));
   for (size_t i = 0; i < LENGTH(others); ++i) {
-    cairn_filter *filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
+    cairn_filter* filter = create(&start, NULL, CAIRN_ERROR_INVARIANT);
     assert_ok(cairn_filter_set_wheels(filter, others[i]));
     assert_ok(cairn_filter_predict_wheels(filter, 0.1, 1, 2));
     assert_ok(cairn_filter_pose(filter, &b, pb));
@@ -247,7 +249,7 @@ static void wheels_of_another_age(void **state) {
   cairn_filter_destroy(reference);
 }
 
-static void init_refuses_sizes_that_hold_nothing(void **state) {
+static void init_refuses_too_small_sizes(void** state) {
   static const size_t sizes[] = {0, 1, 3, (size_t)1 << 31, (size_t)1 << 32, SIZE_MAX};
   cairn_wheels wheels, kept_wheels;
   cairn_twist_noise noise, kept_noise;
@@ -264,12 +266,12 @@ static void init_refuses_sizes_that_hold_nothing(void **state) {
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "noise", cairn_twist_noise_init(NULL, sizeof noise));
 }
 
-static void bad_wheels_are_refused(void **state) {
-  bench *b = *state;
+static void bad_wheels_are_refused(void** state) {
+  bench* b = *state;
   cairn_wheels good;
   assert_ok(cairn_wheels_init(&good, sizeof good));
   static const struct {
-    const char *name;
+    const char* name;
     size_t offset;
     bool may_be_zero;
   } fields[] = {{"radius", offsetof(cairn_wheels, radius), false},
@@ -284,7 +286,7 @@ static void bad_wheels_are_refused(void **state) {
     const double bad[] = {NAN, INFINITY, -INFINITY, -1e-9, fields[k].may_be_zero ? -1.0 : 0.0};
     for (size_t n = 0; n < LENGTH(bad); ++n) {
       cairn_wheels wheels = good;
-      *(double *)(void *)((unsigned char *)&wheels + fields[k].offset) = bad[n];
+      *(double*)(void*)((unsigned char*)&wheels + fields[k].offset) = bad[n];
       assert_refused(b, CAIRN_ERROR_ARGUMENT, fields[k].name, cairn_filter_set_wheels(b->main.filter, &wheels));
     }
   }
@@ -305,8 +307,8 @@ static void bad_wheels_are_refused(void **state) {
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_set_wheels(NULL, &good));
 }
 
-static void bad_twist_noise_is_refused(void **state) {
-  bench *b = *state;
+static void bad_twist_noise_is_refused(void** state) {
+  bench* b = *state;
   static const double bad[] = {NAN, INFINITY, -INFINITY, -1e-9};
   cairn_twist_noise good, noise;
   assert_ok(cairn_twist_noise_init(&good, sizeof good));
@@ -336,13 +338,13 @@ int main(void) {
       cmocka_unit_test(twist_noise_defaults),
       cmocka_unit_test(twist_integrates_on_the_group),
       cmocka_unit_test(wheels_drive_an_arc),
-      cmocka_unit_test(wheels_take_their_geometry_from_the_caller),
+      cmocka_unit_test(wheels_use_the_geometry_of_the_caller),
       cmocka_unit_test(increments_compose),
       cmocka_unit_test(noise_at_rest_is_a_sigma_times_dt),
-      cmocka_unit_test(wheel_noise_is_that_of_eq_1),
-      cmocka_unit_test(increment_covariance_is_turned_and_carried),
-      cmocka_unit_test(wheels_of_another_age),
-      cmocka_unit_test(init_refuses_sizes_that_hold_nothing),
+      cmocka_unit_test(wheel_noise_follows_eq_1),
+      cmocka_unit_test(increment_covariance_is_rotated_and_propagated),
+      cmocka_unit_test(wheels_of_other_versions),
+      cmocka_unit_test(init_refuses_too_small_sizes),
       cmocka_unit_test_setup_teardown(bad_wheels_are_refused, bench_setup, bench_teardown),
       cmocka_unit_test_setup_teardown(bad_twist_noise_is_refused, bench_setup, bench_teardown),
   };

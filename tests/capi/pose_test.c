@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* Poses, quaternions and Euler angles. */
 #include "support.h"
 
-static cairn_pose random_pose(generator *random) {
+static cairn_pose random_pose(generator* random) {
   cairn_pose pose;
   double square = 0;
   do {
@@ -25,7 +26,7 @@ static void assert_unit(const double q[4]) {
   assert_near(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], 1, 1e-14);
 }
 
-static void identity_is_the_identity(void **state) {
+static void identity_is_the_identity(void** state) {
   cairn_pose pose;
   (void)state;
   memset(&pose, 0x5a, sizeof pose);
@@ -34,7 +35,7 @@ static void identity_is_the_identity(void **state) {
   for (int i = 0; i < 4; ++i) assert_true(pose.quaternion[i] == (i == 0 ? 1.0 : 0.0));
 }
 
-static void compose_chains_two_maps_of_points(void **state) {
+static void compose_chains_two_maps_of_points(void** state) {
   generator random = {1};
   (void)state;
   for (int n = 0; n < 200; ++n) {
@@ -52,7 +53,7 @@ static void compose_chains_two_maps_of_points(void **state) {
   }
 }
 
-static void inverse_undoes_and_apply_moves(void **state) {
+static void inverse_undoes_and_apply_moves(void** state) {
   generator random = {2};
   (void)state;
   for (int n = 0; n < 200; ++n) {
@@ -72,7 +73,7 @@ static void inverse_undoes_and_apply_moves(void **state) {
   }
 }
 
-static void results_may_be_one_of_the_inputs(void **state) {
+static void a_result_may_overwrite_an_input(void** state) {
   generator random = {3};
   const cairn_pose ab = random_pose(&random), bc = random_pose(&random);
   cairn_pose apart, result;
@@ -98,7 +99,7 @@ static void results_may_be_one_of_the_inputs(void **state) {
   assert_memory_equal(point, moved, sizeof moved);
 }
 
-static void quaternions_are_normalised_at_any_scale(void **state) {
+static void quaternions_are_normalised_at_any_scale(void** state) {
   static const double scales[] = {1e-90, 1e-20, 0.5, 3, 1e20, 1e160, 1e308};
   generator random = {4};
   const cairn_pose ab = random_pose(&random), identity = {{0, 0, 0}, {1, 0, 0, 0}};
@@ -112,7 +113,7 @@ static void quaternions_are_normalised_at_any_scale(void **state) {
   }
 }
 
-static void euler_is_yaw_pitch_roll(void **state) {
+static void euler_is_yaw_pitch_roll(void** state) {
   generator random = {5};
   (void)state;
   for (int n = 0; n < 300; ++n) {
@@ -136,7 +137,7 @@ static void euler_is_yaw_pitch_roll(void **state) {
   }
 }
 
-static void at_gimbal_lock_roll_is_zero_and_the_rotation_stays(void **state) {
+static void at_gimbal_lock_roll_is_zero_and_the_rotation_stays(void** state) {
   (void)state;
   for (int sign = -1; sign <= 1; sign += 2)
     for (double yaw = -3; yaw < 3.1; yaw += 0.75) {
@@ -151,7 +152,7 @@ static void at_gimbal_lock_roll_is_zero_and_the_rotation_stays(void **state) {
     }
 }
 
-static void near_gimbal_lock_the_rotation_survives(void **state) {
+static void near_gimbal_lock_the_rotation_survives(void** state) {
   (void)state;
   for (double gap = 1e-1; gap > 1e-12; gap /= 10)
     for (int sign = -1; sign <= 1; sign += 2) {
@@ -164,7 +165,7 @@ static void near_gimbal_lock_the_rotation_survives(void **state) {
     }
 }
 
-static void exp_is_rodrigues_and_log_its_inverse(void **state) {
+static void exp_is_rodrigues_and_log_its_inverse(void** state) {
   static const double angles[] = {0, 1e-300, 1e-160, 1e-12, 1e-8,      1e-4,      0.1,
                                   1, 2,      3,      3.14,  PI - 1e-6, PI - 1e-9, PI - 1e-12};
   generator random = {6};
@@ -189,7 +190,7 @@ static void exp_is_rodrigues_and_log_its_inverse(void **state) {
     }
 }
 
-static void log_is_never_longer_than_pi(void **state) {
+static void log_is_never_longer_than_pi(void** state) {
   const double half_turn[4] = {0, 0, 1, 0}, turn_and_more[3] = {0, 0, 3.5};
   double v[3], q[4];
   (void)state;
@@ -201,7 +202,7 @@ static void log_is_never_longer_than_pi(void **state) {
   assert_near(v[2], 3.5 - 2 * PI, 1e-14);
 }
 
-static void error_is_what_takes_the_estimate_to_the_truth(void **state) {
+static void the_error_takes_the_estimate_to_the_truth(void** state) {
   generator random = {7};
   (void)state;
   for (int n = 0; n < 100; ++n) {
@@ -218,7 +219,7 @@ static void error_is_what_takes_the_estimate_to_the_truth(void **state) {
   }
 }
 
-static void every_null_is_refused_by_name(void **state) {
+static void every_null_is_refused_by_name(void** state) {
   const cairn_pose pose = {{0, 0, 0}, {1, 0, 0, 0}};
   const double v[3] = {0, 0, 0}, q[4] = {1, 0, 0, 0};
   cairn_pose out;
@@ -247,8 +248,8 @@ static void every_null_is_refused_by_name(void **state) {
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "error", cairn_pose_error(&pose, &pose, NULL));
 }
 
-/* `bad` takes the place of `good` in every function that takes a pose; nothing may be written. */
-static void refuse_pose(const cairn_pose *good, const cairn_pose *bad) {
+/* `bad` replaces `good` in every function that takes a pose. Nothing may be written. */
+static void refuse_pose(const cairn_pose* good, const cairn_pose* bad) {
   cairn_pose out, kept;
   double v[3] = {7, 7, 7}, e[6] = {7, 7, 7, 7, 7, 7};
   const double p[3] = {0, 0, 0};
@@ -265,7 +266,7 @@ static void refuse_pose(const cairn_pose *good, const cairn_pose *bad) {
   for (int i = 0; i < 6; ++i) assert_true(e[i] == 7);
 }
 
-static void numbers_that_are_none_and_zero_quaternions_are_refused(void **state) {
+static void values_that_are_not_finite_and_zero_quaternions_are_refused(void** state) {
   const cairn_pose good = {{1, 2, 3}, {1, 0, 0, 0}};
   double q[4], v[3], r, p, y;
   (void)state;
@@ -301,16 +302,16 @@ int main(void) {
       cmocka_unit_test(identity_is_the_identity),
       cmocka_unit_test(compose_chains_two_maps_of_points),
       cmocka_unit_test(inverse_undoes_and_apply_moves),
-      cmocka_unit_test(results_may_be_one_of_the_inputs),
+      cmocka_unit_test(a_result_may_overwrite_an_input),
       cmocka_unit_test(quaternions_are_normalised_at_any_scale),
       cmocka_unit_test(euler_is_yaw_pitch_roll),
       cmocka_unit_test(at_gimbal_lock_roll_is_zero_and_the_rotation_stays),
       cmocka_unit_test(near_gimbal_lock_the_rotation_survives),
       cmocka_unit_test(exp_is_rodrigues_and_log_its_inverse),
       cmocka_unit_test(log_is_never_longer_than_pi),
-      cmocka_unit_test(error_is_what_takes_the_estimate_to_the_truth),
+      cmocka_unit_test(the_error_takes_the_estimate_to_the_truth),
       cmocka_unit_test(every_null_is_refused_by_name),
-      cmocka_unit_test(numbers_that_are_none_and_zero_quaternions_are_refused),
+      cmocka_unit_test(values_that_are_not_finite_and_zero_quaternions_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the tests of copies and merges share: rovers that drive through one field of landmarks, each in a frame of its
- * own, and everything that a map tells. */
+/* Shared by the tests of copies and merges: rovers that drive through one field of landmarks, each in its own frame,
+ * and snapshots of everything that a map tells. */
 #ifndef CAIRN_TESTS_CAPI_ROVERS_H
 #define CAIRN_TESTS_CAPI_ROVERS_H
 
@@ -9,14 +9,14 @@
 #define FIELD 48
 #define SEEN 16
 
-enum { SINGLE, JOINED, SPARSE, KINDS }; /* maps of a filter: single, densely joined, sparsely joined */
+enum { SINGLE, JOINED, SPARSE, KINDS }; /* kind of map of a filter: single, densely joined, sparsely joined */
 
 typedef struct rover {
   generator random;
-  cairn_pose start; /* its frame in the world: where it starts, exactly */
-  cairn_pose truth; /* of its body in the world */
+  cairn_pose start; /* the rover's frame in the world: its exact start */
+  cairn_pose truth; /* of the body in the world */
   cairn_filter* filter;
-  uint64_t first_id; /* landmark i goes by first_id + i */
+  uint64_t first_id; /* landmark i has the id first_id + i */
 } rover;
 
 static inline void field_landmark(unsigned i, double point[3]) {
@@ -56,7 +56,7 @@ static inline void rover_close(rover* r) {
   r->filter = NULL;
 }
 
-/* A metre at a time; whoever stands within 11 m is seen. */
+/* Drives one metre at a time. All landmarks within 11 m are seen. */
 static inline void rover_drive(rover* r, unsigned steps) {
   const double metres = 0.01, radians = 0.001, seen = 0.04;
   for (unsigned step = 0; step < steps; ++step) {
@@ -89,7 +89,7 @@ static inline void rover_drive(rover* r, unsigned steps) {
   }
 }
 
-/* Two rovers from both ends of the field that both see its middle, and one in the middle. */
+/* Two rovers that start at both ends of the field and both see its middle, and one rover in the middle. */
 static inline void rover_west(rover* r, int kind, uint64_t seed) {
   rover_open(r, kind, 1000 + seed, pose_at(-2, 1, 0.3, 0.02, -0.01, 0.05), 100);
   rover_drive(r, 58);
@@ -103,10 +103,10 @@ static inline void rover_middle(rover* r, int kind, uint64_t seed) {
   rover_drive(r, 40);
 }
 
-/* A copy of the rover's map, with what the open submap holds. */
+/* A copy of the rover's map, with the landmarks of the open submap. */
 static inline cairn_map* rover_map(rover* r) {
   cairn_map* map = NULL;
-  (void)cairn_filter_close_submap(r->filter); /* there may be none, or nothing in it */
+  (void)cairn_filter_close_submap(r->filter); /* there may be no open submap, or an empty one */
   assert_ok(cairn_map_copy(cairn_filter_map(r->filter), &map));
   assert_non_null(map);
   return map;
@@ -118,7 +118,7 @@ static inline size_t size_of(const cairn_map* map) {
   return count;
 }
 
-/* All that a map tells, as bytes: landmarks, their joint covariance, what a merge made of ids. */
+/* Everything that a map tells, as bytes: landmarks, their joint covariance, the merged ids. */
 static inline void map_take(snapshot* s, const cairn_map* map) {
   const size_t n = size_of(map);
   size_t renamed = 0, needed = 0;
@@ -137,8 +137,9 @@ static inline void map_take(snapshot* s, const cairn_map* map) {
   assert_ok(cairn_map_merged_ids(map, (cairn_merged_id*)(void*)(s->bytes + landmarks + joint), renamed, &needed));
 }
 
-/* The squared error of all landmarks of a map in the frame `start` of the world by their joint covariance, chi-square
- * of 3 n. `*far` (or NULL) gets the largest error, m. Landmark i has the id first_id + i. */
+/* Squared error of all landmarks of a map in the frame `start` of the world, normalised by their joint covariance:
+ * chi-square with 3 n degrees of freedom. `*far` (or NULL) gets the largest error, m. Landmark i has the id first_id +
+ * i. */
 static inline double map_nees(const cairn_map* map, const cairn_pose* start, uint64_t first_id, double* far) {
   const size_t n = size_of(map), m = 3 * n;
   size_t needed;
@@ -157,7 +158,7 @@ static inline double map_nees(const cairn_map* map, const cairn_pose* start, uin
     if (far != NULL && sqrt(square) > *far) *far = sqrt(square);
   }
   assert_ok(cairn_map_joint_covariance(map, ids, n, P, m * m, &needed));
-  for (size_t c = 0; c < m; ++c) { /* Cholesky, and forward substitution on the way */
+  for (size_t c = 0; c < m; ++c) { /* Cholesky factorisation with forward substitution in the same loop */
     for (size_t r = c; r < m; ++r) {
       for (size_t k = 0; k < c; ++k) P[r * m + c] -= P[r * m + k] * P[c * m + k];
       if (r == c) assert_true(P[c * m + c] > 0);

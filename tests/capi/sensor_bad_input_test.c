@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Descriptions of sensors that no filter may take, and structs of another age. */
+/* Sensor descriptions that filters refuse, and structs of other versions. */
 #include "support.h"
 
 typedef union description {
@@ -10,14 +10,14 @@ typedef union description {
   cairn_custom custom;
 } description;
 
-static cairn_status init(int kind, void *d, size_t size) {
+static cairn_status init(int kind, void* d, size_t size) {
   if (kind == HEAD) return cairn_stereo_head_init(d, size);
   if (kind == CAMERA) return cairn_stereo_camera_init(d, size);
   if (kind == CARTESIAN) return cairn_cartesian_init(d, size);
   return cairn_custom_init(d, size);
 }
 
-static cairn_status add(cairn_filter *filter, int kind, const void *d, int32_t *sensor) {
+static cairn_status add(cairn_filter* filter, int kind, const void* d, int32_t* sensor) {
   if (kind == HEAD) return cairn_filter_add_stereo_head(filter, d, sensor);
   if (kind == CAMERA) return cairn_filter_add_stereo_camera(filter, d, sensor);
   if (kind == CARTESIAN) return cairn_filter_add_cartesian(filter, d, sensor);
@@ -25,7 +25,7 @@ static cairn_status add(cairn_filter *filter, int kind, const void *d, int32_t *
 }
 
 enum { KINDS = POINT + 1 };
-static const char *const names[KINDS] = {"head", "camera", "cartesian", "custom"};
+static const char* const names[KINDS] = {"head", "camera", "cartesian", "custom"};
 static const size_t sizes[KINDS] = {sizeof(cairn_stereo_head), sizeof(cairn_stereo_camera), sizeof(cairn_cartesian),
                                     sizeof(cairn_custom)};
 
@@ -37,9 +37,9 @@ static description good(int kind) {
   return d;
 }
 
-/* A bench with one place left for a sensor, so that a refusal can't come from the capacity. */
-static int roomy_setup(void **state) {
-  bench *b = malloc(sizeof *b);
+/* A bench with room for one more sensor, so that no refusal is due to the capacity. */
+static int roomy_setup(void** state) {
+  bench* b = malloc(sizeof *b);
   cairn_filter_options options = test_options();
   assert_non_null(b);
   options.max_sensors = SENSORS + 1;
@@ -48,7 +48,7 @@ static int roomy_setup(void **state) {
   return 0;
 }
 
-static void refuse(bench *b, int kind, const description *d, const char *name) {
+static void refuse(bench* b, int kind, const description* d, const char* name) {
   int32_t sensor = 4711;
   assert_refused(b, CAIRN_ERROR_ARGUMENT, name, add(b->main.filter, kind, d, &sensor));
   assert_int_equal(sensor, 4711);
@@ -56,7 +56,7 @@ static void refuse(bench *b, int kind, const description *d, const char *name) {
 
 enum { POSITIVE, NOT_NEGATIVE, FINITE };
 typedef struct field {
-  const char *name;
+  const char* name;
   int kind;
   int rule;
   size_t offset;
@@ -90,23 +90,23 @@ static const field fields[] = {
     FIELD(POINT, cairn_custom, sigma, POSITIVE, 3),
 };
 
-static void bad_numbers_are_refused_by_field(void **state) {
-  bench *b = *state;
+static void bad_numbers_are_refused_by_field(void** state) {
+  bench* b = *state;
   for (size_t k = 0; k < LENGTH(fields); ++k) {
-    const field *f = &fields[k];
+    const field* f = &fields[k];
     const double bad[] = {NAN, INFINITY, -INFINITY, -1e-9, 0.0};
     const int count = f->rule == POSITIVE ? 5 : f->rule == NOT_NEGATIVE ? 4 : 3;
     for (int i = 0; i < f->count; ++i)
       for (int n = 0; n < count; ++n) {
         description d = good(f->kind);
-        ((double *)(void *)((unsigned char *)&d + f->offset))[i] = bad[n];
+        ((double*)(void*)((unsigned char*)&d + f->offset))[i] = bad[n];
         refuse(b, f->kind, &d, f->name);
       }
   }
 }
 
-static void zero_quaternions_and_ranges_of_choices_are_refused(void **state) {
-  bench *b = *state;
+static void zero_quaternions_and_ranges_of_choices_are_refused(void** state) {
+  bench* b = *state;
   static const double elevations[] = {PI / 2, 2, 100};
   static const int32_t modes[] = {-1, 2, INT32_MIN, INT32_MAX};
   static const uint32_t rows[] = {0, 4, UINT32_MAX};
@@ -134,7 +134,7 @@ static void zero_quaternions_and_ranges_of_choices_are_refused(void **state) {
     d.custom.rows = rows[n];
     refuse(b, POINT, &d, "rows");
   }
-  for (uint32_t few = 1; few < 3; ++few) { /* they leave a landmark's position open */
+  for (uint32_t few = 1; few < 3; ++few) { /* two rows do not determine the position of a landmark */
     d = good(POINT);
     d.custom.rows = few;
     refuse(b, POINT, &d, "place");
@@ -147,8 +147,8 @@ static void zero_quaternions_and_ranges_of_choices_are_refused(void **state) {
   refuse(b, POINT, &d, "predict");
 }
 
-static void nulls_are_refused_by_name(void **state) {
-  bench *b = *state;
+static void nulls_are_refused_by_name(void** state) {
+  bench* b = *state;
   for (int kind = 0; kind < KINDS; ++kind) {
     const description d = good(kind);
     int32_t sensor = 4711;
@@ -160,9 +160,9 @@ static void nulls_are_refused_by_name(void **state) {
   }
 }
 
-/* After a refusal the place that was left is still there, and it is the only one. */
-static void a_full_filter_takes_no_sensor(void **state) {
-  bench *b = *state;
+/* After a refusal there is still room for exactly one sensor. */
+static void a_full_filter_accepts_no_sensor(void** state) {
+  bench* b = *state;
   for (int kind = 0; kind < KINDS; ++kind) {
     const description d = good(kind);
     int32_t sensor = -1;
@@ -177,8 +177,8 @@ static void a_full_filter_takes_no_sensor(void **state) {
   }
 }
 
-static void sizes_that_hold_nothing_are_refused(void **state) {
-  bench *b = *state;
+static void too_small_sizes_are_refused(void** state) {
+  bench* b = *state;
   static const uint32_t none[] = {0, 1, 3, (uint32_t)1 << 31, UINT32_MAX};
   static const size_t wide[] = {(size_t)1 << 32, SIZE_MAX};
   for (int kind = 0; kind < KINDS; ++kind) {
@@ -197,9 +197,9 @@ static void sizes_that_hold_nothing_are_refused(void **state) {
   }
 }
 
-/* Every size from the first fields to beyond the last: _init writes no byte more than it was told, and what it writes
- * begins with the defaults. */
-static void init_fills_at_most_what_it_is_given(void **state) {
+/* Every size from the first fields to beyond the last one: _init writes no more bytes than it was told, and they begin
+ * with the defaults. */
+static void init_fills_at_most_what_it_is_given(void** state) {
   (void)state;
   for (int kind = 0; kind < KINDS; ++kind) {
     description whole;
@@ -223,9 +223,9 @@ static void init_fills_at_most_what_it_is_given(void **state) {
   }
 }
 
-/* A cartesian sensor whose caller knows no `sigma` yet, and one whose caller knows more fields than the library: both
- * see the same as the exact one. */
-static void structs_of_another_age_work(void **state) {
+/* A cartesian sensor of a caller without the field `sigma`, and of a caller with more fields than the library: both
+ * behave like the exact one. */
+static void structs_of_other_versions_work(void** state) {
   struct {
     cairn_cartesian now;
     double later[3];
@@ -240,10 +240,10 @@ static void structs_of_another_age_work(void **state) {
   memset(&future, 0xff, sizeof future);
   future.now = exact;
   future.now.struct_size = sizeof future;
-  const cairn_cartesian *all[] = {&exact, &old, &future.now};
+  const cairn_cartesian* all[] = {&exact, &old, &future.now};
   for (size_t k = 0; k < LENGTH(all); ++k) {
     const cairn_filter_options options = test_options();
-    cairn_filter *filter = NULL;
+    cairn_filter* filter = NULL;
     cairn_observation o = {3, {4, 5, 6}, {0}};
     int32_t sensor;
     assert_ok(cairn_filter_create(&options, &filter));
@@ -257,9 +257,9 @@ static void structs_of_another_age_work(void **state) {
   snapshot_free(&c);
 }
 
-static void point_head_refuses(void **state) {
-  bench *b = *state;
-  cairn_filter *f = b->main.filter;
+static void point_head_refuses(void** state) {
+  bench* b = *state;
+  cairn_filter* f = b->main.filter;
   const int32_t head = b->main.sensors[HEAD];
   static const int32_t unknown[] = {-1, SENSORS, 99, INT32_MAX, INT32_MIN};
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_point_head(NULL, head, 0.1, 0.1));
@@ -273,13 +273,13 @@ static void point_head_refuses(void **state) {
   }
 }
 
-static int32_t blind_predict(void *user, const cairn_pose *pose, const double landmark[3], double *z,
-                             double *jacobian_pose, double *jacobian_landmark) {
+static int32_t blind_predict(void* user, const cairn_pose* pose, const double landmark[3], double* z,
+                             double* jacobian_pose, double* jacobian_landmark) {
   (void)user, (void)pose, (void)landmark, (void)z, (void)jacobian_pose, (void)jacobian_landmark;
   return 1;
 }
 
-static void custom_check_refuses(void **state) {
+static void custom_check_refuses(void** state) {
   const cairn_pose pose = pose_at(1, 2, 3, 0.1, 0.2, 0.3);
   const double landmark[3] = {5, 6, 7};
   cairn_custom custom = test_point();
@@ -316,10 +316,10 @@ int main(void) {
       cmocka_unit_test_setup_teardown(bad_numbers_are_refused_by_field, roomy_setup, bench_teardown),
       cmocka_unit_test_setup_teardown(zero_quaternions_and_ranges_of_choices_are_refused, roomy_setup, bench_teardown),
       cmocka_unit_test_setup_teardown(nulls_are_refused_by_name, roomy_setup, bench_teardown),
-      cmocka_unit_test_setup_teardown(a_full_filter_takes_no_sensor, roomy_setup, bench_teardown),
-      cmocka_unit_test_setup_teardown(sizes_that_hold_nothing_are_refused, roomy_setup, bench_teardown),
+      cmocka_unit_test_setup_teardown(a_full_filter_accepts_no_sensor, roomy_setup, bench_teardown),
+      cmocka_unit_test_setup_teardown(too_small_sizes_are_refused, roomy_setup, bench_teardown),
       cmocka_unit_test(init_fills_at_most_what_it_is_given),
-      cmocka_unit_test(structs_of_another_age_work),
+      cmocka_unit_test(structs_of_other_versions_work),
       cmocka_unit_test_setup_teardown(point_head_refuses, roomy_setup, bench_teardown),
       cmocka_unit_test(custom_check_refuses),
   };

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sensors: their defaults, where they place landmarks and how well, the caller's own sensors. */
+/* Sensors: defaults, the position and covariance of the landmarks that they place, and custom sensors. */
 #include "support.h"
 
-static void head_defaults(void **state) {
+static void head_defaults(void** state) {
   cairn_stereo_head h;
   (void)state;
   memset(&h, 0x5a, sizeof h);
@@ -19,7 +19,7 @@ static void head_defaults(void **state) {
   assert_near(h.max_elevation, 85 * DEGREE, 1e-15);
 }
 
-static void camera_defaults(void **state) {
+static void camera_defaults(void** state) {
   cairn_stereo_camera c;
   const double forward[3] = {0, 0, 1}, right[3] = {1, 0, 0};
   double p[3];
@@ -31,13 +31,13 @@ static void camera_defaults(void **state) {
   assert_true(c.fu == 500 && c.fv == 500 && c.cu == 320 && c.cv == 240 && c.baseline == 0.2);
   assert_true(c.sigma[0] == 1 && c.sigma[1] == 1 && c.sigma[2] == 1);
   assert_true(c.near_depth == 0.1 && c.min_disparity == 1 && c.min_disparity_sigmas == 2.5);
-  to_map(&c.T_body_camera, forward, p); /* out of the lens is the body's x, right its -y */
+  to_map(&c.T_body_camera, forward, p); /* the optical axis is x of the body, right in the image is -y */
   assert_near(p[0], 1, 1e-15);
   to_map(&c.T_body_camera, right, p);
   assert_near(p[1], -1, 1e-15);
 }
 
-static void cartesian_and_custom_defaults(void **state) {
+static void cartesian_and_custom_defaults(void** state) {
   cairn_cartesian c;
   cairn_custom u;
   (void)state;
@@ -56,8 +56,8 @@ static void cartesian_and_custom_defaults(void **state) {
   assert_true(c.T_body_sensor.quaternion[0] == 1);
 }
 
-/* A rig whose pose is known, and a world that stands where it stands. */
-static void open_known(rig *r, world *w) {
+/* A rig whose pose is known, and the world at the same pose. */
+static void open_known(rig* r, world* w) {
   cairn_filter_options options = test_options();
   world_init(w, 77);
   memset(options.initial_covariance, 0, sizeof options.initial_covariance);
@@ -65,7 +65,7 @@ static void open_known(rig *r, world *w) {
   rig_open(r, &options);
 }
 
-static void sensors_are_numbered_from_zero(void **state) {
+static void sensors_are_numbered_from_zero(void** state) {
   rig r;
   world w;
   (void)state;
@@ -74,13 +74,13 @@ static void sensors_are_numbered_from_zero(void **state) {
   rig_close(&r);
 }
 
-static const double points[2][3] = {{9, 3, 1.5}, {6, 6.5, -1.2}}; /* before every sensor of the known rig */
+static const double points[2][3] = {{9, 3, 1.5}, {6, 6.5, -1.2}}; /* in front of every sensor of the known rig */
 
-static void see(const world *w, int sensor, const double mount[2], const double point[3], double z[3]) {
+static void see(const world* w, int sensor, const double mount[2], const double point[3], double z[3]) {
   assert_true(world_see(w, sensor, mount[0], mount[1], point, z));
 }
 
-static void every_sensor_places_where_it_looks(void **state) {
+static void every_sensor_places_where_it_looks(void** state) {
   static const int sensors[] = {HEAD, CAMERA, CARTESIAN, POINT};
   const double mount[2] = {0.25, -0.15};
   (void)state;
@@ -107,8 +107,8 @@ static void every_sensor_places_where_it_looks(void **state) {
     }
 }
 
-/* dz / dlandmark and dz / d(pan, stick) by central differences through the tests' own model. */
-static void differences(const world *w, int sensor, const double mount[2], const double point[3], double H[9],
+/* dz/dlandmark and dz/d(pan, stick) by central differences of the model in the tests. */
+static void differences(const world* w, int sensor, const double mount[2], const double point[3], double H[9],
                         double M[6]) {
   for (int j = 0; j < 5; ++j) {
     const double h = 1e-5;
@@ -122,15 +122,15 @@ static void differences(const world *w, int sensor, const double mount[2], const
   }
 }
 
-/* H C H^T of a placed landmark's covariance is the noise of the observation, the encoders' share included; and what two
- * landmarks of one frame share is the encoders' alone. */
+/* For a placed landmark, H C H^T is the noise of the observation, including the encoders. The covariance between two
+ * landmarks of one frame comes from the encoders only. */
 static void expect_placed(int sensor, cairn_stereo_head head, bool shared) {
   const double mount[2] = {0.25, -0.15};
   double sigma[3] = {head.range_sigma, head.azimuth_sigma, head.elevation_sigma};
   const uint64_t ids[2] = {0, 7};
   double H[2][9], M[2][6], joint[36];
   cairn_filter_options options = test_options();
-  cairn_filter *filter = NULL;
+  cairn_filter* filter = NULL;
   cairn_observation o[2];
   size_t needed;
   int32_t added;
@@ -170,7 +170,7 @@ static void expect_placed(int sensor, cairn_stereo_head head, bool shared) {
   cairn_filter_destroy(filter);
 }
 
-static void placed_covariance_is_that_of_the_noise(void **state) {
+static void placed_covariance_is_that_of_the_noise(void** state) {
   cairn_stereo_head head = test_head();
   (void)state;
   expect_placed(CAMERA, (cairn_stereo_head){.range_sigma = 0.7, .azimuth_sigma = 0.9, .elevation_sigma = 1.1}, false);
@@ -182,7 +182,7 @@ static void placed_covariance_is_that_of_the_noise(void **state) {
   expect_placed(HEAD, head, true);
 }
 
-/* The same frames through the built-in sensor and through its copy in the caller's hands. */
+/* The same frames through the built-in sensor and through an equal custom sensor. */
 static void expect_equal_to_the_built_in_one(uint32_t relative) {
   cairn_filter_options options = test_options();
   cairn_custom custom = test_point();
@@ -192,11 +192,11 @@ static void expect_equal_to_the_built_in_one(uint32_t relative) {
   world w;
   options.max_sensors = SENSORS + 1;
   world_init(&w, 5);
-  if (!relative) options.iterations = 1; /* it is linearised twice where the built-in one may be once */
+  if (!relative) options.iterations = 1; /* a custom sensor may need one linearisation more */
   rig_open(&a, &options);
   rig_open(&b, &options);
   custom.relative = relative;
-  assert_ok(cairn_filter_add_custom(b.filter, &custom, &b.sensors[CARTESIAN])); /* in the place of the built-in one */
+  assert_ok(cairn_filter_add_custom(b.filter, &custom, &b.sensors[CARTESIAN])); /* replaces the built-in sensor */
   for (int n = 0; n < 30; ++n) {
     frame f;
     cairn_match ma[WORLD_LANDMARKS], mb[WORLD_LANDMARKS];
@@ -226,30 +226,30 @@ static void expect_equal_to_the_built_in_one(uint32_t relative) {
   rig_close(&b);
 }
 
-static void a_custom_sensor_equals_the_built_in_one(void **state) {
+static void a_custom_sensor_equals_the_built_in_one(void** state) {
   (void)state;
   expect_equal_to_the_built_in_one(0);
   expect_equal_to_the_built_in_one(1);
 }
 
-/* `user` says which entry of which Jacobian is spoilt. */
+/* `user` selects the wrong entry and its Jacobian. */
 typedef struct spoil {
-  int matrix; /* 0 predict/pose, 1 predict/landmark, 2 place/pose, 3 place/z, 4 the place itself */
+  int matrix; /* 0: predict/pose, 1: predict/landmark, 2: place/pose, 3: place/z, 4: the placed position */
   int entry;
 } spoil;
 
-static int32_t spoilt_predict(void *user, const cairn_pose *pose, const double landmark[3], double *z,
-                              double *jacobian_pose, double *jacobian_landmark) {
-  const spoil *s = user;
+static int32_t spoilt_predict(void* user, const cairn_pose* pose, const double landmark[3], double* z,
+                              double* jacobian_pose, double* jacobian_landmark) {
+  const spoil* s = user;
   (void)point_predict(NULL, pose, landmark, z, jacobian_pose, jacobian_landmark);
   if (s->matrix == 0) jacobian_pose[s->entry] += 0.1;
   if (s->matrix == 1) jacobian_landmark[s->entry] += 0.1;
   return 0;
 }
 
-static int32_t spoilt_place(void *user, const cairn_pose *pose, const double *z, double landmark[3],
-                            double *jacobian_pose, double *jacobian_z) {
-  const spoil *s = user;
+static int32_t spoilt_place(void* user, const cairn_pose* pose, const double* z, double landmark[3],
+                            double* jacobian_pose, double* jacobian_z) {
+  const spoil* s = user;
   (void)point_place(NULL, pose, z, landmark, jacobian_pose, jacobian_z);
   if (s->matrix == 2) jacobian_pose[s->entry] += 0.1;
   if (s->matrix == 3) jacobian_z[s->entry] += 0.1;
@@ -257,7 +257,7 @@ static int32_t spoilt_place(void *user, const cairn_pose *pose, const double *z,
   return 0;
 }
 
-static void check_accepts_right_jacobians(void **state) {
+static void check_accepts_right_jacobians(void** state) {
   const cairn_custom sensors[] = {test_point(), test_range()};
   generator random = {9};
   (void)state;
@@ -272,7 +272,7 @@ static void check_accepts_right_jacobians(void **state) {
     }
 }
 
-static void check_exposes_every_wrong_entry(void **state) {
+static void check_exposes_every_wrong_entry(void** state) {
   static const int entries[] = {18, 9, 18, 9, 3};
   const cairn_pose pose = pose_at(1, 2, 3, 0.3, -0.4, 1.2);
   const double landmark[3] = {6, 5, 4};

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* Statuses, messages, version and build. */
 #include <pthread.h>
 
 #include "support.h"
 
-static void names_are_those_of_the_header(void **state) {
+static void names_equal_the_header(void** state) {
   static const struct {
     cairn_status status;
     int32_t pinned;
-    const char *name;
+    const char* name;
   } all[] = {
       {CAIRN_OK, 0, "CAIRN_OK"},
       {CAIRN_ERROR_ARGUMENT, -1, "CAIRN_ERROR_ARGUMENT"},
@@ -26,20 +27,20 @@ static void names_are_those_of_the_header(void **state) {
   }
 }
 
-static void a_value_that_is_no_status_has_a_name_too(void **state) {
+static void an_unknown_status_has_a_name_too(void** state) {
   static const cairn_status none[] = {1, -9, 100, INT32_MAX, INT32_MIN};
   (void)state;
   for (size_t i = 0; i < LENGTH(none); ++i) assert_string_equal(cairn_status_name(none[i]), "unknown status");
 }
 
-static void version_is_that_of_the_header(void **state) {
+static void version_equals_the_header(void** state) {
   char expected[32];
   (void)state;
   snprintf(expected, sizeof expected, "%d.%d.%d", CAIRN_VERSION_MAJOR, CAIRN_VERSION_MINOR, CAIRN_VERSION_PATCH);
   assert_string_equal(cairn_version(), expected);
 }
 
-static void enumerations_are_pinned(void **state) {
+static void enumerations_are_pinned(void** state) {
   (void)state;
   assert_int_equal(CAIRN_MATCHED, 1);
   assert_int_equal(CAIRN_NEW, 2);
@@ -52,10 +53,10 @@ static void enumerations_are_pinned(void **state) {
   assert_int_equal(sizeof(cairn_pose), 7 * 8);
 }
 
-/* Each registration says in CAIRN_TEST_BUILD which of the two libraries has to be loaded. */
-static void the_expected_build_is_loaded(void **state) {
-  const char *expected = getenv("CAIRN_TEST_BUILD");
-  const char *build = cairn_build();
+/* Each registration of this test sets CAIRN_TEST_BUILD to the name of the library that must be loaded. */
+static void the_expected_build_is_loaded(void** state) {
+  const char* expected = getenv("CAIRN_TEST_BUILD");
+  const char* build = cairn_build();
   (void)state;
   assert_true(strcmp(build, "x86-64") == 0 || strcmp(build, "x86-64-v3") == 0 || strcmp(build, "generic") == 0);
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -67,13 +68,13 @@ static void the_expected_build_is_loaded(void **state) {
   if (expected != NULL) assert_string_equal(build, expected);
 }
 
-static void a_failure_leaves_one_line_that_stays(void **state) {
+static void a_failure_leaves_one_line_until_the_next_failure(void** state) {
   cairn_pose pose;
   char kept[512];
   (void)state;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "pose", cairn_pose_identity(NULL));
   snprintf(kept, sizeof kept, "%s", cairn_last_message());
-  assert_true(strlen(kept) > strlen("pose")); /* the cause as well, not the name alone */
+  assert_true(strlen(kept) > strlen("pose")); /* the message has the cause, not only the name */
   assert_ok(cairn_pose_identity(&pose));
   assert_string_equal(cairn_last_message(), kept);
 }
@@ -81,11 +82,11 @@ static void a_failure_leaves_one_line_that_stays(void **state) {
 typedef struct visitor {
   char first[16];
   char own[512];
-  const char *buffer;
+  const char* buffer;
 } visitor;
 
-static void *visit(void *argument) {
-  visitor *v = argument;
+static void* visit(void* argument) {
+  visitor* v = argument;
   double rest[3];
   snprintf(v->first, sizeof v->first, "%s", cairn_last_message());
   (void)cairn_quaternion_log(NULL, rest);
@@ -94,7 +95,7 @@ static void *visit(void *argument) {
   return NULL;
 }
 
-static void each_thread_has_its_own_message(void **state) {
+static void each_thread_has_its_own_message(void** state) {
   visitor v;
   pthread_t thread;
   char before[512];
@@ -109,7 +110,7 @@ static void each_thread_has_its_own_message(void **state) {
   assert_ptr_not_equal(v.buffer, cairn_last_message());
 }
 
-static void a_fresh_thread_has_an_empty_message_that_is_never_null(void **state) {
+static void a_fresh_thread_has_an_empty_message_that_is_never_null(void** state) {
   visitor v;
   pthread_t thread;
   (void)state;
@@ -123,12 +124,12 @@ static void a_fresh_thread_has_an_empty_message_that_is_never_null(void **state)
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(names_are_those_of_the_header),
-      cmocka_unit_test(a_value_that_is_no_status_has_a_name_too),
-      cmocka_unit_test(version_is_that_of_the_header),
+      cmocka_unit_test(names_equal_the_header),
+      cmocka_unit_test(an_unknown_status_has_a_name_too),
+      cmocka_unit_test(version_equals_the_header),
       cmocka_unit_test(enumerations_are_pinned),
       cmocka_unit_test(the_expected_build_is_loaded),
-      cmocka_unit_test(a_failure_leaves_one_line_that_stays),
+      cmocka_unit_test(a_failure_leaves_one_line_until_the_next_failure),
       cmocka_unit_test(each_thread_has_its_own_message),
       cmocka_unit_test(a_fresh_thread_has_an_empty_message_that_is_never_null),
   };

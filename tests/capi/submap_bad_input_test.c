@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What closing a submap refuses, and what it has to bear: submaps that know things exactly, or too little. After each
- * refusal the filter is as it was, and goes on like a twin that never saw the call. */
+/* Closings that are refused, and submaps with exact or too little information that must close. After each refusal the
+ * filter must be unchanged and behave like a filter that never got the call. */
 #include "submaps.h"
 
 static const int32_t joins[] = {CAIRN_JOIN_DENSE, CAIRN_JOIN_SPARSE};
@@ -11,7 +11,7 @@ typedef struct pair {
   snapshot before, after, other;
 } pair;
 
-static void pair_open(pair *p, const cairn_filter_options *change, uint32_t landmarks, int32_t join) {
+static void pair_open(pair* p, const cairn_filter_options* change, uint32_t landmarks, int32_t join) {
   memset(p, 0, sizeof *p);
   ring_init(&p->course, 21);
   cairn_filter_options o = ring_options(&p->course, landmarks, join);
@@ -20,23 +20,23 @@ static void pair_open(pair *p, const cairn_filter_options *change, uint32_t land
   p->twin = ring_filter(&o);
 }
 
-static void pair_drive(pair *p, unsigned steps) {
-  cairn_filter *const both[] = {p->filter, p->twin};
+static void pair_drive(pair* p, unsigned steps) {
+  cairn_filter* const both[] = {p->filter, p->twin};
   ring_drive(&p->course, both, 2, steps);
 }
 
-static void pair_close(pair *p) {
+static void pair_close(pair* p) {
   cairn_filter_destroy(p->filter), cairn_filter_destroy(p->twin);
   snapshot_free(&p->before), snapshot_free(&p->after), snapshot_free(&p->other);
 }
 
-static void assert_alike(pair *p) {
+static void assert_alike(pair* p) {
   submaps_take(&p->after, p->filter);
   submaps_take(&p->other, p->twin);
   if (!snapshot_same(&p->after, &p->other)) fail_msg("the filter and its twin differ");
 }
 
-/* Has to fail, change nothing, and leave a filter that goes on. */
+/* The call must fail, change nothing, and leave a filter that works. */
 #define assert_left_alone(p, status, name, call)                                             \
   do {                                                                                       \
     submaps_take(&(p)->before, (p)->filter);                                                 \
@@ -46,7 +46,7 @@ static void assert_alike(pair *p) {
     if (!snapshot_same(&(p)->before, &(p)->after)) fail_msg("%s changed the filter", #call); \
   } while (0)
 
-static void null_pointers(void **state) {
+static void null_pointers(void** state) {
   pair p;
   cairn_pose pose;
   cairn_closing_report report;
@@ -56,7 +56,7 @@ static void null_pointers(void **state) {
   memset(&report, 0, sizeof report);
   pair_open(&p, NULL, 7, CAIRN_JOIN_SPARSE);
   pair_drive(&p, 20);
-  const cairn_filter *f = p.filter;
+  const cairn_filter* f = p.filter;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_close_submap(NULL));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_last_closing(NULL, &report));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_local_pose(NULL, &pose, NULL));
@@ -74,7 +74,7 @@ static void null_pointers(void **state) {
   pair_close(&p);
 }
 
-static void indices(void **state) {
+static void indices(void** state) {
   static const size_t beyond[] = {1, 2, SIZE_MAX};
   pair p;
   (void)state;
@@ -94,13 +94,13 @@ static void indices(void **state) {
   }
 }
 
-static void nothing_to_close(void **state) {
+static void nothing_to_close(void** state) {
   pair p;
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j) {
     pair_open(&p, NULL, 500, joins[j]);
     assert_left_alone(&p, CAIRN_ERROR_STATE, "submap", cairn_filter_close_submap(p.filter));
-    ring_frame blind; /* a drive that sees nothing is no submap yet either */
+    ring_frame blind; /* without observations a drive is not a submap yet */
     ring_next(&p.course, &blind);
     blind.count = 0;
     assert_ok(ring_take(p.filter, &blind));
@@ -122,9 +122,9 @@ static void nothing_to_close(void **state) {
   pair_close(&p);
 }
 
-static void options(void **state) {
+static void options(void** state) {
   ring course;
-  cairn_filter *f = NULL;
+  cairn_filter* f = NULL;
   size_t bytes = 0;
   (void)state;
   ring_init(&course, 22);
@@ -152,18 +152,18 @@ static void options(void **state) {
   cairn_filter_options dense = ring_options(&course, 7, CAIRN_JOIN_DENSE);
   dense.max_landmarks = 30001;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "max_landmarks", cairn_filter_create(&dense, &f));
-  dense.submap_landmarks = 0, dense.join = CAIRN_JOIN_SPARSE; /* a single map is never joined */
+  dense.submap_landmarks = 0, dense.join = CAIRN_JOIN_SPARSE; /* a single map has no submaps to join */
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "max_landmarks", cairn_filter_create(&dense, &f));
 #undef REFUSED
   cairn_filter_options huge =
-      ring_options(&course, 4096, CAIRN_JOIN_SPARSE); /* a bound alone: takes no memory for it */
+      ring_options(&course, 4096, CAIRN_JOIN_SPARSE); /* only a bound: no memory is allocated for it */
   huge.max_landmarks = 10000000, huge.submap_landmarks = 20;
   assert_ok(cairn_filter_required_bytes(&huge, &bytes));
   assert_true(bytes < 10000000);
 }
 
-/* A submap closed by every frame; by limits so small that each landmark passes them; by limits out of reach. */
-static void extreme_policies(void **state) {
+/* A submap closed by every frame; by limits that each landmark exceeds; by limits that are never reached. */
+static void extreme_policies(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j)
     for (int kind = 0; kind < 3; ++kind) {
@@ -173,7 +173,7 @@ static void extreme_policies(void **state) {
       cairn_filter_options o = ring_options(&course, kind == 0 ? 1 : 500, joins[j]);
       if (kind == 1) o.submap_distance = o.submap_extent = o.submap_sigma = 1e-300;
       if (kind == 2) o.submap_distance = o.submap_extent = o.submap_sigma = 1e300;
-      cairn_filter *f = ring_filter(&o);
+      cairn_filter* f = ring_filter(&o);
       ring_drive(&course, &f, 1, RING_STEPS);
       assert_ok(cairn_filter_submap_count(f, &count));
       if (kind == 2) assert_int_equal(count, 0);
@@ -185,8 +185,9 @@ static void extreme_policies(void **state) {
     }
 }
 
-/* More landmarks than max_landmarks: the caller is told, frames go on, and the report says why nothing closes. */
-static void a_map_that_is_full(void **state) {
+/* More landmarks than max_landmarks: the caller gets an error, frames go on, and the report says why no submap closes.
+ * */
+static void a_map_that_is_full(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j) {
     pair p;
@@ -204,7 +205,7 @@ static void a_map_that_is_full(void **state) {
     assert_ok(cairn_filter_submap_count(p.filter, &count));
     assert_int_equal(count, closed);
     assert_alike(&p);
-    /* With room made, the next try closes. */
+    /* When there is room, the next attempt closes the submap. */
     uint64_t ids[64];
     size_t needed = 0;
     assert_ok(cairn_filter_submap(p.filter, 0, NULL, ids, 64, &needed));
@@ -216,19 +217,19 @@ static void a_map_that_is_full(void **state) {
   }
 }
 
-/* What a submap knows exactly: a vehicle that did not move, one whose motion has no noise in some axes, a landmark seen
- * from one place only; a start that is known. None of it is a reason not to close. */
-static void exact_knowledge(void **state) {
+/* Exact knowledge in a submap: a vehicle that did not move, motion without noise in some axes, a landmark seen from one
+ * place only, a known start. Submaps must close nevertheless. */
+static void exact_knowledge(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j)
     for (int known_start = 0; known_start < 2; ++known_start)
-      for (int axes = 0; axes < 4;
-           ++axes) { /* 0: parked, 1: no noise at all, 2: none of the turn, 3: of height and tilt */
+      /* axes 0: parked, 1: no noise at all, 2: no rotation noise, 3: no noise of height and tilt */
+      for (int axes = 0; axes < 4; ++axes) {
         ring course;
         ring_init(&course, 24);
         cairn_filter_options o = ring_options(&course, 500, joins[j]);
         if (known_start) memset(o.initial_covariance, 0, sizeof o.initial_covariance);
-        cairn_filter *f = ring_filter(&o);
+        cairn_filter* f = ring_filter(&o);
         const cairn_pose stay = {{0, 0, 0}, {1, 0, 0, 0}};
         for (int submap = 0; submap < 6; ++submap) {
           for (int step = 0; step < (submap % 2 == 0 ? 1 : 6); ++step) {

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Submaps through the C interface: what closes them, what is told of it, and how poses and maps belong together. */
+/* Submaps through the C interface: what closes them, reports, and the relation of poses and maps. */
 #include "submaps.h"
 
 static const int32_t joins[] = {CAIRN_JOIN_DENSE, CAIRN_JOIN_SPARSE};
 static const int32_t errors[] = {CAIRN_ERROR_INVARIANT, CAIRN_ERROR_STANDARD};
 
-static size_t submaps_of(const cairn_filter *f) {
+static size_t submaps_of(const cairn_filter* f) {
   size_t count = 0;
   assert_ok(cairn_filter_submap_count(f, &count));
   return count;
 }
 
-static size_t landmarks_of(const cairn_map *map) {
+static size_t landmarks_of(const cairn_map* map) {
   size_t count = 0;
   assert_ok(cairn_map_size(map, &count));
   return count;
 }
 
-/* What has to hold of the report of any closing that succeeded. */
-static void check_report(const cairn_filter *f, int32_t reason, int32_t join) {
+/* Conditions that hold for the report of any successful closing. */
+static void check_report(const cairn_filter* f, int32_t reason, int32_t join) {
   const cairn_closing_report r = last_closing(f);
   assert_int_equal(r.status, CAIRN_OK);
   assert_int_equal(r.reason, reason);
@@ -34,8 +34,8 @@ static void check_report(const cairn_filter *f, int32_t reason, int32_t join) {
   assert_int_equal(ids, r.landmarks);
 }
 
-/* Drives until a submap is closed and gives the steps that it took. */
-static unsigned drive_to_closing(ring *course, cairn_filter *f) {
+/* Drives until a submap is closed; returns the number of steps. */
+static unsigned drive_to_closing(ring* course, cairn_filter* f) {
   const size_t before = submaps_of(f);
   unsigned steps = 0;
   for (; submaps_of(f) == before && steps < 2 * RING_STEPS; ++steps) ring_drive(course, &f, 1, 1);
@@ -43,7 +43,7 @@ static unsigned drive_to_closing(ring *course, cairn_filter *f) {
   return steps;
 }
 
-static void each_reason_closes(void **state) {
+static void each_reason_closes(void** state) {
   static const struct {
     int32_t reason;
     uint32_t landmarks;
@@ -59,12 +59,12 @@ static void each_reason_closes(void **state) {
       ring_init(&course, 5);
       cairn_filter_options o = ring_options(&course, cases[k].landmarks, joins[j]);
       o.submap_distance = cases[k].distance, o.submap_extent = cases[k].extent, o.submap_sigma = cases[k].sigma;
-      cairn_filter *f = ring_filter(&o);
+      cairn_filter* f = ring_filter(&o);
       assert_int_equal(last_closing(f).reason, CAIRN_CLOSED_BY_NONE);
       for (int n = 0; n < 6; ++n) {
         const unsigned steps = drive_to_closing(&course, f);
         check_report(f, cases[k].reason, joins[j]);
-        /* A step is 1.047 m, with 2 % of noise. */
+        /* A step is 1.047 m, with 2 % noise. */
         if (cases[k].reason == CAIRN_CLOSED_BY_DISTANCE) assert_true(steps >= 5 && steps <= 6);
         if (cases[k].reason == CAIRN_CLOSED_BY_LANDMARKS) assert_true(last_closing(f).landmarks >= 7);
         if (cases[k].reason == CAIRN_CLOSED_BY_EXTENT) assert_true(steps >= 2);
@@ -78,7 +78,7 @@ static void each_reason_closes(void **state) {
     }
 }
 
-static void a_fix_closes_first(void **state) {
+static void a_fix_closes_first(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j)
     for (int kind = 0; kind < 3; ++kind) {
@@ -87,7 +87,7 @@ static void a_fix_closes_first(void **state) {
       double c[9], m[9], before[36], after[36];
       ring_init(&course, 6);
       const cairn_filter_options o = ring_options(&course, 500, joins[j]);
-      cairn_filter *f = ring_filter(&o);
+      cairn_filter* f = ring_filter(&o);
       ring_drive(&course, &f, 1, 20);
       assert_int_equal(submaps_of(f), 0);
       assert_ok(cairn_filter_pose(f, NULL, before));
@@ -102,7 +102,7 @@ static void a_fix_closes_first(void **state) {
       if (kind == 0)
         for (int i = 0; i < 3; ++i) assert_true(after[7 * i] <= 1e-4 && after[7 * i] < before[7 * i]);
       if (kind > 0) assert_true(after[35] <= (kind == 1 ? 1.01e-6 : 2e-6) && after[35] < before[35]);
-      /* There is nothing to close when the next one comes at once; and a drive without landmarks is closed too. */
+      /* A second closing right after the first has nothing to close. A drive without landmarks can be closed too. */
       assert_ok(cairn_filter_update_position(f, course.truth.position, c, NULL, &match));
       assert_int_equal(submaps_of(f), 1);
       ring_frame blind;
@@ -130,8 +130,9 @@ static void congruence(const double a[36], const double b[36], double out[36]) {
       for (int k = 0; k < 6; ++k) out[6 * i + j] += ab[6 * i + k] * a[6 * j + k];
 }
 
-/* pose = base o local, and so are their errors: e_p = e_pS - hat(R_S p_L) e_RS + R_S e_pL, e_R = e_RS + R_S e_RL. */
-static void poses_compose(void **state) {
+/* pose = base o local, and its error is e_p = e_pS - hat(R_S p_L) e_RS + R_S e_pL, e_R = e_RS + R_S e_RL
+ * (docs/submaps.md). */
+static void poses_compose(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j)
     for (size_t e = 0; e < LENGTH(errors); ++e) {
@@ -139,7 +140,7 @@ static void poses_compose(void **state) {
       ring_init(&course, 7);
       cairn_filter_options o = ring_options(&course, 9, joins[j]);
       o.error = errors[e];
-      cairn_filter *f = ring_filter(&o);
+      cairn_filter* f = ring_filter(&o);
       for (int step = 0; step < 2 * RING_STEPS; ++step) {
         cairn_pose pose, base, local, expected;
         double P[36], B[36], L[36], to_base[36] = {0}, to_local[36] = {0}, from_base[36], from_local[36];
@@ -169,14 +170,14 @@ static void poses_compose(void **state) {
     }
 }
 
-static void the_list_of_submaps(void **state) {
+static void the_list_of_submaps(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j) {
     ring course;
     ring_init(&course, 8);
     const cairn_pose start = course.truth;
     const cairn_filter_options o = ring_options(&course, 7, joins[j]);
-    cairn_filter *f = ring_filter(&o);
+    cairn_filter* f = ring_filter(&o);
     ring_drive(&course, &f, 1, RING_STEPS);
     const size_t count = submaps_of(f);
     uint64_t ids[64], canary[64];
@@ -212,14 +213,14 @@ static void the_list_of_submaps(void **state) {
   }
 }
 
-/* The map holds the closed submaps alone; the open one's landmarks are found in its own frame. */
-static void maps_while_a_submap_is_open(void **state) {
+/* The map holds only closed submaps. The landmarks of the open submap are found in the local map. */
+static void maps_while_a_submap_is_open(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j) {
     ring course;
     ring_init(&course, 9);
     const cairn_filter_options o = ring_options(&course, 500, joins[j]);
-    cairn_filter *f = ring_filter(&o);
+    cairn_filter* f = ring_filter(&o);
     ring_drive(&course, &f, 1, 10);
     const size_t first = landmarks_of(cairn_filter_local_map(f));
     assert_true(first > 3);
@@ -242,12 +243,12 @@ static void maps_while_a_submap_is_open(void **state) {
       ring_landmark((unsigned)l[i].id - 1, truth);
       for (int k = 0; k < 3; ++k) assert_near(there[k], truth[k], 0.8);
       if (cairn_map_landmark(cairn_filter_map(f), l[i].id, &known) == CAIRN_OK) continue;
-      ++fresh; /* not in the map yet, and so nothing of it is known there */
+      ++fresh; /* not yet in the map, so the map does not know it */
       assert_status(cairn_filter_joint_covariance(f, &l[i].id, 1, joint, LENGTH(joint), &needed),
                     CAIRN_ERROR_NOT_FOUND);
     }
     assert_true(fresh > 3);
-    /* Forgotten in both. */
+    /* Removed from both. */
     assert_ok(cairn_filter_remove_landmark(f, l[0].id));
     assert_int_equal(landmarks_of(cairn_filter_local_map(f)), n - 1);
     assert_status(cairn_map_landmark(cairn_filter_local_map(f), l[0].id, &l[1]), CAIRN_ERROR_NOT_FOUND);
@@ -258,7 +259,7 @@ static void maps_while_a_submap_is_open(void **state) {
   }
 }
 
-static void a_single_map_has_no_submaps(void **state) {
+static void a_single_map_has_no_submaps(void** state) {
   ring course;
   cairn_pose pose, local, base;
   double P[36], L[36], B[36];
@@ -267,7 +268,7 @@ static void a_single_map_has_no_submaps(void **state) {
   (void)state;
   ring_init(&course, 10);
   const cairn_filter_options o = ring_options(&course, 0, CAIRN_JOIN_AUTO);
-  cairn_filter *f = ring_filter(&o);
+  cairn_filter* f = ring_filter(&o);
   ring_drive(&course, &f, 1, 20);
   assert_int_equal(submaps_of(f), 0);
   assert_ok(cairn_filter_pose(f, &pose, P));
@@ -287,8 +288,9 @@ static void a_single_map_has_no_submaps(void **state) {
   cairn_filter_destroy(f);
 }
 
-/* Structs of another age: the options of before submaps ask for none, and no byte beyond the stated size is touched. */
-static void older_structs(void **state) {
+/* Structs of other versions: options from before submaps select no submaps, and no byte beyond the stated size is
+ * changed. */
+static void structs_of_older_versions(void** state) {
   ring course;
   union {
     cairn_filter_options options;
@@ -302,7 +304,7 @@ static void older_structs(void **state) {
   assert_ok(cairn_filter_options_init(&u.options, old));
   for (size_t i = old; i < sizeof u; ++i) assert_int_equal(u.bytes[i], 0xa5);
   u.options.max_landmarks = RING_LANDMARKS;
-  cairn_filter *f = ring_filter(&u.options); /* with 0xa5a5a5a5 where submap_landmarks would be */
+  cairn_filter* f = ring_filter(&u.options); /* with 0xa5a5a5a5 in the place of submap_landmarks */
   ring_drive(&course, &f, 1, 3);
   assert_status(cairn_filter_close_submap(f), CAIRN_ERROR_STATE);
   cairn_filter_destroy(f);
@@ -318,25 +320,26 @@ static void older_structs(void **state) {
     memset(&u, 0xa5, sizeof u);
     u.report.struct_size = (uint32_t)sizes[k];
     assert_ok(cairn_filter_last_closing(f, &u.report));
-    assert_memory_equal(u.bytes + sizeof(uint32_t), (const unsigned char *)&whole + sizeof(uint32_t),
+    assert_memory_equal(u.bytes + sizeof(uint32_t), (const unsigned char*)&whole + sizeof(uint32_t),
                         sizes[k] - sizeof(uint32_t));
     for (size_t i = sizes[k]; i < sizeof u; ++i) assert_int_equal(u.bytes[i], 0xa5);
   }
   cairn_filter_destroy(f);
 }
 
-/* The pose's block is the pose's covariance, the landmarks' block the map's; across, no correlation exceeds one. */
-static void pose_and_map_jointly(void **state) {
+/* The block of the pose is the covariance of the pose, the block of the landmarks that of the map, and no correlation
+ * between them exceeds one. */
+static void pose_and_map_jointly(void** state) {
   (void)state;
   for (int32_t join = CAIRN_JOIN_DENSE; join <= CAIRN_JOIN_SPARSE; ++join) {
     ring course;
     ring_init(&course, 12);
     const cairn_filter_options o = ring_options(&course, 7, join);
-    cairn_filter *f = ring_filter(&o);
+    cairn_filter* f = ring_filter(&o);
     ring_drive(&course, &f, 1, 23);
     cairn_landmark some[3];
     size_t needed = 0;
-    const cairn_map *map = cairn_filter_map(f);
+    const cairn_map* map = cairn_filter_map(f);
     cairn_pose pose;
     double P[36], joint[225], of_map[81];
     assert_ok(cairn_filter_pose(f, &pose, P));
@@ -356,12 +359,12 @@ static void pose_and_map_jointly(void **state) {
   }
 }
 
-static void auto_picks_by_capacity(void **state) {
+static void auto_picks_by_capacity(void** state) {
   (void)state;
   for (int large = 0; large < 2; ++large) {
     ring course;
     size_t bytes[3];
-    cairn_filter *f[3];
+    cairn_filter* f[3];
     snapshot s[3] = {{0, NULL}, {0, NULL}, {0, NULL}};
     ring_init(&course, 12);
     for (int32_t join = CAIRN_JOIN_AUTO; join <= CAIRN_JOIN_SPARSE; ++join) {
@@ -381,8 +384,8 @@ static void auto_picks_by_capacity(void **state) {
   }
 }
 
-/* The same inputs give the same bits, whatever is asked on the way. */
-static void the_same_bits_twice(void **state) {
+/* The same inputs give the same bits, whatever queries are made in between. */
+static void the_same_bits_twice(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j)
     for (size_t e = 0; e < LENGTH(errors); ++e) {
@@ -391,12 +394,12 @@ static void the_same_bits_twice(void **state) {
       ring_init(&course, 13);
       cairn_filter_options o = ring_options(&course, 8, joins[j]);
       o.error = errors[e];
-      cairn_filter *f[] = {ring_filter(&o), ring_filter(&o)};
+      cairn_filter* f[] = {ring_filter(&o), ring_filter(&o)};
       for (unsigned step = 0; step < 2 * RING_STEPS; ++step) {
         cairn_landmark l;
         ring_drive(&course, f, 2, 1);
         (void)cairn_map_landmark(cairn_filter_map(f[0]), 1 + step % RING_LANDMARKS,
-                                 &l); /* one asks, the other doesn't */
+                                 &l); /* one filter is queried, the other is not */
         if (step % 10 != 9) continue;
         submaps_take(&a, f[0]);
         submaps_take(&b, f[1]);
@@ -407,12 +410,12 @@ static void the_same_bits_twice(void **state) {
     }
 }
 
-/* Submaps give what a single map gives, as nearly as other linearisation points allow. */
-static void submaps_and_a_single_map_agree(void **state) {
+/* Submaps give the same result as a single map, up to different linearisation points. */
+static void submaps_and_a_single_map_agree(void** state) {
   (void)state;
   for (size_t e = 0; e < LENGTH(errors); ++e) {
     ring course;
-    cairn_filter *f[3];
+    cairn_filter* f[3];
     ring_init(&course, 14);
     for (int i = 0; i < 3; ++i) {
       cairn_filter_options o = ring_options(&course, i == 0 ? 0 : 8, i == 1 ? CAIRN_JOIN_DENSE : CAIRN_JOIN_SPARSE);
@@ -449,7 +452,7 @@ int main(void) {
       cmocka_unit_test(the_list_of_submaps),
       cmocka_unit_test(maps_while_a_submap_is_open),
       cmocka_unit_test(a_single_map_has_no_submaps),
-      cmocka_unit_test(older_structs),
+      cmocka_unit_test(structs_of_older_versions),
       cmocka_unit_test(pose_and_map_jointly),
       cmocka_unit_test(auto_picks_by_capacity),
       cmocka_unit_test(the_same_bits_twice),

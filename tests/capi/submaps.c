@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* The ring of landmarks, and snapshots of a filter with submaps. */
 #include "submaps.h"
 
-void ring_init(ring *r, uint64_t seed) {
+void ring_init(ring* r, uint64_t seed) {
   memset(r, 0, sizeof *r);
   r->random.state = seed;
   r->truth = pose_at(10, 0, 0.5, 0.05, -0.03, PI / 2);
@@ -12,8 +13,8 @@ void ring_landmark(unsigned i, double point[3]) {
   point[0] = radius * cos(angle), point[1] = radius * sin(angle), point[2] = 0.8 * sin(2.3 * i);
 }
 
-/* A step on a circle of 10 m about the origin, turned as the start was. */
-void ring_next(ring *r, ring_frame *f) {
+/* A step on a circle of 10 m around the origin. The vehicle keeps its initial tilt against the circle. */
+void ring_next(ring* r, ring_frame* f) {
   const double angle = 2 * PI / RING_STEPS, chord = 2 * 10 * sin(angle / 2);
   const cairn_pose lap = {{0, 0, 0}, {cos(angle / 2), 0, 0, sin(angle / 2)}}, start = r->truth;
   cairn_pose inverse;
@@ -36,7 +37,7 @@ void ring_next(ring *r, ring_frame *f) {
   memcpy(f->increment.quaternion, turned.quaternion, sizeof turned.quaternion);
   for (unsigned i = 0; i < RING_LANDMARKS && f->count < RING_SEEN; ++i) {
     double point[3];
-    cairn_observation *o = &f->seen[f->count];
+    cairn_observation* o = &f->seen[f->count];
     ring_landmark(i, point);
     to_body(&r->truth, point, o->z);
     if (o->z[0] * o->z[0] + o->z[1] * o->z[1] + o->z[2] * o->z[2] > 25) continue;
@@ -47,7 +48,7 @@ void ring_next(ring *r, ring_frame *f) {
   ++r->step;
 }
 
-cairn_filter_options ring_options(const ring *r, uint32_t landmarks, int32_t join) {
+cairn_filter_options ring_options(const ring* r, uint32_t landmarks, int32_t join) {
   cairn_filter_options options;
   assert_ok(cairn_filter_options_init(&options, sizeof options));
   options.max_landmarks = RING_LANDMARKS;
@@ -61,9 +62,9 @@ cairn_filter_options ring_options(const ring *r, uint32_t landmarks, int32_t joi
   return options;
 }
 
-cairn_filter *ring_filter(const cairn_filter_options *options) {
+cairn_filter* ring_filter(const cairn_filter_options* options) {
   const cairn_cartesian cartesian = test_cartesian();
-  cairn_filter *filter = NULL;
+  cairn_filter* filter = NULL;
   int32_t sensor = -1;
   assert_ok(cairn_filter_create(options, &filter));
   assert_ok(cairn_filter_add_cartesian(filter, &cartesian, &sensor));
@@ -71,12 +72,12 @@ cairn_filter *ring_filter(const cairn_filter_options *options) {
   return filter;
 }
 
-cairn_status ring_take(cairn_filter *filter, const ring_frame *f) {
+cairn_status ring_take(cairn_filter* filter, const ring_frame* f) {
   const cairn_status status = cairn_filter_predict_increment(filter, &f->increment, f->covariance);
   return status != CAIRN_OK ? status : cairn_filter_update(filter, 0, f->seen, f->count, NULL);
 }
 
-void ring_drive(ring *r, cairn_filter *const *filters, size_t count, unsigned steps) {
+void ring_drive(ring* r, cairn_filter* const* filters, size_t count, unsigned steps) {
   for (unsigned k = 0; k < steps; ++k) {
     ring_frame f;
     ring_next(r, &f);
@@ -84,7 +85,7 @@ void ring_drive(ring *r, cairn_filter *const *filters, size_t count, unsigned st
   }
 }
 
-cairn_closing_report last_closing(const cairn_filter *filter) {
+cairn_closing_report last_closing(const cairn_filter* filter) {
   cairn_closing_report report;
   memset(&report, 0, sizeof report);
   report.struct_size = sizeof report;
@@ -92,24 +93,24 @@ cairn_closing_report last_closing(const cairn_filter *filter) {
   return report;
 }
 
-static void append(snapshot *s, const void *bytes, size_t size) {
-  unsigned char *grown = realloc(s->bytes, s->size + size + 1);
+static void append(snapshot* s, const void* bytes, size_t size) {
+  unsigned char* grown = realloc(s->bytes, s->size + size + 1);
   assert_non_null(grown);
   s->bytes = grown;
   if (size > 0) memcpy(grown + s->size, bytes, size);
   s->size += size;
 }
 
-static void append_map(snapshot *s, const cairn_map *map, const cairn_filter *joint_with) {
+static void append_map(snapshot* s, const cairn_map* map, const cairn_filter* joint_with) {
   const double origin[3] = {0.3, -0.2, 0.1}, side[3] = {9, 4, 0};
   size_t n = 0, needed = 0;
   assert_ok(cairn_map_size(map, &n));
   append(s, &n, sizeof n);
   if (n == 0) return;
-  cairn_landmark *l = calloc(n, sizeof *l);
-  uint64_t *ids = calloc(n, sizeof *ids);
+  cairn_landmark* l = calloc(n, sizeof *l);
+  uint64_t* ids = calloc(n, sizeof *ids);
   const size_t edge = 6 + 3 * n;
-  double *joint = calloc(edge * edge, sizeof *joint);
+  double* joint = calloc(edge * edge, sizeof *joint);
   assert_true(l != NULL && ids != NULL && joint != NULL);
   assert_ok(cairn_map_landmarks(map, l, n, &needed));
   append(s, l, n * sizeof *l);
@@ -127,17 +128,14 @@ static void append_map(snapshot *s, const cairn_map *map, const cairn_filter *jo
   free(l), free(ids), free(joint);
 }
 
-void submaps_take(snapshot *s, const cairn_filter *filter) {
+void submaps_take(snapshot* s, const cairn_filter* filter) {
   cairn_pose pose;
   double covariance[36];
-  cairn_update_report report;
+  const cairn_update_report report = last_update(filter);
   size_t count = 0;
   snapshot_free(s);
-  memset(&report, 0, sizeof report);
-  report.struct_size = sizeof report;
-  assert_ok(cairn_filter_last_update(filter, &report));
   append(s, &report, sizeof report);
-  cairn_status (*const poses[])(const cairn_filter *, cairn_pose *, double *) = {
+  cairn_status (*const poses[])(const cairn_filter*, cairn_pose*, double*) = {
       cairn_filter_pose, cairn_filter_local_pose, cairn_filter_base_pose};
   for (size_t i = 0; i < LENGTH(poses); ++i) {
     assert_ok(poses[i](filter, &pose, covariance));

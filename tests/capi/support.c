@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* Checks, rigs, snapshots and benches of the tests. */
 #include "support.h"
 
 const double not_finite[3] = {NAN, INFINITY, -INFINITY};
 
-void check_near(double actual, double expected, double tolerance, const char *what, const char *file, int line) {
+void check_near(double actual, double expected, double tolerance, const char* what, const char* file, int line) {
   if (fabs(actual - expected) <= tolerance || actual == expected) return; /* NaN does not pass */
   print_error("%s: %.17g, expected %.17g within %g\n", what, actual, expected, tolerance);
   _fail(file, line);
 }
 
-void check_status(cairn_status actual, cairn_status expected, const char *call, const char *file, int line) {
+void check_status(cairn_status actual, cairn_status expected, const char* call, const char* file, int line) {
   if (actual == expected) return;
   print_error("%s\n  gave %s, expected %s; last message: %s\n", call, cairn_status_name(actual),
               cairn_status_name(expected), cairn_last_message());
@@ -28,7 +29,7 @@ cairn_filter_options test_options(void) {
   return options;
 }
 
-void rig_open(rig *r, const cairn_filter_options *options) {
+void rig_open(rig* r, const cairn_filter_options* options) {
   const cairn_stereo_head head = test_head();
   const cairn_stereo_camera camera = test_camera();
   const cairn_cartesian cartesian = test_cartesian();
@@ -42,12 +43,12 @@ void rig_open(rig *r, const cairn_filter_options *options) {
   assert_ok(cairn_filter_add_custom(r->filter, &range, &r->sensors[RANGE]));
 }
 
-void rig_close(rig *r) {
+void rig_close(rig* r) {
   cairn_filter_destroy(r->filter);
   r->filter = NULL;
 }
 
-cairn_status rig_take(rig *r, const frame *f, cairn_match *matches) {
+cairn_status rig_take(rig* r, const frame* f, cairn_match* matches) {
   double covariance[9];
   cairn_status status = CAIRN_OK;
   if (f->motion == WHEELS) status = cairn_filter_predict_wheels(r->filter, f->dt, f->left, f->right);
@@ -70,13 +71,13 @@ cairn_status rig_take(rig *r, const frame *f, cairn_match *matches) {
   return status;
 }
 
-void snapshot_free(snapshot *s) {
+void snapshot_free(snapshot* s) {
   free(s->bytes);
   s->bytes = NULL;
   s->size = 0;
 }
 
-cairn_update_report last_update(const cairn_filter *filter) {
+cairn_update_report last_update(const cairn_filter* filter) {
   cairn_update_report report;
   memset(&report, 0, sizeof report);
   report.struct_size = sizeof report;
@@ -84,8 +85,40 @@ cairn_update_report last_update(const cairn_filter *filter) {
   return report;
 }
 
-void snapshot_take(snapshot *s, const cairn_filter *filter) {
-  const cairn_map *map = cairn_filter_map(filter);
+size_t check_same_matches(const cairn_match* known, const cairn_match* found, size_t count, uint64_t* name_of) {
+  size_t matched = 0;
+  for (size_t i = 0; i < count; ++i) {
+    assert_int_equal(found[i].result, known[i].result);
+    if (found[i].result == CAIRN_NEW) name_of[found[i].landmark] = known[i].landmark;
+    if (found[i].result != CAIRN_MATCHED) continue;
+    assert_int_equal(name_of[found[i].landmark], known[i].landmark);
+    ++matched;
+  }
+  return matched;
+}
+
+int check_one_of_two_matches(const cairn_match matches[2]) {
+  const int matched = matches[0].result == CAIRN_MATCHED ? 0 : 1, refused = 1 - matched;
+  assert_int_equal(matches[matched].result, CAIRN_MATCHED);
+  assert_int_equal(matches[matched].landmark, matched);
+  assert_int_equal(matches[refused].result, CAIRN_REJECTED);
+  assert_int_equal(matches[refused].reason, CAIRN_REASON_AMBIGUOUS);
+  assert_int_equal(matches[refused].landmark, refused);
+  assert_true(matches[refused].distance < matches[refused].threshold);
+  return refused;
+}
+
+void check_same_pose(const cairn_filter* a, const cairn_filter* b) {
+  cairn_pose pose_a, pose_b;
+  double covariance_a[36], covariance_b[36];
+  assert_ok(cairn_filter_pose(a, &pose_a, covariance_a));
+  assert_ok(cairn_filter_pose(b, &pose_b, covariance_b));
+  assert_memory_equal(&pose_a, &pose_b, sizeof pose_a);
+  assert_memory_equal(covariance_a, covariance_b, sizeof covariance_a);
+}
+
+void snapshot_take(snapshot* s, const cairn_filter* filter) {
+  const cairn_map* map = cairn_filter_map(filter);
   size_t n = 0, needed = 0;
   assert_non_null(map);
   assert_ok(cairn_map_size(map, &n));
@@ -98,31 +131,28 @@ void snapshot_take(snapshot *s, const cairn_filter *filter) {
 
   cairn_pose pose;
   double covariance[36];
-  cairn_update_report report;
-  memset(&report, 0, sizeof report);
-  report.struct_size = sizeof report;
+  const cairn_update_report report = last_update(filter);
   assert_ok(cairn_filter_pose(filter, &pose, covariance));
-  assert_ok(cairn_filter_last_update(filter, &report));
   memcpy(s->bytes, &pose, sizeof pose);
   memcpy(s->bytes + sizeof pose, covariance, sizeof covariance);
   memcpy(s->bytes + sizeof pose + sizeof covariance, &report, sizeof report);
-  cairn_landmark *landmarks = (cairn_landmark *)(void *)(s->bytes + head);
+  cairn_landmark* landmarks = (cairn_landmark*)(void*)(s->bytes + head);
   assert_ok(cairn_map_landmarks(map, n == 0 ? NULL : landmarks, n, &needed));
   assert_int_equal(needed, n);
-  uint64_t *ids = calloc(n + 1, sizeof *ids);
+  uint64_t* ids = calloc(n + 1, sizeof *ids);
   assert_non_null(ids);
   for (size_t i = 0; i < n; ++i) ids[i] = landmarks[i].id;
-  double *joint = (double *)(void *)(s->bytes + head + n * sizeof(cairn_landmark));
+  double* joint = (double*)(void*)(s->bytes + head + n * sizeof(cairn_landmark));
   assert_ok(cairn_filter_joint_covariance(filter, n == 0 ? NULL : ids, n, joint, side * side, &needed));
   assert_int_equal(needed, side * side);
   free(ids);
 }
 
-bool snapshot_same(const snapshot *a, const snapshot *b) {
+bool snapshot_same(const snapshot* a, const snapshot* b) {
   return a->size == b->size && memcmp(a->bytes, b->bytes, a->size) == 0;
 }
 
-void bench_open(bench *b, const cairn_filter_options *options, unsigned steps) {
+void bench_open(bench* b, const cairn_filter_options* options, unsigned steps) {
   memset(b, 0, sizeof *b);
   world_init(&b->world, 20240229);
   rig_open(&b->main, options);
@@ -130,14 +160,14 @@ void bench_open(bench *b, const cairn_filter_options *options, unsigned steps) {
   bench_continue(b, steps);
 }
 
-void bench_close(bench *b) {
+void bench_close(bench* b) {
   rig_close(&b->main);
   rig_close(&b->shadow);
   snapshot_free(&b->before);
   snapshot_free(&b->after);
 }
 
-void bench_continue(bench *b, unsigned steps) {
+void bench_continue(bench* b, unsigned steps) {
   for (unsigned i = 0; i < steps; ++i) {
     frame f;
     cairn_match main[WORLD_LANDMARKS], shadow[WORLD_LANDMARKS];
@@ -152,7 +182,7 @@ void bench_continue(bench *b, unsigned steps) {
   snapshot_take(&b->before, b->main.filter);
 }
 
-frame bench_until(bench *b, int sensor) {
+frame bench_until(bench* b, int sensor) {
   for (;;) {
     frame f, blind;
     world_frame(&b->world, &f);
@@ -165,8 +195,8 @@ frame bench_until(bench *b, int sensor) {
   }
 }
 
-int bench_setup(void **state) {
-  bench *b = malloc(sizeof *b);
+int bench_setup(void** state) {
+  bench* b = malloc(sizeof *b);
   const cairn_filter_options options = test_options();
   assert_non_null(b);
   bench_open(b, &options, 24);
@@ -174,14 +204,14 @@ int bench_setup(void **state) {
   return 0;
 }
 
-int bench_teardown(void **state) {
+int bench_teardown(void** state) {
   bench_close(*state);
   free(*state);
   return 0;
 }
 
-void refusal_expected(bench *b, const char *name) {
-  /* Another failure first, so that an older message can't stand in for the one that is due. */
+void refusal_expected(bench* b, const char* name) {
+  /* Makes another call fail first, so that an older message is not mistaken for the expected one. */
   double rest[3];
   size_t count;
   if (strstr(name, "map") == NULL)
@@ -191,9 +221,9 @@ void refusal_expected(bench *b, const char *name) {
   if (b != NULL) snapshot_take(&b->before, b->main.filter);
 }
 
-void refusal_check(bench *b, cairn_status actual, cairn_status expected, const char *name, const char *call,
-                   const char *file, int line) {
-  const char *message = cairn_last_message();
+void refusal_check(bench* b, cairn_status actual, cairn_status expected, const char* name, const char* call,
+                   const char* file, int line) {
+  const char* message = cairn_last_message();
   if (actual != expected) {
     print_error("%s\n  gave %s, expected %s for %s; last message: %s\n", call, cairn_status_name(actual),
                 cairn_status_name(expected), name, message);

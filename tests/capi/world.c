@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The world that the tests drive through, and the sensors that look at it. */
+/* The world of the tests, and the sensors that observe it. */
 #include "support.h"
 
-uint64_t random_bits(generator *random) { /* splitmix64 */
+uint64_t random_bits(generator* random) { /* splitmix64 */
   uint64_t z = (random->state += UINT64_C(0x9E3779B97F4A7C15));
   z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
   z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
   return z ^ (z >> 31);
 }
 
-double random_uniform(generator *random, double lower, double upper) {
+double random_uniform(generator* random, double lower, double upper) {
   return lower + (upper - lower) * (double)(random_bits(random) >> 11) / 9007199254740992.0;
 }
 
-double random_normal(generator *random,
-                     double sigma) { /* sum of twelve: no library function that may round otherwise */
+/* Sum of twelve uniform numbers: it uses no library function whose rounding differs between machines. */
+double random_normal(generator* random, double sigma) {
   double sum = -6.0;
   for (int i = 0; i < 12; ++i) sum += random_uniform(random, 0.0, 1.0);
   return sigma * sum;
@@ -46,14 +46,14 @@ static void apply_transposed(const double m[9], const double v[3], double out[3]
   for (int i = 0; i < 3; ++i) out[i] = m[i] * v[0] + m[3 + i] * v[1] + m[6 + i] * v[2];
 }
 
-void to_body(const cairn_pose *pose, const double point[3], double out[3]) {
+void to_body(const cairn_pose* pose, const double point[3], double out[3]) {
   double m[9], d[3];
   rotation_matrix(pose->quaternion, m);
   for (int i = 0; i < 3; ++i) d[i] = point[i] - pose->position[i];
   apply_transposed(m, d, out);
 }
 
-void to_map(const cairn_pose *pose, const double point[3], double out[3]) {
+void to_map(const cairn_pose* pose, const double point[3], double out[3]) {
   double m[9], turned[3];
   rotation_matrix(pose->quaternion, m);
   apply(m, point, turned);
@@ -66,13 +66,13 @@ cairn_pose pose_at(double x, double y, double z, double roll, double pitch, doub
   return pose;
 }
 
-void diagonal(double *matrix, int size, double value) {
+void diagonal(double* matrix, int size, double value) {
   for (int i = 0; i < size * size; ++i) matrix[i] = i % (size + 1) == 0 ? value : 0.0;
 }
 
 /* A custom sensor that gives the point in the body frame. */
-int32_t point_predict(void *user, const cairn_pose *pose, const double landmark[3], double *z, double *jacobian_pose,
-                      double *jacobian_landmark) {
+int32_t point_predict(void* user, const cairn_pose* pose, const double landmark[3], double* z, double* jacobian_pose,
+                      double* jacobian_landmark) {
   double m[9], d[3], cross[9], mt[9], turn[9];
   (void)user;
   rotation_matrix(pose->quaternion, m);
@@ -90,8 +90,8 @@ int32_t point_predict(void *user, const cairn_pose *pose, const double landmark[
   return 0;
 }
 
-int32_t point_place(void *user, const cairn_pose *pose, const double *z, double landmark[3], double *jacobian_pose,
-                    double *jacobian_z) {
+int32_t point_place(void* user, const cairn_pose* pose, const double* z, double landmark[3], double* jacobian_pose,
+                    double* jacobian_z) {
   double m[9], arm[3], cross[9];
   (void)user;
   rotation_matrix(pose->quaternion, m);
@@ -108,8 +108,8 @@ int32_t point_place(void *user, const cairn_pose *pose, const double *z, double 
   return 0;
 }
 
-int32_t range_predict(void *user, const cairn_pose *pose, const double landmark[3], double *z, double *jacobian_pose,
-                      double *jacobian_landmark) {
+int32_t range_predict(void* user, const cairn_pose* pose, const double landmark[3], double* z, double* jacobian_pose,
+                      double* jacobian_landmark) {
   double d[3], square = 0;
   (void)user;
   for (int i = 0; i < 3; ++i) d[i] = landmark[i] - pose->position[i], square += d[i] * d[i];
@@ -166,7 +166,7 @@ cairn_custom test_range(void) {
   return custom;
 }
 
-void world_init(world *w, uint64_t seed) {
+void world_init(world* w, uint64_t seed) {
   memset(w, 0, sizeof *w);
   w->random.state = seed;
   w->noise = 1.0;
@@ -179,7 +179,7 @@ void world_init(world *w, uint64_t seed) {
   }
 }
 
-bool world_see(const world *w, int sensor, double pan, double stick, const double point[3], double z[3]) {
+bool world_see(const world* w, int sensor, double pan, double stick, const double point[3], double z[3]) {
   double b[3];
   to_body(&w->truth, point, b);
   const double range = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
@@ -204,7 +204,7 @@ bool world_see(const world *w, int sensor, double pan, double stick, const doubl
     z[0] = camera.fu * x / depth + camera.cu;
     z[1] = camera.fu * (x - camera.baseline) / depth + camera.cu;
     z[2] = camera.fv * y / depth + camera.cv;
-    return z[0] > -400 && z[0] < 1040; /* a wide lens */
+    return z[0] > -400 && z[0] < 1040; /* a wide field of view */
   }
   if (sensor == RANGE) {
     z[0] = range, z[1] = z[2] = 0;
@@ -214,11 +214,11 @@ bool world_see(const world *w, int sensor, double pan, double stick, const doubl
   return true;
 }
 
-static void observe(world *w, frame *f) {
+static void observe(world* w, frame* f) {
   static const double sigma[SENSORS][3] = {{0.2, 0.01, 0.01}, {1, 1, 1}, {0.1, 0.1, 0.1}, {0.1, 0.1, 0.1}, {0.1, 0, 0}};
   f->count = 0;
   for (int i = 0; i < WORLD_LANDMARKS; ++i) {
-    cairn_observation *o = &f->observations[f->count];
+    cairn_observation* o = &f->observations[f->count];
     memset(o, 0, sizeof *o);
     o->id = (uint64_t)i + 1;
     if (!world_see(w, f->sensor, f->pan, f->stick, w->landmarks[i], o->z)) continue;
@@ -227,7 +227,7 @@ static void observe(world *w, frame *f) {
   }
 }
 
-void world_frame(world *w, frame *f) {
+void world_frame(world* w, frame* f) {
   const double speed = 0.5, turn = 0.1, dt = 0.2, angle = turn * dt;
   const cairn_pose move = {{speed / turn * sin(angle), speed / turn * (1 - cos(angle)), 0},
                            {cos(angle / 2), 0, 0, sin(angle / 2)}};

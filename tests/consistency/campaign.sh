@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Runs tests/consistency/monte_carlo over all of its rows and prints one table: final error, ANEES per degree of freedom
-# and the share of instants inside the 95 % band, of both kinds of error and of submaps joined in both ways, next to
-# dead reckoning; of submaps also their final error against that of the single invariant map.
+# and the share of times inside the 95 % band, for both error states, for submaps with both joinings, and for dead
+# reckoning. For submaps it also prints the ratio of the final error to that of the single invariant map.
 #
 #   tests/consistency/campaign.sh MONTE_CARLO [RUNS [SEED [OPTION...]]]
 #
-# MONTE_CARLO is the program consistency_monte_carlo of a build; 50 runs from seed 1. Options go to it as they are:
+# MONTE_CARLO is the program consistency_monte_carlo of a build; the default is 50 runs from seed 1. Its options are:
 # --iterations N, --gated.
 set -euo pipefail
 

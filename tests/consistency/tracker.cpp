@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Errors of a filter over many runs.
 #include "tracker.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One kind of filter, run through world after world, and what its error was against what it said of it.
+// One kind of filter, run through many worlds, and its errors compared with its covariance.
 #pragma once
 
 #include <cairn/cairn.h>
@@ -12,16 +12,16 @@
 
 namespace consistency {
 
-// Quantile of chi-square by Wilson and Hilferty, good to 1e-4 for the hundred degrees and more that are asked for here;
-// z: that of the normal distribution.
+// Chi-square quantile by Wilson and Hilferty, accurate to 1e-4 for a hundred degrees of freedom and more; z is the
+// quantile of the normal distribution.
 double quantile(double dof, double z);
 constexpr double kTwoSided95 = 1.959963984540054;
 
-// Ends the program where a call of the library failed.
+// Ends the program if a call of the library failed.
 void check(cairn_status status, const char* what);
 #define CHECK(call) consistency::check(call, #call)
 
-// A sum of chi-square variables over the runs, at one instant.
+// A sum of chi-square variables over the runs, at one time.
 struct Sum {
   double value = 0, dof = 0;
   bool inside() const { return value >= quantile(dof, -kTwoSided95) && value <= quantile(dof, kTwoSided95); }
@@ -31,15 +31,15 @@ struct Sum {
 struct Kind {
   const char* name;
   int32_t error;              // CAIRN_ERROR_...
-  uint32_t submap_landmarks;  // 0: one single map
+  uint32_t submap_landmarks;  // 0: a single map
   int32_t join;               // CAIRN_JOIN_...
   bool sees;                  // false: dead reckoning
 };
 
-// How all filters of a campaign are set up.
+// Options that all filters of a campaign share.
 struct Setup {
-  uint32_t iterations = 0;  // 0: the library's
-  bool gated = false;       // the library's gates, instead of none
+  uint32_t iterations = 0;  // 0: the default of the library
+  bool gated = false;       // the gates of the library instead of open gates
 };
 
 class Tracker {
@@ -48,7 +48,8 @@ class Tracker {
 
   void start(const Noise& noise, const cairn_pose& pose, const Setup& setup);
   void predict(const double velocity[3], const double rate[3]);
-  // Takes in a frame; after the last one the open submap is closed, so that its frame is scored with all there is.
+  // Processes a frame. After the last frame the open submap is closed, so that the frame is scored with all
+  // information.
   void update(int frame, const std::vector<cairn_observation>& seen, const cairn_pose& truth);
   void finish(const cairn_pose& truth);
 
@@ -59,18 +60,18 @@ class Tracker {
   double nis_share() const { return share(nis_); }
   double anees() const { return mean(nees_); }
   double nis_mean() const { return mean(nis_); }
-  // Of the mean NIS from 1, in its standard deviations.
+  // Deviation of the mean NIS from 1, in standard deviations.
   double nis_deviation() const;
   double final_metres() const;
   double final_degrees() const;
-  // Of all runs: closings, landmarks that the map and a submap had in common, and those of them that were left out.
+  // Over all runs: closings, landmarks that the map and a submap had in common, and those of them that were left out.
   long closings() const { return closings_; }
   long fused() const { return fused_; }
   long refused() const { return refused_; }
 
  private:
   using Sums = std::array<Sum, World::kFrames>;
-  static double share(const Sums& sums);  // of the instants, whose sum lies inside its band
+  static double share(const Sums& sums);  // share of the times at which the sum lies in its band
   static double mean(const Sums& sums);   // per degree of freedom
   void count_closing();
 

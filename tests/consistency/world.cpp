@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The simulated course of the Monte Carlo runs.
 #include "world.hpp"
 
 #include <cmath>
@@ -42,7 +43,7 @@ World::World(const Noise& noise, int laps, unsigned long long seed) : noise_(noi
   }
 }
 
-// z along the ground's normal, x along the way, which lies in the ground.
+// z is the normal of the ground, x the direction of travel in the ground.
 World::Frame World::frame(int step) const {
   const double azimuth = std::atan2(20, 100) + 2 * kPi * laps_ * step / kSteps;
   Frame f;
@@ -65,7 +66,7 @@ cairn_pose World::pose(int step) const {
   const Frame f = frame(step);
   cairn_pose pose;
   std::memcpy(pose.position, f.p, sizeof f.p);
-  // Shepperd's case of the largest w or z: the rover never stands on its head.
+  // Shepperd's method with the larger of w and z: the rover never stands on its head.
   double* q = pose.quaternion;
   const double trace = f.R[0][0] + f.R[1][1] + f.R[2][2];
   if (trace > 0) {
@@ -84,8 +85,8 @@ cairn_pose World::pose(int step) const {
   return pose;
 }
 
-// The constant twist that leads from one pose to the next, Log(T_a^-1 T_b) / dt: turns of a step are small, so that
-// series do; what they leave out is below 1e-12.
+// The constant twist between two poses, Log(T_a^-1 T_b) / dt. The rotations of a step are small, so series are used;
+// the omitted terms are below 1e-12.
 void World::twist(int step, double velocity[3], double rate[3]) {
   const Frame a = frame(step), b = frame(step + 1);
   double R[3][3] = {}, d[3] = {};

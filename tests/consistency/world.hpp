@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulated world of the consistency tests: a rover on a circle over rolling ground, among landmarks. It knows
-// nothing of the filter; what it hands out are measurements with exactly the noise that it tells of.
+// The simulated world of the consistency tests: a rover on a circle over rolling ground, among landmarks. It does not
+// depend on the filter. Its measurements have exactly the noise that it states.
 #pragma once
 
 #include <cairn/cairn.h>
@@ -17,7 +17,7 @@ struct Noise {
   double bearing = 0.0524;  // rad, azimuth and elevation
 };
 
-// Random numbers that are the same everywhere: only the engine of <random> is, its distributions aren't.
+// Random numbers that are the same everywhere. The engine of <random> is portable, its distributions are not.
 class Random {
  public:
   explicit Random(unsigned long long seed) : engine_(seed) {}
@@ -40,9 +40,9 @@ class World {
 
   // The true pose after `step` steps.
   cairn_pose pose(int step) const;
-  // Measured body velocity and rate of the way from `step` to the next.
+  // Measured body velocity and rate from `step` to the next step.
   void twist(int step, double velocity[3], double rate[3]);
-  // What is seen there: landmarks between 2 m and 40 m, within 60 degrees to both sides.
+  // The observations at a step: landmarks between 2 m and 40 m, within 60 degrees to both sides.
   const std::vector<cairn_observation>& look(int step);
 
  private:

@@ -1,218 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls every function of the library with good and bad arguments mixed, as a seed says, and holds what has to hold
- * after any call: a status of the pinned set, a line for each failure, a failed call that changes nothing, and a state
- * of finite numbers whose variances are not negative.
+/* Calls every function of the library with a random mix of good and bad arguments, determined by a seed. After each
+ * call it checks: the status is one of the pinned set, a failure has a one-line message, a failed call changes nothing,
+ * and the state has finite numbers and variances that are not negative.
  *
  *   api_fuzz SEED CALLS [LIMIT [loose]]
  *
- * Buffers are exactly as long as the library is told, so that a sanitizer sees each byte too far. Half of the filters
- * are "sane": numbers of everyday size and arguments that are wrong in kind (NaN, negative noise, unknown ids), after
- * which the covariance has to stay positive definite to rounding; the others are given numbers of any size, or of sizes
- * up to LIMIT and down to 1 / LIMIT. `loose` asks nothing of the numbers of those others: all else has to hold for them
- * too. */
+ * Buffers are exactly as long as the library is told, so that a sanitizer detects each byte beyond them. Half of the
+ * filters are "sane": they get numbers of ordinary size and arguments that are wrong in kind (NaN, negative noise,
+ * unknown ids), and their covariance must stay positive definite up to rounding. The other filters get numbers of any
+ * size, or of sizes up to LIMIT and down to 1 / LIMIT. With `loose` the numbers of these other filters are not checked;
+ * all other conditions must hold for them too. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "fuzz.h"
-
-typedef struct slot {
-  cairn_filter *filter;
-  bool wild, planar;
-  uint32_t max_landmarks, max_observations;
-  int32_t sensors;
-  uint32_t rows[64]; /* of an observation, by sensor */
-} slot;
+#include "filters.h"
 
 static slot slots[3];
-static slot *now;
-static unsigned long long refused_by_audit;
 
-static bool loose;
-#define HOLDS_OF_NUMBERS(s, condition, value)              \
-  do {                                                     \
-    if (!loose || !(s)->wild) HOLDS((condition), (value)); \
-  } while (0)
-
-static void check_numbers(const slot *s, const double *values, size_t count) {
-  for (size_t i = 0; i < count; ++i) HOLDS_OF_NUMBERS(s, isfinite(values[i]), values[i]);
-}
-
-/* What may be said of a filter after any call. */
-static void check_state(const slot *s, bool whole) {
-  cairn_pose pose;
-  double covariance[36], length = 0, pivot = NAN;
-  size_t n = 0, needed = 0;
-  HOLDS(cairn_filter_pose(s->filter, &pose, covariance) == CAIRN_OK, 0);
-  check_numbers(s, pose.position, 3);
-  check_numbers(s, pose.quaternion, 4);
-  for (int i = 0; i < 4; ++i) length += pose.quaternion[i] * pose.quaternion[i];
-  HOLDS_OF_NUMBERS(s, fabs(length - 1) < 1e-9, length);
-  check_numbers(s, covariance, 36);
-  for (int i = 0; i < 6; ++i) HOLDS_OF_NUMBERS(s, covariance[7 * i] >= 0, covariance[7 * i]);
-  for (int i = 0; i < 36; ++i) HOLDS_OF_NUMBERS(s, covariance[i] == covariance[6 * (i % 6) + i / 6], covariance[i]);
-  const cairn_map *map = cairn_filter_map(s->filter);
-  HOLDS(map != NULL && cairn_map_size(map, &n) == CAIRN_OK && n <= s->max_landmarks, n);
-  if (!whole) return;
-  cairn_landmark *all = calloc(n + 1, sizeof *all);
-  HOLDS(cairn_map_landmarks(map, all, n, &needed) == CAIRN_OK && needed == n, needed);
-  for (size_t i = 0; i < n; ++i) {
-    check_numbers(s, all[i].position, 3);
-    check_numbers(s, all[i].covariance, 9);
-    for (int k = 0; k < 3; ++k) HOLDS_OF_NUMBERS(s, all[i].covariance[4 * k] >= 0, all[i].covariance[4 * k]);
-    HOLDS(all[i].id != CAIRN_ID_NONE && all[i].observations > 0, all[i].observations);
-    if (i > 0) HOLDS(all[i - 1].id < all[i].id, all[i].id);
-  }
-  free(all);
-  HOLDS(cairn_filter_audit(s->filter, &pivot) == CAIRN_OK, pivot);
-  HOLDS_OF_NUMBERS(s, !isnan(pivot), pivot);
-  if (!s->wild) HOLDS(pivot > -1e-9, pivot);
-  refused_by_audit += !(pivot > 0);
-}
-
-static uint64_t id(void) { return fuzz_one_in(60) ? fuzz_id() : fuzz_below(now->max_landmarks + 3u); }
-static int32_t sensor(void) { return fuzz_one_in(40) ? fuzz_int() : (int32_t)fuzz_below((uint64_t)now->sensors + 1); }
-
-static void hear(void *payload, const char *line) { *(size_t *)payload += strlen(line); }
-static size_t heard;
-
-/* --- operations --- */
-
-static void create(slot *s) {
-  cairn_filter_options o;
-  cairn_filter *filter = NULL;
-  size_t bytes = 0;
-  fuzz_operation = "create";
-  fuzz_wild = true;
-  fuzz_check_status(cairn_filter_options_init(&o, sizeof o));
-  slot fresh = {NULL,
-                fuzz_one_in(2),
-                fuzz_one_in(3),
-                1 + (uint32_t)fuzz_below(fuzz_one_in(10) ? 120 : 25),
-                1 + (uint32_t)fuzz_below(12),
-                0,
-                {0}};
-  o.vehicle = fuzz_one_in(60) ? fuzz_int() : fresh.planar ? CAIRN_VEHICLE_PLANAR : CAIRN_VEHICLE_SPATIAL;
-  o.error = fuzz_one_in(3);
-  o.max_landmarks = fresh.max_landmarks, o.max_observations = fresh.max_observations;
-  o.max_sensors = 1 + (uint32_t)fuzz_below(10);
-  o.iterations = 1 + (uint32_t)fuzz_below(6);
-  if (fuzz_one_in(3)) o.gate_probability = fuzz_uniform(0.1, 1.02);
-  if (fuzz_one_in(3)) o.batch_gate_probability = fuzz_one_in(2) ? 1 : fuzz_uniform(0.1, 1);
-  if (fuzz_one_in(8)) o.iteration_tolerance = fuzz_garbage();
-  if (fuzz_one_in(2)) o.submap_landmarks = 1 + (uint32_t)fuzz_below(fuzz_one_in(20) ? 5000 : 12);
-  o.join = fuzz_one_in(20) ? fuzz_int() : (int32_t)fuzz_below(3);
-  if (fuzz_one_in(3)) o.association = fuzz_one_in(20) ? fuzz_int() : (int32_t)fuzz_below(3);
-  if (fuzz_one_in(6)) o.association_nodes = (uint32_t)fuzz_below(50);
-  if (fuzz_one_in(6)) o.new_probability = fuzz_positive(0.5);
-  if (fuzz_one_in(6)) o.association_distance = fuzz_one_in(20) ? fuzz_int() : (int32_t)fuzz_below(2);
-  if (fuzz_one_in(4)) o.deferred_sightings = 1 + (uint32_t)fuzz_below(4), o.deferred_frames = (uint32_t)fuzz_below(9);
-  if (fuzz_one_in(4)) o.missed_frames = (uint32_t)fuzz_below(4);
-  if (fuzz_one_in(4)) o.error_persistence = fuzz_bad() ? fuzz_garbage() : fuzz_uniform(1, 30);
-  if (fuzz_one_in(6)) o.submap_distance = fuzz_positive(5);
-  if (fuzz_one_in(6)) o.submap_extent = fuzz_positive(10);
-  if (fuzz_one_in(6)) o.submap_sigma = fuzz_positive(0.1);
-  if (fuzz_one_in(12)) o.error = fuzz_int();
-  now = &fresh;
-  fuzz_wild = fresh.wild;
-  if (fuzz_one_in(2)) fuzz_covariance(o.initial_covariance, 6, 0.01);
-  if (fuzz_one_in(2)) fuzz_pose(&o.initial_pose);
-  void *given = fuzz_one_in(4) ? fuzz_resized(&o, sizeof o) : NULL;
-  uint32_t stated;
-  if (given != NULL) memcpy(&stated, given, sizeof stated);
-  if (given == NULL || stated < offsetof(cairn_filter_options, iterations)) { /* the old caller's default is large */
-    free(given);
-    given = malloc(sizeof o);
-    memcpy(given, &o, sizeof o);
-  }
-  const cairn_status sized = cairn_filter_required_bytes(fuzz_maybe(given), fuzz_maybe_out(&bytes));
-  fuzz_check_status(sized);
-  const cairn_status status = cairn_filter_create(fuzz_maybe(given), fuzz_one_in(50) ? NULL : &filter);
-  fuzz_check_status(status);
-  HOLDS((filter != NULL) == (status == CAIRN_OK), status);
-  free(given);
-  if (filter == NULL) return;
-  cairn_filter_destroy(s->filter);
-  *s = fresh;
-  s->filter = filter;
-  if (fuzz_one_in(2)) fuzz_check_status(cairn_filter_set_log(filter, hear, &heard));
-  now = s;
-}
-
-static void draw_radar(cairn_range_bearing *r) {
-  fuzz_check_status(cairn_range_bearing_init(r, sizeof *r));
-  if (fuzz_one_in(3)) r->T_body_sensor.position[fuzz_below(2)] = fuzz_number(1);
-  r->range_sigma = fuzz_positive(0.5), r->bearing_sigma = fuzz_positive(0.1);
-  if (fuzz_one_in(4)) r->near_range = fuzz_positive(0.1);
-}
-
-static void add_sensor(slot *s) {
-  int32_t added = -77, *out = fuzz_maybe_out(&added);
-  cairn_status status = CAIRN_OK;
-  void *given = NULL;
-  uint32_t rows = 3;
-  const int kind = s->planar && !fuzz_one_in(9) ? 2 + (int)fuzz_below(4) : (int)fuzz_below(fuzz_one_in(9) ? 6 : 5);
-  if (kind == 0) {
-    cairn_stereo_head h;
-    fuzz_check_status(cairn_stereo_head_init(&h, sizeof h));
-    h.encoder_mode = fuzz_one_in(30) ? fuzz_int() : (int32_t)fuzz_below(2);
-    fuzz_numbers(h.platform, 3, 1), fuzz_numbers(h.stick, 3, 1);
-    if (fuzz_one_in(2)) fuzz_numbers(h.camera_quaternion, 4, 1);
-    h.range_sigma = fuzz_positive(1), h.azimuth_sigma = fuzz_positive(0.1), h.elevation_sigma = fuzz_positive(0.1);
-    h.pan_sigma = fuzz_positive(0.02), h.stick_sigma = fuzz_one_in(3) ? 0 : fuzz_positive(0.02);
-    if (fuzz_one_in(4)) h.max_elevation = fuzz_positive(1.5);
-    given = fuzz_one_in(4) ? fuzz_resized(&h, sizeof h) : memcpy(malloc(sizeof h), &h, sizeof h);
-    status = cairn_filter_add_stereo_head(s->filter, fuzz_maybe(given), out);
-  } else if (kind == 1) {
-    cairn_stereo_camera c;
-    fuzz_check_status(cairn_stereo_camera_init(&c, sizeof c));
-    c.fu = fuzz_positive(500), c.fv = fuzz_positive(500), c.baseline = fuzz_positive(1), c.cu = fuzz_number(500);
-    if (fuzz_one_in(3)) fuzz_pose(&c.T_body_camera);
-    c.sigma[fuzz_below(3)] = fuzz_positive(2);
-    given = fuzz_one_in(4) ? fuzz_resized(&c, sizeof c) : memcpy(malloc(sizeof c), &c, sizeof c);
-    status = cairn_filter_add_stereo_camera(s->filter, fuzz_maybe(given), out);
-  } else if (kind == 2) {
-    cairn_cartesian c;
-    fuzz_check_status(cairn_cartesian_init(&c, sizeof c));
-    if (fuzz_one_in(2)) fuzz_pose(&c.T_body_sensor);
-    c.sigma[fuzz_below(3)] = fuzz_positive(1);
-    given = fuzz_one_in(4) ? fuzz_resized(&c, sizeof c) : memcpy(malloc(sizeof c), &c, sizeof c);
-    status = cairn_filter_add_cartesian(s->filter, fuzz_maybe(given), out);
-    if (s->planar) rows = 2;
-  } else if (kind == 5) {
-    cairn_range_bearing r;
-    draw_radar(&r);
-    given = fuzz_one_in(4) ? fuzz_resized(&r, sizeof r) : memcpy(malloc(sizeof r), &r, sizeof r);
-    status = cairn_filter_add_range_bearing(s->filter, fuzz_maybe(given), out);
-    rows = 2;
-  } else {
-    cairn_custom c;
-    double worst, landmark[3];
-    cairn_pose T;
-    fuzz_check_status(cairn_custom_init(&c, sizeof c));
-    c.predict = kind == 3 ? fuzz_custom_predict : fuzz_range_predict;
-    c.place = kind == 3 && !fuzz_one_in(4) ? fuzz_custom_place : NULL;
-    c.rows = rows = kind == 3 ? 3 : 1;
-    if (fuzz_one_in(30)) c.rows = fuzz_one_in(2) ? 0 : 4 + (uint32_t)fuzz_below(5);
-    if (fuzz_one_in(30)) c.predict = NULL;
-    c.angle_mask = (uint32_t)fuzz_below(8);
-    c.sigma[0] = fuzz_positive(1);
-    fuzz_pose(&T), fuzz_numbers(landmark, 3, 5);
-    fuzz_check_status(cairn_custom_check(fuzz_maybe(&c), fuzz_maybe(&T), fuzz_maybe(landmark), fuzz_maybe_out(&worst)));
-    given = memcpy(malloc(sizeof c), &c, sizeof c);
-    status = cairn_filter_add_custom(s->filter, fuzz_maybe(given), out);
-  }
-  free(given);
-  fuzz_check_status(status);
-  HOLDS((status == CAIRN_OK) == (added != -77), added);
-  if (status != CAIRN_OK) return;
-  HOLDS(added == s->sensors, added);
-  s->rows[s->sensors++] = rows;
-}
-
-static void motion(slot *s) {
-  cairn_filter *f = fuzz_one_in(100) ? NULL : s->filter;
+static void motion(slot* s) {
+  cairn_filter* f = fuzz_one_in(100) ? NULL : s->filter;
   double v[3], w[3], c[36];
   cairn_pose T;
   const double dt = fuzz_bad() ? fuzz_garbage() : fuzz_uniform(0.01, 0.5);
@@ -226,7 +34,7 @@ static void motion(slot *s) {
     cairn_wheels wheels;
     fuzz_check_status(cairn_wheels_init(&wheels, sizeof wheels));
     wheels.radius = fuzz_positive(0.5), wheels.track = fuzz_positive(1), wheels.slip_sigma = fuzz_positive(0.1);
-    void *given = fuzz_resized(&wheels, sizeof wheels);
+    void* given = fuzz_resized(&wheels, sizeof wheels);
     fuzz_check_status(cairn_filter_set_wheels(f, fuzz_maybe(given)));
     free(given);
   }
@@ -234,22 +42,22 @@ static void motion(slot *s) {
     cairn_twist_noise noise;
     fuzz_check_status(cairn_twist_noise_init(&noise, sizeof noise));
     noise.velocity_sigma[fuzz_below(3)] = fuzz_positive(0.1), noise.rate_sigma[fuzz_below(3)] = fuzz_positive(0.1);
-    void *given = fuzz_resized(&noise, sizeof noise);
+    void* given = fuzz_resized(&noise, sizeof noise);
     fuzz_check_status(cairn_filter_set_twist_noise(f, fuzz_maybe(given)));
     free(given);
   }
 }
 
-static void observe(slot *s) {
+static void observe(slot* s) {
   const size_t count = fuzz_one_in(40) ? fuzz_below(30) : fuzz_below(s->max_observations + 1u);
-  cairn_observation *o = malloc(count * sizeof *o + 1); /* + 1: never NULL */
-  cairn_match *m = malloc(count * sizeof *m + 1);
+  cairn_observation* o = malloc(count * sizeof *o + 1); /* + 1: never NULL */
+  cairn_match* m = malloc(count * sizeof *m + 1);
   memset(m, 0x5a, count * sizeof *m);
-  const int32_t by = sensor();
-  const uint64_t first = id();
+  const int32_t by = random_sensor();
+  const uint64_t first = random_id();
   for (size_t i = 0; i < count; ++i) {
     memset(&o[i], 0, sizeof o[i]);
-    o[i].id = fuzz_one_in(40) ? id() : (first + i) % (s->max_landmarks + 2u);
+    o[i].id = fuzz_one_in(40) ? random_id() : (first + i) % (s->max_landmarks + 2u);
     fuzz_numbers(o[i].z, 3, 10);
     if (fuzz_one_in(2)) o[i].z[0] = fuzz_uniform(0, 400), o[i].z[1] = o[i].z[0] - fuzz_uniform(0, 30);
     if (fuzz_one_in(10)) fuzz_covariance(o[i].covariance, by >= 0 && by < s->sensors ? s->rows[by] : 3, 1);
@@ -271,25 +79,29 @@ static void observe(slot *s) {
   free(o), free(m);
 }
 
-/* What becomes of landmarks beside being seen. */
-static void life(slot *s) {
+/* Removal, merging, splitting and deferral of landmarks. */
+static void life(slot* s) {
   double lower[3], upper[3], c[9];
   cairn_match m, *out = fuzz_one_in(3) ? NULL : &m;
   switch (fuzz_below(4)) {
-    case 0: fuzz_check_status(cairn_filter_remove_landmark(s->filter, id())); break;
-    case 1: fuzz_check_status(cairn_filter_merge_landmarks(s->filter, id(), id(), out)); break;
+    case 0:
+      fuzz_check_status(cairn_filter_remove_landmark(s->filter, random_id()));
+      break;
+    case 1:
+      fuzz_check_status(cairn_filter_merge_landmarks(s->filter, random_id(), random_id(), out));
+      break;
     case 2:
       fuzz_covariance(c, 3, 0.1);
-      fuzz_check_status(cairn_filter_split_landmark(s->filter, id(), id(), fuzz_maybe(c)));
+      fuzz_check_status(cairn_filter_split_landmark(s->filter, random_id(), random_id(), fuzz_maybe(c)));
       break;
     default:
       fuzz_numbers(lower, 3, 10);
       for (int i = 0; i < 3; ++i) upper[i] = fuzz_bad() ? fuzz_number(10) : lower[i] + fuzz_uniform(0, 40);
-      fuzz_check_status(cairn_filter_set_view(s->filter, sensor(), fuzz_maybe(lower), fuzz_maybe(upper)));
+      fuzz_check_status(cairn_filter_set_view(s->filter, random_sensor(), fuzz_maybe(lower), fuzz_maybe(upper)));
   }
 }
 
-static void absolute(slot *s) {
+static void absolute(slot* s) {
   double z[3], c[9], lever[3], q[4];
   cairn_match m, *out = fuzz_one_in(3) ? NULL : &m;
   fuzz_numbers(z, 3, 5), fuzz_covariance(c, 3, 0.1), fuzz_numbers(lever, 3, 1), fuzz_numbers(q, 4, 1);
@@ -301,25 +113,25 @@ static void absolute(slot *s) {
   if (kind == 2) fuzz_check_status(cairn_filter_update_heading(s->filter, fuzz_number(4), fuzz_positive(0.2), out));
 }
 
-static void linear(slot *s) {
+static void linear(slot* s) {
   const size_t rows = fuzz_one_in(30) ? fuzz_below(60) : 1 + fuzz_below(6),
                count = fuzz_below(fuzz_one_in(30) ? 20 : 4);
   double *r = malloc(rows * sizeof *r + 1), *c = malloc(rows * rows * sizeof *c + 1);
   double *jp = malloc(6 * rows * sizeof *jp + 1), *jl = malloc(3 * count * rows * sizeof *jl + 1);
-  uint64_t *ids = malloc(count * sizeof *ids + 1);
+  uint64_t* ids = malloc(count * sizeof *ids + 1);
   cairn_match m;
   fuzz_numbers(r, rows, 0.3), fuzz_numbers(jp, 6 * rows, 1), fuzz_numbers(jl, 3 * count * rows, 1);
   if (rows > 0) fuzz_covariance(c, rows, 0.1);
-  const uint64_t first = id();
-  for (size_t i = 0; i < count; ++i) ids[i] = fuzz_one_in(10) ? id() : first + i;
+  const uint64_t first = random_id();
+  for (size_t i = 0; i < count; ++i) ids[i] = fuzz_one_in(10) ? random_id() : first + i;
   fuzz_check_status(cairn_filter_update_linear(s->filter, fuzz_maybe(r), rows, fuzz_maybe(c),
                                                fuzz_one_in(4) ? NULL : jp, fuzz_maybe(ids), count, fuzz_maybe(jl),
                                                fuzz_one_in(3) ? NULL : &m));
   free(r), free(c), free(jp), free(jl), free(ids);
 }
 
-static void ask(slot *s) {
-  const cairn_map *map = fuzz_one_in(60) ? NULL : cairn_filter_map(s->filter);
+static void ask(slot* s) {
+  const cairn_map* map = fuzz_one_in(60) ? NULL : cairn_filter_map(s->filter);
   const size_t capacity = fuzz_below(30), count = fuzz_below(6);
   cairn_landmark *out = malloc(capacity * sizeof *out + 1), one;
   double *matrix = malloc(capacity * 12 * sizeof *matrix + 1), a[3], b[3], nees;
@@ -328,10 +140,14 @@ static void ask(slot *s) {
   size_t needed;
   fuzz_numbers(a, 3, 10), fuzz_numbers(b, 3, 10), fuzz_pose(&truth);
   for (int i = 0; i < 3 && fuzz_one_in(2); ++i) b[i] = a[i] + fabs(b[i]);
-  for (size_t i = 0; i < count; ++i) ids[i] = id();
+  for (size_t i = 0; i < count; ++i) ids[i] = random_id();
   switch (fuzz_below(9)) {
-    case 0: fuzz_check_status(cairn_map_landmark(map, id(), fuzz_maybe_out(&one))); break;
-    case 1: fuzz_check_status(cairn_map_landmarks(map, fuzz_maybe_out(out), capacity, fuzz_maybe_out(&needed))); break;
+    case 0:
+      fuzz_check_status(cairn_map_landmark(map, random_id(), fuzz_maybe_out(&one)));
+      break;
+    case 1:
+      fuzz_check_status(cairn_map_landmarks(map, fuzz_maybe_out(out), capacity, fuzz_maybe_out(&needed)));
+      break;
     case 2:
       fuzz_check_status(
           cairn_map_within(map, fuzz_maybe(a), fuzz_positive(10), out, capacity, fuzz_maybe_out(&needed)));
@@ -350,11 +166,13 @@ static void ask(slot *s) {
       fuzz_check_status(
           cairn_filter_joint_covariance(s->filter, fuzz_maybe(ids), count, matrix, capacity * 12, &needed));
       break;
-    case 7: fuzz_check_status(cairn_filter_pose_nees(s->filter, fuzz_maybe(&truth), fuzz_maybe_out(&nees))); break;
+    case 7:
+      fuzz_check_status(cairn_filter_pose_nees(s->filter, fuzz_maybe(&truth), fuzz_maybe_out(&nees)));
+      break;
     default: {
       cairn_update_report report;
       memset(&report, 0, sizeof report);
-      void *given = fuzz_resized(&report, sizeof report);
+      void* given = fuzz_resized(&report, sizeof report);
       fuzz_check_status(cairn_filter_last_update(s->filter, fuzz_maybe_out(given)));
       free(given);
     }
@@ -362,22 +180,22 @@ static void ask(slot *s) {
   free(out), free(matrix);
 }
 
-/* What the calls about submaps tell has to agree with itself. */
-static void ask_submaps(slot *s) {
-  const cairn_filter *f = fuzz_one_in(40) ? NULL : s->filter;
+/* The calls about submaps must agree with each other. */
+static void ask_submaps(slot* s) {
+  const cairn_filter* f = fuzz_one_in(40) ? NULL : s->filter;
   cairn_pose pose, base, local, composed;
   double covariance[36];
   size_t count = 0, needed = 0, open = 0;
   cairn_closing_report report;
   memset(&report, 0, sizeof report);
-  void *given = fuzz_resized(&report, sizeof report);
+  void* given = fuzz_resized(&report, sizeof report);
   fuzz_check_status(cairn_filter_last_closing(f, fuzz_maybe_out(given)));
   free(given);
   fuzz_check_status(cairn_filter_local_pose(f, fuzz_maybe_out(&local), fuzz_maybe_out(covariance)));
   fuzz_check_status(cairn_filter_base_pose(f, fuzz_maybe_out(&base), fuzz_maybe_out(covariance)));
   fuzz_check_status(cairn_filter_submap_count(f, fuzz_maybe_out(&count)));
   const size_t capacity = fuzz_below(20), index = fuzz_one_in(9) ? (size_t)fuzz_id() : fuzz_below(count + 1);
-  uint64_t *ids = malloc(capacity * sizeof *ids + 1);
+  uint64_t* ids = malloc(capacity * sizeof *ids + 1);
   fuzz_check_status(cairn_filter_submap(f, index, fuzz_maybe_out(&pose), fuzz_maybe_out(ids), capacity, &needed));
   free(ids);
   if (f == NULL) return;
@@ -387,8 +205,8 @@ static void ask_submaps(slot *s) {
   HOLDS(report.status <= 0 && report.status >= CAIRN_ERROR_STATE, report.status);
   HOLDS(report.reason >= CAIRN_CLOSED_BY_NONE && report.reason <= CAIRN_CLOSED_BY_FIX, report.reason);
   if (report.status == CAIRN_OK)
-    HOLDS(report.landmarks == report.landmarks_new + report.landmarks_fused + report.landmarks_refused +
-                                      report.landmarks_ambiguous,
+    HOLDS(report.landmarks ==
+              report.landmarks_new + report.landmarks_fused + report.landmarks_refused + report.landmarks_ambiguous,
           report.landmarks);
   HOLDS(cairn_map_size(cairn_filter_local_map(f), &open) == CAIRN_OK, open);
   HOLDS(cairn_filter_local_pose(f, &local, covariance) == CAIRN_OK, 0);
@@ -406,7 +224,7 @@ static void ask_submaps(slot *s) {
   }
 }
 
-static void submaps(slot *s) {
+static void submaps(slot* s) {
   if (fuzz_one_in(3)) {
     fuzz_check_status(cairn_filter_close_submap(fuzz_one_in(40) ? NULL : s->filter));
     return;
@@ -415,13 +233,13 @@ static void submaps(slot *s) {
 }
 
 static void call_one(void) {
-  static const char *const names[] = {"add_sensor", "motion", "observe", "absolute", "linear",
+  static const char* const names[] = {"add_sensor", "motion", "observe", "absolute", "linear",
                                       "ask",        "life",   "helpers", "submaps"};
   static const unsigned char weights[] = {3, 22, 38, 9, 7, 9, 4, 3, 5};
-  slot *s = &slots[fuzz_below(3)];
+  slot* s = &slots[fuzz_below(3)];
   uint64_t pick = fuzz_below(100);
   size_t kind = 0;
-  if (s->filter == NULL || fuzz_one_in(400)) create(s);
+  if (s->filter == NULL || fuzz_one_in(400)) create_filter(s);
   if (s->filter == NULL) return;
   now = s;
   fuzz_wild = s->wild;
@@ -433,23 +251,41 @@ static void call_one(void) {
   const unsigned long long failures = fuzz_counts[0];
   fuzz_shadow_take(&before, s->filter);
   switch (kind) {
-    case 0: add_sensor(s); break;
-    case 1: motion(s); break;
-    case 2: observe(s); break;
-    case 3: absolute(s); break;
-    case 4: linear(s); break;
-    case 5: ask(s); break;
-    case 6: life(s); break;
-    case 7: fuzz_helpers(fuzz_check_status); break;
-    default: submaps(s); break;
+    case 0:
+      add_sensor(s);
+      break;
+    case 1:
+      motion(s);
+      break;
+    case 2:
+      observe(s);
+      break;
+    case 3:
+      absolute(s);
+      break;
+    case 4:
+      linear(s);
+      break;
+    case 5:
+      ask(s);
+      break;
+    case 6:
+      life(s);
+      break;
+    case 7:
+      fuzz_helpers(fuzz_check_status);
+      break;
+    default:
+      submaps(s);
+      break;
   }
   fuzz_shadow_take(&after, s->filter);
-  if (fuzz_counts[0] == failures || kind == 5) /* all of its calls failed, or it only asked */
+  if (fuzz_counts[0] == failures || kind == 5) /* all its calls failed, or were queries */
     HOLDS(memcmp(&before, &after, sizeof before) == 0, 0);
   check_state(s, fuzz_one_in(16));
 }
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   if (argc < 3 || argc > 5 || (argc == 5 && strcmp(argv[4], "loose") != 0)) {
     fprintf(stderr, "usage: api_fuzz SEED CALLS [LIMIT [loose]]\n");
     return 2;
@@ -466,7 +302,7 @@ int main(int argc, char **argv) {
   }
   printf("seed %llu: %llu calls", (unsigned long long)seed, calls);
   for (int i = 0; i < 9; ++i) printf(", %s %llu", cairn_status_name(-i), fuzz_counts[i]);
-  printf("; %llu wild states without a positive pivot\n", refused_by_audit);
-  /* A run that never gets anywhere proves nothing. */
+  printf("; %llu wild states without a positive pivot\n", states_without_positive_pivot);
+  /* A run in which no call succeeds proves nothing. */
   return calls >= 1000 && fuzz_counts[0] < calls / 4;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arguments that are mostly good, so that calls reach the mathematics, and what a caller's own sensor may do. */
+/* Arguments that are mostly good, so that calls reach the mathematics, and the custom sensors. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,22 +8,26 @@
 
 bool fuzz_wild = true, fuzz_fickle;
 
-bool fuzz_bad(void) { return fuzz_one_in(fuzz_wild ? 12 : 25); }
+bool fuzz_bad(void) {
+  return fuzz_one_in(fuzz_wild ? 12 : 25);
+}
 double fuzz_number(double scale) {
   if (!fuzz_bad()) return fuzz_uniform(-scale, scale);
   return fuzz_garbage();
 }
-double fuzz_positive(double scale) { return fuzz_bad() ? fuzz_garbage() : fuzz_uniform(1e-3, 1) * scale; }
-void fuzz_numbers(double *out, size_t count, double scale) {
+double fuzz_positive(double scale) {
+  return fuzz_bad() ? fuzz_garbage() : fuzz_uniform(1e-3, 1) * scale;
+}
+void fuzz_numbers(double* out, size_t count, double scale) {
   const bool all_good = !fuzz_one_in(4);
   for (size_t i = 0; i < count; ++i) out[i] = all_good ? fuzz_uniform(-scale, scale) : fuzz_number(scale);
 }
-void fuzz_pose(cairn_pose *out) {
+void fuzz_pose(cairn_pose* out) {
   fuzz_numbers(out->position, 3, 5);
   fuzz_numbers(out->quaternion, 4, 1);
 }
-/* A A^T + a little, sometimes spoilt; zero ones among them, and where the filter is wild nearly singular ones. */
-void fuzz_covariance(double *out, size_t n, double scale) {
+/* A A^T plus a small diagonal, sometimes corrupted. Some are zero and, for wild filters, nearly singular. */
+void fuzz_covariance(double* out, size_t n, double scale) {
   double a[36];
   const double floor = fuzz_one_in(8) && fuzz_wild ? 0 : scale / 10;
   if (n > 6) {
@@ -39,29 +43,34 @@ void fuzz_covariance(double *out, size_t n, double scale) {
   if (fuzz_one_in(20)) memset(out, 0, n * n * sizeof *out);
   if (fuzz_bad()) out[fuzz_below(n * n)] = fuzz_garbage();
 }
-const void *fuzz_maybe(const void *pointer) { return fuzz_one_in(80) ? NULL : pointer; }
-void *fuzz_maybe_out(void *pointer) { return fuzz_one_in(80) ? NULL : pointer; }
+const void* fuzz_maybe(const void* pointer) {
+  return fuzz_one_in(80) ? NULL : pointer;
+}
+void* fuzz_maybe_out(void* pointer) {
+  return fuzz_one_in(80) ? NULL : pointer;
+}
 
-/* A struct of options in a buffer of exactly the size that it states. */
-void *fuzz_resized(const void *exact, size_t size) {
+/* A struct of options in a buffer of exactly the stated size. */
+void* fuzz_resized(const void* exact, size_t size) {
   const uint32_t stated = fuzz_struct_size(size);
   const size_t room = stated > 4096 ? size : stated < 4 ? 4 : stated;
-  unsigned char *buffer = malloc(room);
+  unsigned char* buffer = malloc(room);
   for (size_t i = 0; i < room; ++i) buffer[i] = (unsigned char)fuzz_bits();
   memcpy(buffer, exact, room < size ? room : size);
   memcpy(buffer, &stated, sizeof stated);
   return buffer;
 }
 
-/* The custom sensor: right, refusing, or out of its mind, and the same at the same place unless it is fickle. */
-static bool whim(const cairn_pose *T, const double *x, uint64_t salt, uint64_t n) {
+/* The custom sensor: correct, refusing, or with bad values. At the same place it behaves the same unless it is fickle.
+ * */
+static bool whim(const cairn_pose* T, const double* x, uint64_t salt, uint64_t n) {
   uint64_t bits[3], mixed = salt;
   if (fuzz_fickle) return fuzz_one_in(n);
   memcpy(&bits[0], &T->position[0], 8), memcpy(&bits[1], &x[0], 8), memcpy(&bits[2], &T->quaternion[1], 8);
   for (int i = 0; i < 3; ++i) mixed = (mixed ^ bits[i]) * UINT64_C(0x9E3779B97F4A7C15), mixed ^= mixed >> 29;
   return mixed % n == 0;
 }
-int32_t fuzz_custom_predict(void *user, const cairn_pose *T, const double l[3], double *z, double *jp, double *jl) {
+int32_t fuzz_custom_predict(void* user, const cairn_pose* T, const double l[3], double* z, double* jp, double* jl) {
   (void)user;
   for (int i = 0; i < 3; ++i) z[i] = l[i] - T->position[i];
   for (int i = 0; i < 9; ++i) jl[i] = i % 4 == 0;
@@ -71,7 +80,7 @@ int32_t fuzz_custom_predict(void *user, const cairn_pose *T, const double l[3], 
   if (whim(T, l, 3, 200)) z[fuzz_below(3)] = fuzz_garbage();
   return whim(T, l, 4, 50) ? fuzz_int() : 0;
 }
-int32_t fuzz_custom_place(void *user, const cairn_pose *T, const double *z, double l[3], double *jp, double *jz) {
+int32_t fuzz_custom_place(void* user, const cairn_pose* T, const double* z, double l[3], double* jp, double* jz) {
   (void)user;
   for (int i = 0; i < 3; ++i) l[i] = T->position[i] + z[i];
   for (int i = 0; i < 9; ++i) jz[i] = i % 4 == 0;
@@ -80,8 +89,8 @@ int32_t fuzz_custom_place(void *user, const cairn_pose *T, const double *z, doub
   if (whim(T, z, 6, 200)) l[fuzz_below(3)] = fuzz_garbage();
   return whim(T, z, 7, 50) ? fuzz_int() : 0;
 }
-/* One row: Jacobians of exactly one row, so that a sanitizer would see the sensor's buffers mistaken. */
-int32_t fuzz_range_predict(void *user, const cairn_pose *T, const double l[3], double *z, double *jp, double *jl) {
+/* One row: Jacobians of exactly one row, so that a sanitizer detects wrong buffer sizes of the sensor. */
+int32_t fuzz_range_predict(void* user, const cairn_pose* T, const double l[3], double* z, double* jp, double* jl) {
   double d[3], square = 0;
   (void)user;
   for (int i = 0; i < 3; ++i) d[i] = l[i] - T->position[i], square += d[i] * d[i];

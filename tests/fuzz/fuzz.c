@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* Checks and random choices that the fuzz programs share. */
 #include "fuzz.h"
 
 #include <float.h>
@@ -18,7 +19,7 @@ void fuzz_seed(uint64_t seed, double limit) {
   largest = limit;
 }
 
-void fuzz_fail(const char *what, double value) {
+void fuzz_fail(const char* what, double value) {
   fprintf(stderr, "%s: seed %llu, call %llu, %s: %s (%g)\n  last message: %s\n", fuzz_program,
           (unsigned long long)first_state, fuzz_call, fuzz_operation, what, value, cairn_last_message());
   exit(1);
@@ -28,7 +29,7 @@ void fuzz_check_status(cairn_status status) {
   HOLDS(status <= 0 && status >= CAIRN_ERROR_STATE, status); /* CAIRN_ERROR_INTERNAL is a defect by its definition */
   ++fuzz_counts[-status];
   if (status == CAIRN_OK) return;
-  const char *line = cairn_last_message();
+  const char* line = cairn_last_message();
   HOLDS(line != NULL && line[0] != '\0' && strchr(line, '\n') == NULL, status);
 }
 
@@ -39,8 +40,12 @@ uint64_t fuzz_bits(void) { /* splitmix64 */
   return z ^ (z >> 31);
 }
 
-uint64_t fuzz_below(uint64_t bound) { return bound == 0 ? 0 : fuzz_bits() % bound; }
-bool fuzz_one_in(uint64_t n) { return fuzz_below(n) == 0; }
+uint64_t fuzz_below(uint64_t bound) {
+  return bound == 0 ? 0 : fuzz_bits() % bound;
+}
+bool fuzz_one_in(uint64_t n) {
+  return fuzz_below(n) == 0;
+}
 double fuzz_uniform(double lower, double upper) {
   return lower + (upper - lower) * (double)(fuzz_bits() >> 11) / 9007199254740992.0;
 }
@@ -50,7 +55,7 @@ static double garbage(bool wild) {
   static const double extreme[] = {DBL_MAX, -DBL_MAX, 1e300, -1e300,  1e200,  1e154,   1e100,  1e30,   -1e30, 1e15,
                                    1e8,     1e6,      -1e6,  DBL_MIN, 5e-324, -5e-324, 1e-300, 1e-160, 1e-30, 1e-12};
   if (wild && fuzz_one_in(2)) return extreme[fuzz_below(sizeof extreme / sizeof extreme[0])];
-  if (wild && fuzz_one_in(4)) { /* any bits at all */
+  if (wild && fuzz_one_in(4)) { /* any bit pattern */
     const uint64_t bits = fuzz_bits();
     double value;
     memcpy(&value, &bits, sizeof value);
@@ -83,9 +88,9 @@ uint32_t fuzz_struct_size(size_t size) {
   return (uint32_t)(8 + fuzz_below(size + 64));
 }
 
-void fuzz_shadow_take(fuzz_shadow *shadow, const cairn_filter *filter) {
+void fuzz_shadow_take(fuzz_shadow* shadow, const cairn_filter* filter) {
   const double origin[3] = {0, 0, 0};
-  const cairn_map *map = cairn_filter_map(filter);
+  const cairn_map* map = cairn_filter_map(filter);
   size_t needed;
   memset(shadow, 0, sizeof *shadow);
   shadow->report.struct_size = sizeof shadow->report;
@@ -96,7 +101,7 @@ void fuzz_shadow_take(fuzz_shadow *shadow, const cairn_filter *filter) {
     abort();
 }
 
-static void numbers(double *out, size_t count) {
+static void numbers(double* out, size_t count) {
   for (size_t i = 0; i < count; ++i) out[i] = fuzz_one_in(12) ? fuzz_garbage() : fuzz_uniform(-4, 4);
 }
 
@@ -117,21 +122,35 @@ void fuzz_helpers(void (*check)(cairn_status)) {
   check(cairn_pose_identity(fuzz_one_in(50) ? NULL : &out));
   if (cairn_status_name((cairn_status)fuzz_bits()) == NULL || cairn_version() == NULL || cairn_build() == NULL) abort();
 
-  /* _init of each kind into a buffer of exactly the size that it is told. */
+  /* _init of every struct, into a buffer of exactly the stated size. */
   static const size_t sizes[] = {sizeof(cairn_filter_options), sizeof(cairn_stereo_head), sizeof(cairn_stereo_camera),
                                  sizeof(cairn_cartesian),      sizeof(cairn_custom),      sizeof(cairn_wheels),
                                  sizeof(cairn_twist_noise)};
   for (size_t kind = 0; kind < sizeof sizes / sizeof sizes[0]; ++kind) {
     const uint32_t size = fuzz_struct_size(sizes[kind]);
-    void *buffer = malloc(size > 4096 ? 1 : size + (size == 0));
+    void* buffer = malloc(size > 4096 ? 1 : size + (size == 0));
     switch (kind) {
-      case 0: check(cairn_filter_options_init(buffer, size)); break;
-      case 1: check(cairn_stereo_head_init(buffer, size)); break;
-      case 2: check(cairn_stereo_camera_init(buffer, size)); break;
-      case 3: check(cairn_cartesian_init(buffer, size)); break;
-      case 4: check(cairn_custom_init(buffer, size)); break;
-      case 5: check(cairn_wheels_init(buffer, size)); break;
-      default: check(cairn_twist_noise_init(buffer, size)); break;
+      case 0:
+        check(cairn_filter_options_init(buffer, size));
+        break;
+      case 1:
+        check(cairn_stereo_head_init(buffer, size));
+        break;
+      case 2:
+        check(cairn_stereo_camera_init(buffer, size));
+        break;
+      case 3:
+        check(cairn_cartesian_init(buffer, size));
+        break;
+      case 4:
+        check(cairn_custom_init(buffer, size));
+        break;
+      case 5:
+        check(cairn_wheels_init(buffer, size));
+        break;
+      default:
+        check(cairn_twist_noise_init(buffer, size));
+        break;
     }
     free(buffer);
   }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs tests/fuzz/api_fuzz over one seed after the other until the time is up. Ends at the first failure, whose line
-# names the seed and the call: the same arguments bring it back.
+# Runs tests/fuzz/api_fuzz with one seed after another until the time is up. Ends at the first failure, whose message
+# names seed and call: the same arguments reproduce it.
 #
 #   tests/fuzz/long.sh API_FUZZ SECONDS [FIRST_SEED [CALLS [LIMIT [loose]]]]
 set -euo pipefail

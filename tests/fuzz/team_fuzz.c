@@ -139,6 +139,13 @@ static void level_covariance(double* out, double scale) {
     }
 }
 
+static void check_nees(const cairn_team* team, const cairn_pose* truth) {
+  double nees = -1;
+  const cairn_status status = cairn_team_pose_nees(team, truth, &nees);
+  fuzz_check_status(status);
+  HOLDS((status == CAIRN_OK) == (nees >= 0), nees);
+}
+
 static void membership(cairn_team* team) {
   const uint64_t vehicle = fuzz_one_in(20) ? fuzz_id() : 1 + fuzz_below(TEAMS + 1);
   cairn_pose start;
@@ -159,6 +166,7 @@ static void membership(cairn_team* team) {
       break;
     case 4:
       fuzz_check_status(cairn_team_score(team, &start));
+      check_nees(team, &start);
       break;
     default:
       fuzz_check_status(cairn_team_add(team, vehicle, &start, fuzz_one_in(3) ? NULL : covariance));

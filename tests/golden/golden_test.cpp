@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The library against values that make_golden.py computed by other ways (golden_values.hpp).
+// Compares the library with values that make_golden.py computed by other methods (golden_values.hpp).
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <cairn/cairn.h>
 #include <doctest/doctest.h>
@@ -24,7 +24,7 @@ void ok(cairn_status status) {
   REQUIRE_MESSAGE(status == CAIRN_OK, std::string(cairn_last_message()));
 }
 
-// A rotation by rows and its quaternion.
+// A rotation matrix by rows, and its quaternion.
 void quaternion_of(const double* rows, double quaternion[4]) {
   using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   const cairn::SO3 R = cairn::SO3::from_matrix(Eigen::Map<const RowMajor>(rows));
@@ -51,7 +51,7 @@ cairn_filter* start_filter(int32_t error, int32_t* sensor) {
   std::copy_n(golden::kCovariance, 36, options.initial_covariance);
   cairn_filter* filter = nullptr;
   ok(cairn_filter_create(&options, &filter));
-  // As the script has them.
+  // The same values as in the script.
   cairn_twist_noise noise;
   ok(cairn_twist_noise_init(&noise, sizeof noise));
   const double sigma[6] = {0.05, 0.04, 0.03, 0.01, 0.012, 0.014};

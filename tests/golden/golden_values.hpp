@@ -4,7 +4,7 @@
 
 namespace golden {
 
-// Tangent [rho; theta], then rotation by rows and translation of its Exp; 18 a pose.
+// Tangent [rho; theta], then rotation by rows and translation of its Exp: 18 numbers for each pose.
 inline constexpr double kPoses[] = {
     0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, -2.0, 3.0, 0.0,
     0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, -2.0, 3.0, 1.0, -2.0, 3.0, 1e-09, 2e-09, -1e-09, 1.0,
@@ -22,7 +22,7 @@ inline constexpr double kPoses[] = {
     -0.5778167219699442, 3.2378246496128025, 2.0,
 };
 
-// Degrees of freedom, probability, chi-square quantile; 3 a row.
+// Degrees of freedom, probability, chi-square quantile: 3 numbers in each row.
 inline constexpr double kQuantiles[] = {
     1.0, 0.025, 0.000982069117175256, 1.0, 0.5, 0.4549364231195728, 1.0, 0.95, 3.841458820694126, 1.0, 0.975,
     5.023886187314889, 1.0, 0.99, 6.634896601021215, 1.0, 0.9999, 15.136705226623397, 2.0, 0.025, 0.05063561596857975,
@@ -40,14 +40,14 @@ inline constexpr double kQuantiles[] = {
     152.21140272515154, 120.0, 0.99, 158.95016589730622, 120.0, 0.9999, 186.3259854458224,
 };
 
-// The start: position, then rotation by rows.
+// The initial pose: position, then rotation by rows.
 inline constexpr double kStart[] = {
     3.4071356519282494, -0.9411194702755732, 1.0349441751239867, 0.7610494410102872, -0.6482373155821591,
     -0.024333742514675245, 0.6291212708629823, 0.7467124074709153, -0.2159328763221506, 0.15814605554891445,
     0.14902671980503107, 0.9761049441010204,
 };
 
-// Its ordinary covariance, 6 x 6.
+// Ordinary covariance of the initial pose, 6 x 6.
 inline constexpr double kCovariance[] = {
     0.099, -0.0017999999999999993, -0.012, 0.0045000000000000005, 0.00204, -0.00612, -0.0017999999999999993, 0.0428,
     -0.019200000000000005, -0.0024000000000000007, 0.0006399999999999999, -0.00036, -0.012, -0.019200000000000005,
@@ -63,7 +63,7 @@ inline constexpr double kTwists[] = {
     0.6,
 };
 
-// Observations of each step: three landmarks, range, azimuth and elevation; the first step has but two.
+// Observations of each step: three landmarks, range, azimuth and elevation; the first step has only two.
 inline constexpr double kFrames[] = {
     7.732661358066946, -0.17929301548204304, -0.27567636727298794, 11.189798832859914, -0.6754317074694624,
     -0.2692379168422499, 0.0, 0.0, 0.0, 7.079863748105765, -0.25918501672393746, -0.2511505975911304,

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Computes the values of golden_values.hpp, by other ways than the library's.
+"""Computes the values of golden_values.hpp, with methods that differ from the library's.
 
     python3 tests/golden/make_golden.py > tests/golden/golden_values.hpp
 
-Needs numpy; the tests need neither it nor this script. Poses are matrices, their exponential is the plain series by
-scaling and squaring in long double; derivatives are complex steps, exact to rounding; chi-square quantiles come from
+Needs numpy. The tests need neither numpy nor this script. Poses are matrices; their exponential is the power series with
+scaling and squaring in long double. Derivatives are complex steps, exact to rounding. Chi-square quantiles come from
 closed forms in decimals of 60 digits.
 """
 from decimal import Decimal, getcontext
@@ -114,7 +114,7 @@ PLATFORM = np.array([0.3, -0.1, 1.2])
 STICK = np.array([0.15, 0.05, 0.2])
 PAN, TILT = 0.3, -0.2
 SIGMA = np.array([0.5, 0.03, 0.02])  # range, azimuth, elevation
-ENCODER = np.array([0.02, 0.015])  # pan, stick: one error a frame
+ENCODER = np.array([0.02, 0.015])  # pan, stick: one error for each frame
 TWIST_SIGMA = np.array([0.05, 0.04, 0.03, 0.01, 0.012, 0.014])
 ITERATIONS = 3
 
@@ -173,7 +173,7 @@ class Filter:
         return R, [x + e for x, e in zip(self.points, shifts)], self.mount + angles
 
     def small(self, R, points, mount, R0, points0, mount0):
-        """First-order error of one state against another a complex step away."""
+        """First-order error of a state against another state that is a complex step away."""
         W = R @ R0.T
         turn = np.array([W[2, 1] - W[1, 2], W[0, 2] - W[2, 0], W[1, 0] - W[0, 1]]) / 2
         shifts = [x - (W @ x0 if self.invariant else x0) for x, x0 in zip(points, points0)]
@@ -212,7 +212,7 @@ class Filter:
         self.R, self.points = R1, reached[1]
 
     def update(self, seen):
-        """`seen`: (number of the landmark, z). The common error of the mount's angles is a state during the frame."""
+        """`seen`: (number of the landmark, z). The common error of the mount angles is a state during the frame."""
         n = self.size()
         P = np.zeros((n + 2, n + 2))
         P[:n, :n], P[n:, n:] = self.P, np.diag(ENCODER**2)
@@ -277,7 +277,7 @@ def tiny_run():
     landmarks = [start[:3, :3] @ b + start[:3, 3] for b in body]
     offsets = [[0.31, -0.02, 0.015], [-0.42, 0.035, -0.01], [0.15, 0.01, 0.025]]
 
-    # The truth moves a little differently than the filter is told.
+    # The true motion differs slightly from the motion that the filter gets.
     R, p, frames = start[:3, :3], start[:3, 3], []
     for k in range(3):
         T = expm(algebra(np.array(twists[k])[3:] * dts[k] * 1.05, [np.array(twists[k])[:3] * dts[k] * 0.97]))
@@ -318,14 +318,14 @@ def main():
     print("// SPDX-License-Identifier: BSD-3-Clause")
     print(f"// Written by make_golden.py with numpy {np.__version__}: change the script, not this file.\n#pragma once\n")
     print("namespace golden {")
-    array("Poses", np.array(poses()).ravel(), "Tangent [rho; theta], then rotation by rows and translation of its Exp; 18 a pose.")
-    array("Quantiles", np.array(quantiles()).ravel(), "Degrees of freedom, probability, chi-square quantile; 3 a row.")
+    array("Poses", np.array(poses()).ravel(), "Tangent [rho; theta], then rotation by rows and translation of its Exp: 18 numbers for each pose.")
+    array("Quantiles", np.array(quantiles()).ravel(), "Degrees of freedom, probability, chi-square quantile: 3 numbers in each row.")
     run = tiny_run()
     comments = {
-        "start": "The start: position, then rotation by rows.",
-        "covariance": "Its ordinary covariance, 6 x 6.",
+        "start": "The initial pose: position, then rotation by rows.",
+        "covariance": "Ordinary covariance of the initial pose, 6 x 6.",
         "twists": "Velocity, rate and time of each of three steps.",
-        "frames": "Observations of each step: three landmarks, range, azimuth and elevation; the first step has but two.",
+        "frames": "Observations of each step: three landmarks, range, azimuth and elevation; the first step has only two.",
     }
     for name, values in run.items():
         kind, _, what = name.partition("_")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page as a person sees it: in a browser, from the disk, with no network. CAIRN_SHOTS, where it is set, names a
-folder that keeps the screenshots."""
+"""The page in a browser, loaded from the disk and without network. If CAIRN_SHOTS is set, it names the folder for the
+screenshots."""
 import os
 import subprocess
 import sys
@@ -53,7 +53,7 @@ class BrowserTest(unittest.TestCase):
         self.assertEqual(asked, [])
 
     def picture(self, name):
-        """The part of the window where the scene is, and that it is no empty sheet."""
+        """The part of the window with the scene. The test checks that the scene is not empty."""
         image = self.browser.screenshot(os.path.join(KEPT, name + ".png") if KEPT else None)
         box = self.browser.evaluate("(r => [r.left, r.top, r.right, r.bottom].map(Math.round))"
                                     "(document.getElementById('scene').getBoundingClientRect())")
@@ -99,7 +99,7 @@ class BrowserTest(unittest.TestCase):
         self.stop_at(1.0)
         self.assertLess(early, self.browser.evaluate(SHOWN % "landmarks"))
 
-        self.browser.evaluate("document.getElementById('play').click()")  # from the end it plays from the start
+        self.browser.evaluate("document.getElementById('play').click()")  # at the end, play begins at the start again
         self.browser.wait("+document.getElementById('slider').value >= 2")
         self.browser.evaluate("document.getElementById('play').click()")
         time.sleep(0.3)

@@ -1,15 +1,14 @@
 #!/usr/bin/env bash
-# Installs a build and the Python package as a user would, then tests the package from there: its own tests, every
-# command of docs/python.md, and the report's page in a browser with the network off.
-# check_python.sh BUILD. What it makes stays in BUILD/python, screenshots too.
+# Installs a build and the Python package as a user would, then tests the installed package: its own tests, every command
+# of docs/python.md, and the page of the report in a browser without network.
+# check_python.sh BUILD. All results stay in BUILD/python, including screenshots.
 set -euo pipefail
 # shellcheck source=../support/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../support/setup.sh"
 
 (($# == 1)) || fail "usage: check_python.sh BUILD"
 build=$(cd -- "$1" && pwd -P)
-need_packages cmake=cmake gcc=cc pkgconf=pkg-config python3 python3-venv python3-cffi python3-numpy python3-matplotlib \
-  python3-setuptools python3-wheel chromium=chromium fonts-dejavu-core
+need_packages cmake=cmake gcc=cc pkgconf=pkg-config python3 python3-venv chromium=chromium fonts-dejavu-core
 
 work=$build/python
 rm -rf -- "$work"
@@ -17,20 +16,23 @@ mkdir -p "$work"
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" || fail "cmake --install failed: see $work/install.log"
 libdir=$(dirname -- "$(find "$work/prefix" -path '*/glibc-hwcaps' -prune -o -name libcairn.so -print)")
 
-# A place with a copy of what a user has after cloning, but for the headers: those must come from the installed library.
+# A copy of the source tree without the headers: these must come from the installed library.
 mkdir "$work/clone" "$work/shots"
 cp -R -- "$root/bindings" "$work/clone"
 find "$work/clone" -name __pycache__ -prune -exec rm -rf {} +
 
-# numpy, cffi, matplotlib and setuptools are Debian's; plotly comes from the package index.
-/usr/bin/python3 -m venv --system-site-packages "$work/venv"
+# All that Python takes comes from the package index. The tests of the build (ctest) run with Debian's numpy and cffi.
+/usr/bin/python3 -m venv "$work/venv"
 export PKG_CONFIG_PATH=$libdir/pkgconfig PATH=$work/venv/bin:$work/prefix/bin:$PATH
-export PIP_CONSTRAINT=$root/tests/python/constraints.txt PIP_NO_BUILD_ISOLATION=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_RETRIES=5
+# pip splits the value of this variable at spaces, which the project's path may have: a URL has none.
+PIP_CONSTRAINT=$(/usr/bin/python3 -c 'import pathlib, sys; print(pathlib.Path(sys.argv[1]).as_uri())' \
+  "$root/tests/python/constraints.txt")
+export PIP_CONSTRAINT PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_RETRIES=5
 export PYTHONDONTWRITEBYTECODE=1
 unset PYTHONPATH CAIRN_LIBRARY CAIRN_INCLUDE_DIR
 
 say "The commands of docs/python.md"
-# Those in blocks of sh, one script; those in blocks of python, one program that runs in the same folder.
+# All sh blocks form one script; all python blocks form one program that runs in the same folder.
 block() { awk -v kind="$1" '$0 == "```" kind {on = 1; next} $0 == "```" && on {on = 0; print ""} on' "$root/docs/python.md"; }
 block sh >"$work/commands.sh"
 block python >"$work/lines.py"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Drives a headless Chromium over a pair of pipes (the DevTools protocol), with the network off.
 
-It keeps what the page writes to the console, what it throws, and every address that it asks for.
+It records the page's console output, its exceptions, and every address that it requests.
 """
 import base64
 import fcntl
@@ -32,7 +32,7 @@ class Browser:
                    "--host-resolver-rules=MAP * ~NOTFOUND", "--force-device-scale-factor=1",
                    f"--user-data-dir={self._profile.name}", f"--window-size={width},{height}", "about:blank"]
 
-        # The browser reads its commands from descriptor 3 and answers on 4; a shell lays them there.
+        # The browser reads commands from descriptor 3 and writes answers to 4. A shell redirects the pipes to these.
         lent = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (commands, answers)]
         self._log = open(os.path.join(self._profile.name, "log"), "w+")
         self._process = subprocess.Popen(["bash", "-c", f'exec 3<&{lent[0]} 4>&{lent[1]} "$@"', "bash", *command],
@@ -116,7 +116,7 @@ class Browser:
             time.sleep(0.05)
 
     def screenshot(self, path=None, whole_page=False):
-        """The page as an array height x width x 3; also written to a PNG file."""
+        """A screenshot of the page as an array of height x width x 3. It is also written to a PNG file."""
         told = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole_page)
         content = base64.b64decode(told["data"])
         if path:
@@ -126,5 +126,5 @@ class Browser:
 
 
 def pixels(png):
-    """A PNG as an array height x width x 3 of 0 to 255."""
+    """A PNG file as an array of height x width x 3 with values 0 to 255."""
     return (pyplot_image.imread(io.BytesIO(png), format="png")[:, :, :3] * 255).round().astype(np.uint8)

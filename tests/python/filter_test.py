@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The filter: its results are those of the C interface, to the bit, and what is wrong is refused."""
+"""The filter: its results equal those of the C interface to the bit, and bad input is refused."""
 import copy
 import gc
 import os
@@ -170,7 +170,7 @@ class ResultsTest(unittest.TestCase):
 class CallbackTest(unittest.TestCase):
     @staticmethod
     def offset(pose, landmark):
-        """Observes the point in the map's axes, from a vehicle that does not turn."""
+        """Observes the point in the axes of the map, from a vehicle that does not rotate."""
         return landmark - pose.position, np.hstack([-np.eye(3), np.zeros((3, 3))]), np.eye(3)
 
     @staticmethod
@@ -180,7 +180,7 @@ class CallbackTest(unittest.TestCase):
     def test_custom_sensor(self):
         one = cairn.Filter(initial_covariance=np.diag([1.0, 1, 1, 0, 0, 0]))
         sensor = one.add_custom(self.offset, self.place, sigma=[0.1] * 3)
-        gc.collect()  # the filter keeps the functions
+        gc.collect()  # the filter keeps the functions alive
         self.assertEqual(one.update(sensor, [3], [[1.0, 2.0, 3.0]])["result"].tolist(), [cairn.NEW])
         self.assertEqual(one.update(sensor, [3], [[1.0, 2.0, 3.1]])["result"].tolist(), [cairn.MATCHED])
         bearing = one.add_custom(lambda pose, l: (l[:1] - pose.position[:1], [[-1.0, 0, 0, 0, 0, 0]], [[1.0, 0, 0]]), rows=1)
@@ -214,7 +214,7 @@ class CallbackTest(unittest.TestCase):
 
     def test_log(self):
         lines = []
-        one, sensor = filled(gate_probability=1.0)  # so that the gate of the whole batch has to refuse
+        one, sensor = filled(gate_probability=1.0)  # only the batch gate can refuse
         one.set_log(lines.append)
         one.update(sensor, list(support.LANDMARKS), seen() + [[5.0, 0, 0], [-5.0, 0, 0], [0, 5.0, 0], [0, -5.0, 0]])
         one.set_log(None)
@@ -237,7 +237,7 @@ class BadInputTest(unittest.TestCase):
         self.refused(OverflowError, "max_landmarks", cairn.Filter, max_landmarks=-1)
         self.refused(ValueError, "CAIRN_ERROR_ODD", cairn.Filter, error="odd")
         self.refused(ValueError, "initial_covariance: shape 6 x 6", cairn.Filter, initial_covariance=np.eye(3))
-        self.refused(ValueError, "initial_pose: a pose is wanted", cairn.Filter, initial_pose=[1, 2, 3])
+        self.refused(ValueError, "initial_pose: must be a pose", cairn.Filter, initial_pose=[1, 2, 3])
         self.refused(ValueError, "initial_pose.quaternion: shape 4", cairn.Filter, initial_pose=([0, 0, 0], [1, 0, 0]))
         self.refused(cairn.CairnError, "CAIRN_ERROR_ARGUMENT.*max_landmarks", cairn.Filter, max_landmarks=0)
         self.refused(TypeError, "no option 'sigmas'", cairn.Filter().add_cartesian, sigmas=[1, 1, 1])
@@ -248,12 +248,12 @@ class BadInputTest(unittest.TestCase):
         self.refused(ValueError, r"z: shape 2 x n", one.update, sensor, [1, 2], [[1.0, 2, 3]])
         self.refused(ValueError, "1 to 3 values", one.update, sensor, [1], [[1.0, 2, 3, 4]])
         self.refused(ValueError, "covariance: shape 1 x 3 x 3", one.update, sensor, [1], [[1.0, 2, 3]], np.eye(3))
-        self.refused(TypeError, "ids: whole numbers", one.update, sensor, [1.5], [[1.0, 2, 3]])
-        self.refused(TypeError, "ids: whole numbers", one.update, sensor, np.array([1.5]), [[1.0, 2, 3]])
+        self.refused(TypeError, "ids: must be whole numbers", one.update, sensor, [1.5], [[1.0, 2, 3]])
+        self.refused(TypeError, "ids: must be whole numbers", one.update, sensor, np.array([1.5]), [[1.0, 2, 3]])
         self.refused(ValueError, "id", one.update, sensor, [-1], [[1.0, 2, 3]])
         self.refused(ValueError, "negative", one.update, sensor, np.array([-1]), [[1.0, 2, 3]])
         self.refused(ValueError, "id", one.update, sensor, [2**64], [[1.0, 2, 3]])
-        self.refused(TypeError, "numbers are wanted", one.update, sensor, [1], [["a", "b", "c"]])
+        self.refused(TypeError, "z: must be numbers", one.update, sensor, [1], [["a", "b", "c"]])
         self.refused(TypeError, "z is missing", one.update, sensor, [1])
         for ids, z, word in (([7, 7], seen([7, 7]), "ARGUMENT"), ([2**64 - 1], seen([7]), "ARGUMENT"),
                              ([7], [[np.nan, 0, 0]], "ARGUMENT"), (np.arange(30), np.ones((30, 3)), "CAPACITY")):

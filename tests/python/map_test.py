@@ -58,8 +58,8 @@ class MapTest(unittest.TestCase):
 
 
 class CopyTest(unittest.TestCase):
-    """Two vehicles see a field of landmarks, each from the origin of a frame of its own."""
-    T = cairn.Pose(np.array([4.0, -2.0, 1.0]), cairn.quaternion_from_euler(0.05, -0.1, 0.7))  # second frame in the first
+    """Two vehicles observe the same landmarks, each from the origin of its own frame."""
+    T = cairn.Pose(np.array([4.0, -2.0, 1.0]), cairn.quaternion_from_euler(0.05, -0.1, 0.7))  # the second frame in the first
 
     def setUp(self):
         random = support.random(5)
@@ -157,7 +157,7 @@ class PoseTest(unittest.TestCase):
         np.testing.assert_allclose(cairn.pose_error(moved, a), [0.5, 0, 0, 0, 0, 0], atol=1e-12)
         with self.assertRaisesRegex(cairn.CairnError, "ARGUMENT"):
             cairn.pose_inverse(([0, 0, 0], [0, 0, 0, 0]))
-        with self.assertRaisesRegex(ValueError, "T_a_b: a pose is wanted"):
+        with self.assertRaisesRegex(ValueError, "T_a_b: must be a pose"):
             cairn.pose_inverse(3)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reports: what is read, thinned and drawn. The page in a browser is browser_test.py's matter."""
+"""Reports: what is read, thinned and drawn. browser_test.py tests the page in a browser."""
 import contextlib
 import io
 import json
@@ -7,22 +7,15 @@ import os
 import re
 import shutil
 import sys
-import tempfile
 import unittest
 from unittest import mock
 
 import support
 import numpy as np
+import reports
+from reports import call, read_page
 from cairn.report import __main__ as program
 from cairn.report import curves, page, run, scene, shapes, thin
-
-
-def call(*arguments):
-    """Status and what was printed of `python -m cairn.report`."""
-    out, told = io.StringIO(), io.StringIO()
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(told), \
-            mock.patch.object(page, "plotly_source", lambda: "/* plotly */"):
-        return program.main(list(arguments)), out.getvalue(), told.getvalue()
 
 
 class PiecesTest(unittest.TestCase):
@@ -71,32 +64,10 @@ class PiecesTest(unittest.TestCase):
         self.assertEqual(len(shapes.outline(np.column_stack([np.arange(5.0)] * 2 + [np.zeros(5)]))), 3)
 
 
-class ReportTest(unittest.TestCase):
+class ReportTest(reports.FolderTest):
     @classmethod
-    def setUpClass(cls):
-        cls.room = tempfile.TemporaryDirectory()
-        cls.source = support.run_program(os.path.join(cls.room.name, "drive"), options=["--single-map"])
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.room.cleanup()
-
-    def setUp(self):
-        self.folder = os.path.join(self.room.name, "copy")
-        shutil.rmtree(self.folder, ignore_errors=True)
-        shutil.copytree(self.source, self.folder)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w") as file:
-            file.write(text)
-
-    def data(self, path):
-        with open(path) as file:
-            text = file.read()
-        return text, json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S).group(1))
+    def make_run(cls, folder):
+        support.run_program(folder, options=["--single-map"])
 
     def test_what_is_read(self):
         (one,) = run.read_folder(self.folder)
@@ -123,7 +94,7 @@ class ReportTest(unittest.TestCase):
         status, out, told = call(self.folder)
         self.assertEqual((status, told), (0, ""))
         self.assertIn("report.html", out)
-        text, data = self.data(self.path("report.html"))
+        text, data = read_page(self.path("report.html"))
         self.assertEqual(len(data["curves"]), 9)
         self.assertEqual(re.findall(r"@[A-Z]+@", text), [])
         self.assertFalse(re.search(r"""(src|href)=["']?(https?:)?//""", text))
@@ -149,7 +120,7 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(built["terrain"], {"x": [5, 6], "y": [0, 1, 2], "z": [[5, 6], [15, 16], [25, 26]]})
         drawn = built["runs"][0]["outlines"]
         self.assertEqual([len(outline["landmarks"]) for outline in drawn], [len(ids) // 2, 2])
-        self.assertGreater(len(drawn[1]["x"]), 3)  # two landmarks have no outline: the way driven helps out
+        self.assertGreater(len(drawn[1]["x"]), 3)  # two landmarks have no outline: the trajectory is added
         marked = [trace for trace in curves.step_time([one])["data"] if "marker" in trace]
         self.assertEqual(len(marked[0]["x"]), 2)
 
@@ -162,7 +133,7 @@ class ReportTest(unittest.TestCase):
         counts = scene.run_scene(one)["counts"]
         self.assertEqual(counts, {"landmarks": 30000, "landmarksDrawn": scene.MOST_LANDMARKS,
                                   "ellipsoids": scene.MOST_ELLIPSOIDS, "submaps": 0})
-        self.assertIn("landmarks are drawn, an even pick", page.asset("scene.js"))
+        self.assertIn("landmarks are drawn, evenly chosen", page.asset("scene.js"))
 
     def test_only_the_trajectory_must_be_there(self):
         for name in os.listdir(self.folder):
@@ -170,7 +141,7 @@ class ReportTest(unittest.TestCase):
                 os.remove(self.path(name))
         status, _, told = call(self.folder, "-o", self.path("small.html"))
         self.assertEqual((status, told), (0, ""))
-        self.assertEqual(len(self.data(self.path("small.html"))[1]["curves"]), 6)
+        self.assertEqual(len(read_page(self.path("small.html"))[1]["curves"]), 6)
 
     def test_a_run_without_truth(self):
         with open(self.path("trajectory.csv")) as file:
@@ -190,7 +161,7 @@ class ReportTest(unittest.TestCase):
         with open(os.path.join(folder, "summary.json"), "w") as file:
             json.dump({"<i>": "</script><b>", "steps": 3}, file)
         self.assertEqual(call(folder)[0], 0)
-        text, _ = self.data(os.path.join(folder, "report.html"))
+        text, _ = read_page(os.path.join(folder, "report.html"))
         self.assertEqual([tag for tag in ("<b>", "<i>") if tag in text], [])
 
     def refused(self, *words):
@@ -232,7 +203,7 @@ class ReportTest(unittest.TestCase):
         self.assertEqual([one.name for one in runs], ["standard", "submaps"])
         with mock.patch.object(program, "pictures_of", lambda runs: [("Figure 5: ground", "image/png", b"abc")]):
             self.assertEqual(call(both)[0], 0)
-        text, data = self.data(os.path.join(both, "report.html"))
+        text, data = read_page(os.path.join(both, "report.html"))
         self.assertEqual(len(data["scene"]["runs"]), 2)
         self.assertTrue("data:image/png;base64,YWJj" in text)
         self.assertTrue("<th>standard</th><th>submaps</th>" in text)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of the Python package share. Leaves with 77, ctest's sign for skipped, where the interpreter lacks what
-the package needs."""
+"""Shared by the tests of the Python package. Exits with 77, which ctest reports as skipped, if the interpreter lacks a
+module that the package needs."""
 import importlib
 import os
 import shutil
@@ -37,17 +37,17 @@ MAKE_LOG = os.path.join(ROOT, "tests", "bench", "make_log.py")
 
 
 def seen(ids=LANDMARKS, noise=None):
-    """Points that a sensor at the origin of the map sees of these landmarks."""
+    """Observations of these landmarks by a sensor at the origin of the map."""
     points = np.array([LANDMARKS[i] for i in ids])
     return points if noise is None else points + noise
 
 
 def random(seed):
-    return np.random.RandomState(seed)  # whose numbers are the same in every version of numpy
+    return np.random.RandomState(seed)  # its numbers are the same in every version of numpy
 
 
 def run_program(folder, landmarks=120, steps=120, seed=1, options=()):
-    """Results of `cairn run` on a generated log, in `folder`."""
+    """Runs `cairn run` on a generated log. The results are in `folder`."""
     program = os.environ["CAIRN_PROGRAM"]
     made = subprocess.run([sys.executable, MAKE_LOG, str(landmarks), str(steps), str(seed)], stdout=subprocess.PIPE,
                           check=True)

@@ -1,20 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reports of teams: what is read and drawn. The page in a browser is browser_test.py's matter."""
-import contextlib
-import io
-import json
+"""Reports of teams: what is read and drawn. browser_test.py tests the page in a browser."""
 import os
 import re
-import shutil
 import subprocess
-import tempfile
 import unittest
-from unittest import mock
 
 import support
 import numpy as np
-from cairn.report import __main__ as program
-from cairn.report import page, team, team_curves
+import reports
+from reports import call, read_page
+from cairn.report import team, team_curves
 
 COMPARISON = """features,mode,claimed,true,anees,in_band,band_low,band_high,rmse_m,landmark_rmse_m,recursion_ms,paper
 6,mono,0,0,1.07,0.93,0.85,1.17,5.4,10.1,0.008,50
@@ -25,47 +20,18 @@ COMPARISON = """features,mode,claimed,true,anees,in_band,band_low,band_high,rmse
 """
 
 
-def call(*arguments):
-    """Status and what was printed of `python -m cairn.report`."""
-    out, told = io.StringIO(), io.StringIO()
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(told), \
-            mock.patch.object(page, "plotly_source", lambda: "/* plotly */"):
-        return program.main(list(arguments)), out.getvalue(), told.getvalue()
-
-
-def data(path):
-    with open(path) as file:
-        text = file.read()
-    return text, json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S).group(1))
-
-
-class TeamReportTest(unittest.TestCase):
+class TeamReportTest(reports.FolderTest):
     @classmethod
-    def setUpClass(cls):
-        cls.room = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.room.cleanup)
-        cls.source = os.path.join(cls.room.name, "boats")
+    def make_run(cls, folder):
         subprocess.run([os.environ["CAIRN_PROGRAM"], "simulate", "usv", "--vehicles", "3", "--duration", "400", "--output",
-                        cls.source, "--quiet"], check=True, stdout=subprocess.DEVNULL)
-
-    def setUp(self):
-        self.folder = os.path.join(self.room.name, "copy")
-        shutil.rmtree(self.folder, ignore_errors=True)
-        shutil.copytree(self.source, self.folder)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w") as file:
-            file.write(text)
+                        folder, "--quiet"], check=True, stdout=subprocess.DEVNULL)
 
     def test_what_is_read(self):
         one = team.read_folder(self.folder)
         self.assertEqual([vehicle.number for vehicle in one.vehicles], [1, 2, 3])
         self.assertEqual([len(vehicle["time"]) for vehicle in one.vehicles], [81] * 3)
         first = one.vehicles[0]
-        scored = first["step"] >= 0.1 * 81  # as the program scores it
+        scored = first["step"] >= 0.1 * 81  # the figure of the program
         square = first.error("x")[scored] ** 2 + first.error("y")[scored] ** 2
         self.assertAlmostEqual(np.sqrt(square.mean()), one.summary["vehicle_1_pose_rmse_m"], places=6)
         self.assertLess(np.abs(first.error("heading")).max(), 0.1)
@@ -75,7 +41,7 @@ class TeamReportTest(unittest.TestCase):
     def test_a_page(self):
         status, out, told = call(self.folder)
         self.assertEqual((status, told), (0, ""))
-        text, found = data(self.path("report.html"))
+        text, found = read_page(self.path("report.html"))
         self.assertEqual(len(found["curves"]), 1 + 3 * 3)
         self.assertEqual([curve["alone"] for curve in found["curves"]], [True] + [False] * 9)
         self.assertIsNone(found["scene"])
@@ -116,7 +82,7 @@ class TeamReportTest(unittest.TestCase):
         os.remove(self.path("summary.json"))
         status, _, told = call(self.folder)
         self.assertEqual((status, told), (0, ""))
-        self.assertEqual(len(data(self.path("report.html"))[1]["curves"]), 1)
+        self.assertEqual(len(read_page(self.path("report.html"))[1]["curves"]), 1)
 
     def test_a_comparison(self):
         folder = os.path.join(self.room.name, "<compared>")
@@ -127,7 +93,7 @@ class TeamReportTest(unittest.TestCase):
             file.write('{"mono_6": {"claimed_improvement": 0}}')
         status, _, told = call(folder)
         self.assertEqual((status, told), (0, ""))
-        text, found = data(os.path.join(folder, "report.html"))
+        text, found = read_page(os.path.join(folder, "report.html"))
         self.assertEqual(len(found["curves"]), 2 + 3)
         few, many = found["curves"][:2]
         self.assertEqual(few["data"][0]["x"], ["eo_diagonal", "joint"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Teams through bytes, fleets, and filters in the plane."""
+"""Teams that exchange packets, fleets, and planar filters."""
 import struct
 import unittest
 
@@ -11,7 +11,7 @@ PACKET = struct.Struct("<4sHHI")  # magic, version, kind, size
 
 
 class Boats:
-    """As many teams as a fleet has boats, each with packets of the others in its post box."""
+    """One team for each boat of a fleet, each with a post box for the packets of the others."""
 
     def __init__(self, mode="joint", vehicles=2, starts=True, baseline=0, **options):
         self.fleet = cairn.Fleet(vehicles=vehicles, seed=options.pop("seed", 5), features=options.pop("features", 10),
@@ -35,7 +35,7 @@ class Boats:
             team.observe(step.time, boat.features, boat.vehicles)
 
     def packets(self):
-        """What all send, as (sender, bytes)."""
+        """The packets of all boats: (sender, bytes)."""
         return [(sender, packet) for sender, team in enumerate(self.teams) for packet in team.packets()]
 
     def deliver(self, packets):
@@ -43,7 +43,7 @@ class Boats:
                 for receiver, team in enumerate(self.teams) if receiver != sender]
 
     def settle(self):
-        """Until nobody has anything to say."""
+        """Delivers packets until no boat has another one."""
         told = self.packets()
         while told:
             self.deliver(told)
@@ -65,9 +65,13 @@ class TeamTest(unittest.TestCase):
             self.assertEqual(set(results), {cairn.PACKET_TAKEN})
             for team, boat in zip(boats.teams, step.vehicles):
                 team.score(boat.truth)
+                if step.time == 0:
+                    with self.assertRaisesRegex(cairn.CairnError, "singular"):  # the start is known exactly
+                        team.pose_nees(boat.truth)
+        self.assertLess(boats.teams[0].pose_nees(step.vehicles[0].truth), 20)
         a, b = boats.teams
         np.testing.assert_array_equal(a.map.landmarks()["id"], b.map.landmarks()["id"])
-        for vehicle in (1, 2):  # the same but for rounding: a looks from its own vehicle where b looks from another
+        for vehicle in (1, 2):  # equal up to rounding: a computes in the frame of its own vehicle, b from a teammate
             for mine, theirs in zip(a.pose(vehicle), b.pose(vehicle)):
                 np.testing.assert_allclose(mine, theirs, rtol=1e-9, atol=1e-9)
         for one in range(2):
@@ -88,7 +92,7 @@ class TeamTest(unittest.TestCase):
         self.assertEqual(set(seen["result"].tolist()), {cairn.MATCHED})
 
     def test_a_bad_transport_changes_nothing(self):
-        """Packets that come late, twice, out of order and not at all, until asked for, give the same bits."""
+        """Packets that come late, twice, out of order, or only on request give the same bits."""
         good, bad = Boats(max_lag=1e6, vehicles=3), Boats(max_lag=1e6, vehicles=3)
         for step in good.fleet:
             good.drive(step)
@@ -226,7 +230,7 @@ class TeamTest(unittest.TestCase):
                                   (lambda: a.receive("text"), TypeError, "")):
             with self.assertRaisesRegex(error, word):
                 call()
-        self.assertEqual(a.report()["sent"], 1)  # what was refused was not told
+        self.assertEqual(a.report()["sent"], 1)  # refused observations are not sent
         landmarks = a.map
         a.close()
         for call in (a.report, a.pose, a.packets().__next__, lambda: len(landmarks)):
@@ -286,7 +290,7 @@ class PlaneTest(unittest.TestCase):
             for landmark in boat.map.landmarks():
                 np.testing.assert_allclose(landmark["position"], [*self.PLACES[int(landmark["id"])], 0], atol=1e-9)
                 self.assertTrue((landmark["covariance"][2] == 0).all())
-            boat.predict_twist(1.0, (1.0, 0, 0.7), (0.1, 0, 0.2))  # what is not of the plane is passed over
+            boat.predict_twist(1.0, (1.0, 0, 0.7), (0.1, 0, 0.2))  # components out of the plane are ignored
             there = cairn.Pose(*boat.pose()[:2])
             self.assertEqual(there.position[2], 0.0)
             matches = boat.update(radar, [3, 9], self.seen(there, (3, 9)), np.tile(np.diag([0.04, 1e-4]), (2, 1, 1)))

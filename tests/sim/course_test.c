@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Courses: where they lead, how smoothly, and how the landmarks lie about them. */
+/* Courses: their geometry, their smoothness, and the distribution of the landmarks along them. */
 #include "support.h"
 
 static cairn_world_options course_options(int32_t course, uint32_t landmarks) {
@@ -20,7 +20,7 @@ static double yaw_of(const cairn_pose* pose) {
   return yaw;
 }
 
-/* Constant speed, heading along the way, no corners. */
+/* Constant speed, heading along the course, no corners. */
 static void check_smooth(const cairn_world* w, double speed, double sharpest) {
   const double dt = 0.01, end = end_of(w);
   double t;
@@ -63,7 +63,7 @@ static void the_papers_circle(void** state) {
   cairn_world_destroy(w);
 }
 
-/* The scene of the preset rows: ground, radius, attitude by the ground's normal. */
+/* The scene of the preset rows: ground, radius, and an attitude that follows the normal of the ground. */
 static void the_rows_scene(void** state) {
   const cairn_world_options o = preset_options(CAIRN_PRESET_ROW3);
   cairn_world* w = open_world(&o);
@@ -80,7 +80,7 @@ static void the_rows_scene(void** state) {
   assert_near(pose.position[2], sin(x / 15) + 0.8 * cos(y / 12), 1e-12);
   normal[0] = pose.position[0] - cos(x / 15) / 15, normal[1] = pose.position[1] + 0.8 * sin(y / 12) / 12;
   normal[2] = pose.position[2] + 1;
-  to_body(&pose, normal, inverse); /* the ground's normal is the body's z axis */
+  to_body(&pose, normal, inverse); /* the normal of the ground is the z axis of the body */
   assert_near(inverse[0], 0, 1e-12);
   assert_near(inverse[1], 0, 1e-12);
   for (i = 0; i < 200; ++i) {
@@ -91,7 +91,7 @@ static void the_rows_scene(void** state) {
   cairn_world_destroy(w);
 }
 
-/* Distance of each landmark from the course, and the ground that the strip covers, by a raster. */
+/* Distance of each landmark from the course, and the area that the strip covers, by a raster. */
 typedef struct coverage {
   double farthest, area, per_landmark_least, per_landmark_most;
 } coverage;
@@ -128,13 +128,13 @@ static coverage measure(const cairn_world* w, double speed) {
   positions = (double*)malloc(count * 3 * sizeof(double));
   assert_non_null(positions);
   assert_ok(cairn_world_landmarks(w, positions, count, &count));
-  /* all of them in the strip, but for the raster's edge */
+  /* all landmarks lie in the strip, up to the edge of the raster */
   for (k = 0, cells = 0; k < count; ++k) {
     const long x = (long)((positions[3 * k] - lower[0]) / CELL), y = (long)((positions[3 * k + 1] - lower[1]) / CELL);
     cells += covered[y * columns + x];
   }
-  c.farthest = 1 - (double)cells / (double)count; /* share outside */
-  /* chi-square-like evenness over pieces of the raster, some 20 landmarks each */
+  c.farthest = 1 - (double)cells / (double)count; /* share of landmarks outside */
+  /* uniformity by chi-square over pieces of the raster with about 20 landmarks each */
   {
     const long piece = 24;
     const long pc = columns / piece + 1, pr = rows / piece + 1;
@@ -153,14 +153,14 @@ static coverage measure(const cairn_world* w, double speed) {
       if (expected < 5) continue;
       statistic += (seen[i] - expected) * (seen[i] - expected) / expected, pieces += 1;
     }
-    c.per_landmark_most = statistic / pieces; /* about 1 where they fall at random and evenly */
+    c.per_landmark_most = statistic / pieces; /* about 1 for a uniform random distribution */
     free(ground), free(seen);
   }
   free(covered), free(positions);
   return c;
 }
 
-/* As many landmarks as asked for, one a 160 m^2 of the strip, evenly. */
+/* The requested number of landmarks, one for each 160 m^2 of the strip, uniformly. */
 static void constant_density(void** state) {
   static const struct {
     int32_t course;
@@ -178,7 +178,7 @@ static void constant_density(void** state) {
     w = open_world(&o);
     c = measure(w, o.speed);
     assert_near(c.area / cases[i].landmarks, 160, 4);
-    assert_between(c.farthest, 0, 0.04); /* the raster's edge */
+    assert_between(c.farthest, 0, 0.04); /* the edge of the raster */
     assert_between(c.per_landmark_most, 0.6, 1.5);
     cairn_world_destroy(w);
   }
@@ -204,7 +204,7 @@ static void laps_close_and_repeat(void** state) {
     assert_near(half.position[1], 20, 1e-5);
     assert_near(remainder(yaw_of(&half) - yaw_of(&start), 2 * PI), 0, 1e-6);
     check_smooth(w, o.speed, 60);
-    for (t = 0; t < lap; t += 5) { /* it wanders: curvature is not one */
+    for (t = 0; t < lap; t += 5) { /* the course has bends: its curvature is not constant */
       cairn_pose next;
       double bend;
       assert_ok(cairn_world_pose(w, t, &pose));
@@ -218,7 +218,7 @@ static void laps_close_and_repeat(void** state) {
   }
 }
 
-/* Left and right by turns, each circle once and a quarter. */
+/* Circles are driven left and right alternately, one and a quarter rounds each. */
 static void traverse_turns_by_turns(void** state) {
   cairn_world_options o = course_options(CAIRN_COURSE_TRAVERSE, 2400);
   cairn_world* w = open_world(&o);
@@ -234,7 +234,7 @@ static void traverse_turns_by_turns(void** state) {
     double bend;
     assert_ok(cairn_world_pose(w, t, &b));
     bend = remainder(yaw_of(&b) - yaw_of(&a), 2 * PI);
-    if (bend * sense < 0) { /* on to the next */
+    if (bend * sense < 0) { /* on to the next circle */
       assert_near(turned, sense * 2.5 * PI, 0.02);
       assert_between(travelled / 1.25, 1500 * 0.8, 1500 * 1.25);
       length += travelled, travelled = 0, turned = 0, sense = -sense, ++rounds;
@@ -260,7 +260,7 @@ static void closed_traverse_comes_home(void** state) {
     check_smooth(w, o.speed, 100);
     assert_ok(cairn_world_pose(w, 0, &start));
     assert_ok(cairn_world_pose(w, end_of(w), &end));
-    /* the last step may stop short of the end by what is driven in a frame's period */
+    /* the last step may end before the course does, by less than the distance of one frame */
     assert_between(hypot(end.position[0] - start.position[0], end.position[1] - start.position[1]), 0, 2.01 * o.speed);
     assert_ok(cairn_world_extent(w, lower, upper));
     assert_between((upper[0] - lower[0]) / (upper[1] - lower[1]), 0.7, 1.4); /* a ring, not a line */
@@ -283,7 +283,7 @@ static void extent_holds_everything(void** state) {
   cairn_world_destroy(w);
 }
 
-/* A handful of landmarks makes a world as well. */
+/* A world with very few landmarks works too. */
 static void few_landmarks(void** state) {
   static const uint32_t counts[] = {1, 2, 10, 60};
   int32_t course;

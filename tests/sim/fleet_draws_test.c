@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the seed of a fleet settles: the same steps again, whose draws are whose, where the features and the coast are.
- */
+/* What the seed of a fleet determines: repeated steps, independent draws, the places of the features and the coast. */
 #include "support.h"
 
 #define COAST 201
@@ -33,7 +32,7 @@ static void assert_same_drive(cairn_fleet* one, cairn_fleet* two) {
   }
 }
 
-static void the_same_again(void** state) {
+static void the_same_seed_gives_the_same_steps(void** state) {
   cairn_fleet_options o = default_fleet_options();
   cairn_fleet *fleet, *fresh;
   size_t k;
@@ -43,13 +42,13 @@ static void the_same_again(void** state) {
   fresh = open_fleet(&o);
   assert_same_drive(fleet, fresh);
   cairn_fleet_destroy(fresh);
-  assert_ok(cairn_fleet_rewind(fleet)); /* from the end */
+  assert_ok(cairn_fleet_rewind(fleet)); /* after the last step */
   fresh = open_fleet(&o);
   assert_same_drive(fleet, fresh);
   cairn_fleet_destroy(fresh);
   assert_ok(cairn_fleet_rewind(fleet));
   for (k = 0; k < 20; ++k) next_fleet_step(fleet);
-  assert_ok(cairn_fleet_rewind(fleet)); /* from within */
+  assert_ok(cairn_fleet_rewind(fleet)); /* in the middle */
   fresh = open_fleet(&o);
   assert_same_drive(fleet, fresh);
   cairn_fleet_destroy(fresh);
@@ -76,7 +75,7 @@ static void another_seed_is_another_fleet(void** state) {
   cairn_fleet_destroy(two);
 }
 
-/* What boat 1 of two does and sees, beside what it does and sees in a fleet with one option changed. */
+/* Compares the motion and the sightings of boat 1 of two with those in a fleet in which one option is changed. */
 static void check_unchanged(const cairn_fleet_options* changed) {
   const cairn_fleet_options o = default_fleet_options();
   cairn_fleet *one = open_fleet(&o), *two = open_fleet(changed);
@@ -91,7 +90,7 @@ static void check_unchanged(const cairn_fleet_options* changed) {
     const cairn_fleet_step a = next_fleet_step(one), b = next_fleet_step(two);
     const cairn_fleet_vehicle *p = a.vehicles, *q = b.vehicles;
     assert_memory_equal(p, q, offsetof(cairn_fleet_vehicle, features));
-    if (changed->range_sigma > 0) { /* more features are farther down the list */
+    if (changed->range_sigma > 0) { /* additional features are at the end of the list */
       assert_true(p->feature_count > 0 && p->feature_count <= q->feature_count);
       assert_memory_equal(p->features, q->features, p->feature_count * sizeof *p->features);
     }
@@ -101,7 +100,7 @@ static void check_unchanged(const cairn_fleet_options* changed) {
   cairn_fleet_destroy(two);
 }
 
-static void draws_are_their_own(void** state) {
+static void draws_are_independent(void** state) {
   cairn_fleet_options o = default_fleet_options();
   (void)state;
   o.features = 40;
@@ -114,7 +113,7 @@ static void draws_are_their_own(void** state) {
   check_unchanged(&o);
 }
 
-/* Boats elsewhere err alike: their rates of turn are the same numbers, however many they are. */
+/* Boats at other places have the same errors: their rates are the same numbers, however many boats there are. */
 static void more_boats_leave_the_first_ones_errors(void** state) {
   cairn_fleet_options o = default_fleet_options();
   cairn_fleet *two = open_fleet(&o), *many;
@@ -132,7 +131,7 @@ static void more_boats_leave_the_first_ones_errors(void** state) {
   cairn_fleet_destroy(many);
 }
 
-static void larger_noise_is_the_same_noise_larger(void** state) {
+static void larger_noise_scales_the_same_draws(void** state) {
   cairn_fleet_options o = default_fleet_options();
   cairn_fleet *none, *some, *more;
   size_t k, j;
@@ -179,7 +178,8 @@ static void features_are_uniform(void** state) {
   }
   for (axis = 0; axis < 2; ++axis) {
     assert_near(tally_mean(&place[axis]), 0, 5 / sqrt(5000));
-    assert_near(tally_sigma(&place[axis]), 1, 5 * sqrt(0.8 / 5000) / 2); /* fourth moment 1.8 */
+    assert_near(tally_sigma(&place[axis]), 1,
+                5 * sqrt(0.8 / 5000) / 2); /* the fourth moment of a uniform distribution is 1.8 */
   }
   assert_near(both / 5000, 0, 5 / sqrt(5000));
   for (i = 0; i < 4; ++i) assert_near((double)quarters[i], 1250, 5 * sqrt(5000 * 3 / 16.));
@@ -211,7 +211,7 @@ static void features_are_along_the_coast(void** state) {
     fleet = open_fleet(&o);
     assert_ok(cairn_fleet_coast(fleet, coast, COAST, &needed));
     assert_int_equal(needed, COAST);
-    assert_memory_equal(coast, again, sizeof coast); /* the layout does not move it */
+    assert_memory_equal(coast, again, sizeof coast); /* the layout does not change the coast */
     assert_near(coast[0], -5000, 1e-9);
     assert_near(coast[2 * COAST - 2], 5000, 1e-9);
     for (i = 0; i < COAST; ++i) {
@@ -235,16 +235,16 @@ static void features_are_along_the_coast(void** state) {
     assert_near((double)in_west, 500 * west / length, 5 * sqrt(500 / 4.));
     cairn_fleet_destroy(fleet);
   }
-  assert_true(highest > 3750 && lowest < 3250); /* the relief that was asked for, in some of them */
+  assert_true(highest > 3750 && lowest < 3250); /* the requested relief, at least in some fleets */
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_same_again),
+      cmocka_unit_test(the_same_seed_gives_the_same_steps),
       cmocka_unit_test(another_seed_is_another_fleet),
-      cmocka_unit_test(draws_are_their_own),
+      cmocka_unit_test(draws_are_independent),
       cmocka_unit_test(more_boats_leave_the_first_ones_errors),
-      cmocka_unit_test(larger_noise_is_the_same_noise_larger),
+      cmocka_unit_test(larger_noise_scales_the_same_draws),
       cmocka_unit_test(features_are_uniform),
       cmocka_unit_test(features_are_along_the_coast),
   };

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Options of a fleet: defaults, sizes of other versions, what is refused; buffers, and the end of the drive. */
+/* Options of a fleet: defaults, structs of other versions, refused values, buffers, and the end of the drive. */
 #include "support.h"
 
-static void defaults_are_the_papers(void** state) {
+static void defaults_equal_the_paper(void** state) {
   const cairn_fleet_options o = default_fleet_options();
   (void)state;
   assert_int_equal(o.struct_size, sizeof o);
@@ -21,7 +21,7 @@ static void defaults_are_the_papers(void** state) {
   assert_near(o.rate_sigma, 0.1 * DEGREE, 1e-17);
 }
 
-/* Nothing beyond the caller's struct is written, and what an older caller leaves out has its default. */
+/* No byte beyond the caller's struct is written, and fields that an older caller lacks have their defaults. */
 static void options_of_other_sizes(void** state) {
   const size_t old = offsetof(cairn_fleet_options, vehicles) + sizeof(uint32_t);
   unsigned char* bytes = (unsigned char*)malloc(sizeof(cairn_fleet_options) + 64);
@@ -40,7 +40,7 @@ static void options_of_other_sizes(void** state) {
   assert_int_equal(needed, 10);
   cairn_fleet_destroy(fleet);
   memset(bytes, 0xa5, sizeof *o + 64);
-  assert_ok(cairn_fleet_options_init(o, sizeof *o + 64)); /* a newer caller's */
+  assert_ok(cairn_fleet_options_init(o, sizeof *o + 64)); /* a newer caller */
   assert_int_equal(bytes[sizeof *o + 63], 0);
   cairn_fleet_destroy(open_fleet(o));
   free(bytes);
@@ -70,11 +70,11 @@ static void steps_of_other_sizes(void** state) {
   u.step.struct_size = 7;
   assert_refused(cairn_fleet_next(fleet, &u.step), CAIRN_ERROR_ARGUMENT, "struct_size");
   assert_int_equal(u.step.number, 1);
-  assert_int_equal(next_fleet_step(fleet).number, 2); /* the refused call took none away */
+  assert_int_equal(next_fleet_step(fleet).number, 2); /* the refused call did not consume a step */
   cairn_fleet_destroy(fleet);
 }
 
-/* `word` is in the message: the field's name. */
+/* The message must contain `word`, the name of the field. */
 #define REFUSE_AS(field, value, word)                                              \
   do {                                                                             \
     cairn_fleet_options bad = default_fleet_options();                             \
@@ -125,7 +125,7 @@ static void bad_options(void** state) {
   REFUSE(coast_strip, 0.51);
 }
 
-/* A coast that would have the boats aground matters where features are along it, and there alone. */
+/* A coast on which the boats would run aground is refused only if the features are along the coast. */
 static void contradictions(void** state) {
   cairn_fleet_options o = default_fleet_options();
   cairn_fleet* fleet = NULL;
@@ -140,7 +140,7 @@ static void contradictions(void** state) {
   cairn_fleet_destroy(open_fleet(&o)); /* the defaults have room for the largest fleet */
 }
 
-/* The largest values that are allowed are. */
+/* The largest allowed values are accepted. */
 static void good_options(void** state) {
   cairn_fleet_options o = default_fleet_options();
   cairn_fleet* fleet;
@@ -223,7 +223,7 @@ static void the_end(void** state) {
   cairn_fleet_step step;
   size_t steps = 0, k;
   (void)state;
-  o.duration = 0.7, o.period = 0.1; /* whose quotient is no whole number */
+  o.duration = 0.7, o.period = 0.1; /* their quotient is not a whole number */
   fleet = open_fleet(&o);
   assert_ok(cairn_fleet_steps(fleet, &steps));
   assert_int_equal(steps, 8);
@@ -248,7 +248,7 @@ static void the_end(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(defaults_are_the_papers),
+      cmocka_unit_test(defaults_equal_the_paper),
       cmocka_unit_test(options_of_other_sizes),
       cmocka_unit_test(steps_of_other_sizes),
       cmocka_unit_test(bad_options),

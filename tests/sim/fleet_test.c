@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The fleet against its truth: courses, what the radars see, the noise of both. */
+/* The fleet compared with its truth: courses, radar sightings, and the noise of both. */
 #include "support.h"
 
 #define MOST 64
@@ -8,7 +8,7 @@ static double wrapped(double angle) {
   return angle - 2 * PI * ceil((angle - PI) / (2 * PI));
 }
 
-/* Of a feature or a boat at (x, y) as a boat sees it. */
+/* Range and bearing of a feature or a boat at (x, y) from a boat. */
 static double range_of(const cairn_fleet_vehicle* from, double x, double y) {
   return hypot(x - from->x, y - from->y);
 }
@@ -22,7 +22,7 @@ static cairn_fleet_options quiet_options(void) {
   return o;
 }
 
-/* The executed speed and rate that lead from one pose to the next: a circle's chord and the angle it is seen under. */
+/* The executed speed and rate between two poses: the chord of a circle and its angle. */
 static void executed(const cairn_fleet_vehicle* before, const cairn_fleet_vehicle* after, double dt, double* speed,
                      double* rate) {
   const double turn = wrapped(after->heading - before->heading);
@@ -62,7 +62,7 @@ static void one_round_without_noise(void** state) {
   cairn_fleet_destroy(fleet);
 }
 
-/* Neighbours stand apart as far as was asked for, or as far as the square allows. */
+/* Neighbours have the requested distance, or the largest one that fits into the square. */
 static void starts_of_any_fleet(void** state) {
   static const struct {
     uint32_t boats;
@@ -108,7 +108,7 @@ static void bearings_are_to_the_left_of_the_bow(void** state) {
   assert_near(step.vehicles[0].vehicles[0].range, 1500, 1e-9);
   assert_near(step.vehicles[0].vehicles[0].bearing, 0, 0); /* ahead */
   assert_int_equal(step.vehicles[1].vehicles[0].id, 1);
-  assert_near(step.vehicles[1].vehicles[0].bearing, PI, 0); /* astern, and pi, not -pi */
+  assert_near(step.vehicles[1].vehicles[0].bearing, PI, 0); /* astern: pi, not -pi */
   for (i = 0; i < step.vehicles[0].feature_count; ++i) {    /* both head east: north is to the left */
     const cairn_fleet_sighting* s = &step.vehicles[0].features[i];
     assert_true((s->bearing > 0) == (features[2 * s->id - 1] > step.vehicles[0].y));
@@ -118,7 +118,7 @@ static void bearings_are_to_the_left_of_the_bow(void** state) {
   cairn_fleet_destroy(fleet);
 }
 
-/* Without noise of the radars: whatever is in range is seen where it is, and nothing else. */
+/* Without radar noise everything in range is seen at its place, and nothing else. */
 static void sightings_are_the_geometry_cut_at_the_range(void** state) {
   cairn_fleet_options o = default_fleet_options();
   double features[2 * 300], farthest = 0;
@@ -170,7 +170,7 @@ static void sightings_are_the_geometry_cut_at_the_range(void** state) {
   cairn_fleet_destroy(fleet);
 }
 
-/* Sums over pairs of numbers, for what they have in common. */
+/* Sums over pairs of numbers, for their correlation. */
 static double share_in_common(double product, const tally* a, const tally* b) {
   return product / a->count / (tally_sigma(a) * tally_sigma(b));
 }
@@ -209,7 +209,7 @@ static void motion_noise(void** state) {
   cairn_fleet_destroy(fleet);
 }
 
-/* `mutual` pairs what boat 1 says of boat 2 with what boat 2 says of boat 1. */
+/* `mutual` pairs the sightings of boat 2 by boat 1 with the sightings of boat 1 by boat 2. */
 static void radar_noise(void** state) {
   cairn_fleet_options o = default_fleet_options();
   double features[2 * 100], both = 0, mutual[2] = {0, 0}, in_turn = 0, n, m, last = 0;
@@ -229,7 +229,7 @@ static void radar_noise(void** state) {
         const cairn_fleet_sighting* s = &v->features[j];
         const double x = features[2 * s->id - 2], y = features[2 * s->id - 1];
         const double dr = s->range - range_of(v, x, y), db = wrapped(s->bearing - bearing_of(v, x, y));
-        if (range_of(v, x, y) < 200) continue; /* where ranges are drawn again */
+        if (range_of(v, x, y) < 200) continue; /* here ranges are drawn again */
         tally_add(&range, dr), tally_add(&bearing, db);
         both += dr * db, in_turn += dr * last;
         last = dr;
@@ -255,7 +255,7 @@ static void radar_noise(void** state) {
   cairn_fleet_destroy(fleet);
 }
 
-/* However large the noise, ranges are positive and bearings in (-pi, pi]. */
+/* Ranges are positive and bearings in (-pi, pi] for any size of the noise. */
 static void measurements_keep_their_bounds(void** state) {
   cairn_fleet_options o = default_fleet_options();
   cairn_fleet* fleet;

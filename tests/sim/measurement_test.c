@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the sensors say against the truth: field of view, composition of samples, size and independence of the noise. */
+/* Measurements compared with truth: field of view, composition of samples, size and independence of the noise. */
 #include "support.h"
 
-/* Body point that an observation of the world's head stands for. */
+/* The point in the body frame for an observation of the world's head. */
 static void camera_point(const cairn_pose* truth, const cairn_stereo_head* head, double pan, double stick,
                          const double landmark[3], double m[3]) {
   cairn_pose turn = {{0, 0, 0}, {1, 0, 0, 0}}, tilt = {{0, 0, 0}, {1, 0, 0, 0}}, arm = {{0, 0, 0}, {1, 0, 0, 0}}, T;
@@ -17,7 +17,7 @@ static void camera_point(const cairn_pose* truth, const cairn_stereo_head* head,
   to_body(&T, landmark, m);
 }
 
-static void true_motion_leads_from_pose_to_pose(void** state) {
+static void true_motion_connects_the_true_poses(void** state) {
   cairn_world_options o = default_options();
   cairn_world* w = open_world(&o);
   cairn_pose pose;
@@ -26,7 +26,7 @@ static void true_motion_leads_from_pose_to_pose(void** state) {
   (void)state;
   wheels.struct_size = sizeof wheels;
   assert_ok(cairn_world_wheels(w, &wheels));
-  assert_near(wheels.rate_sigma, 0.01 / 2, 1e-15); /* four samples' mean */
+  assert_near(wheels.rate_sigma, 0.01 / 2, 1e-15); /* mean of four samples */
   assert_near(wheels.radius, 0.3, 0);
   pose = next_step(w).truth;
   for (k = 1; k < 40; ++k) {
@@ -40,7 +40,7 @@ static void true_motion_leads_from_pose_to_pose(void** state) {
       turning = wheels.radius / wheels.track * (m->true_wheels[1] - m->true_wheels[0]);
       assert_near(forward, m->true_velocity[0], 1e-12);
       assert_near(turning, m->true_rate[2], 1e-12);
-      assert_near(m->true_velocity[1], 0, 0.02); /* the rover drives ahead, and stays on the ground */
+      assert_near(m->true_velocity[1], 0, 0.02); /* the rover drives forward and stays on the ground */
       assert_near(m->true_velocity[2], 0, 0.02);
     }
     assert_int_equal(cairn_pose_error(&step.truth, &pose, error), CAIRN_OK);
@@ -52,7 +52,7 @@ static void true_motion_leads_from_pose_to_pose(void** state) {
   cairn_world_destroy(w);
 }
 
-/* Without noise everything measured is true, however samples are composed. */
+/* Without noise all measurements are true, for every composition of samples. */
 static void without_noise(void** state) {
   int32_t accelerometer;
   (void)state;
@@ -77,7 +77,8 @@ static void without_noise(void** state) {
   }
 }
 
-/* Mean 0, the size that the step tells, and no two samples alike: bounds are 4 standard deviations of the estimate. */
+/* Mean 0, the size that the step states, and independent samples. The bounds are 4 standard deviations of the estimate.
+ * */
 static void check_white(const tally* t, const tally* lagged, double size) {
   assert_near(tally_mean(t), 0, 4 * size / sqrt(t->count));
   assert_near(tally_sigma(t), size, 4 * size / sqrt(2 * t->count));
@@ -127,7 +128,7 @@ static void wheel_noise(void** state) {
   cairn_world* w;
   tally left = {0, 0, 0}, right = {0, 0, 0}, both = {0, 0, 0}, forward = {0, 0, 0};
   size_t k, i;
-  double told = 0, rate = 0, size;
+  double stated = 0, rate = 0, size;
   (void)state;
   o.drive = CAIRN_DRIVE_WHEELS_GYRO;
   o.motion_period = o.imu_period;
@@ -144,18 +145,18 @@ static void wheel_noise(void** state) {
       assert_near(m->velocity[2], 0, 0);
       rate = m->true_wheels[0];
     }
-    if (step.motion_count > 0) told = step.velocity_sigma[0];
+    if (step.motion_count > 0) stated = step.velocity_sigma[0];
     assert_near(step.velocity_sigma[1], 0.01, 0);
   }
   size = hypot(0.01, 0.02 * rate);
   assert_near(tally_sigma(&left), size, 0.05 * size);
   assert_near(tally_sigma(&right), size, 0.05 * size);
   assert_near(tally_mean(&both) / (size * size), 0, 4 / sqrt(both.count));
-  assert_near(tally_sigma(&forward), told, 0.05 * told);
+  assert_near(tally_sigma(&forward), stated, 0.05 * stated);
   cairn_world_destroy(w);
 }
 
-/* m/s^2: the velocity drifts, by about what the step tells. */
+/* With an accelerometer (m/s^2) the velocity drifts, by about as much as the step states. */
 static void accelerometer_drifts(void** state) {
   tally early = {0, 0, 0}, late = {0, 0, 0};
   uint64_t seed;
@@ -181,7 +182,7 @@ static void accelerometer_drifts(void** state) {
   assert_between(tally_sigma(&late), 0.7, 1.3);
 }
 
-/* Whatever is in the field of view is seen, nothing else; noise by Table 1. */
+/* Everything in the field of view is seen, and nothing else. The noise is that of Table 1. */
 static void field_of_view_and_noise(void** state) {
   cairn_world_options o = default_options();
   cairn_world* w;
@@ -222,7 +223,7 @@ static void field_of_view_and_noise(void** state) {
     assert_int_equal(at, step.observation_count);
     seen_total += (double)at;
   }
-  assert_between(seen_total / 400, 8, 11); /* a frame */
+  assert_between(seen_total / 400, 8, 11); /* for each frame */
   check_white(&noise[0], &cross, 1);
   assert_near(tally_sigma(&noise[1]), 3 * DEGREE, 4 * 3 * DEGREE / sqrt(2 * noise[1].count));
   assert_near(tally_sigma(&noise[2]), 3 * DEGREE, 4 * 3 * DEGREE / sqrt(2 * noise[2].count));
@@ -233,7 +234,7 @@ static void field_of_view_and_noise(void** state) {
   cairn_world_destroy(w);
 }
 
-/* A scanning head on a mast: what it says is true of the camera where it stands; the field turns with it. */
+/* A scanning head on a mast: observations are true for the camera at its place, and the field of view turns with it. */
 static void scanning_head(void** state) {
   cairn_world_options o = default_options();
   cairn_world* w;
@@ -270,7 +271,7 @@ static void scanning_head(void** state) {
   cairn_world_destroy(w);
 }
 
-/* One error of the stick a frame: elevations of a frame are off together. */
+/* One error of the stick for each frame: all elevations of a frame are off by the same angle. */
 static void stick_noise_of_a_frame(void** state) {
   cairn_world_options o = default_options();
   cairn_world* w;
@@ -279,7 +280,7 @@ static void stick_noise_of_a_frame(void** state) {
   size_t k, i;
   (void)state;
   o.stick_noise = CAIRN_STICK_PER_FRAME;
-  o.half_azimuth = 20 * DEGREE; /* near the axis a turn of the stick is a change of elevation */
+  o.half_azimuth = 20 * DEGREE; /* near the axis a rotation of the stick is a change of elevation */
   o.laps = 4;
   w = open_world(&o);
   head.struct_size = sizeof head;
@@ -306,8 +307,8 @@ static void stick_noise_of_a_frame(void** state) {
   cairn_world_destroy(w);
 }
 
-/* Turning one option leaves the draws of others as they were. */
-static void draws_are_apart(void** state) {
+/* A change of one option leaves the draws of the others unchanged. */
+static void draws_are_independent(void** state) {
   cairn_world_options o = default_options();
   cairn_world *a = open_world(&o), *b;
   size_t k, i;
@@ -329,7 +330,7 @@ static void draws_are_apart(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(true_motion_leads_from_pose_to_pose),
+      cmocka_unit_test(true_motion_connects_the_true_poses),
       cmocka_unit_test(without_noise),
       cmocka_unit_test(motion_noise),
       cmocka_unit_test(wheel_noise),
@@ -337,7 +338,7 @@ int main(void) {
       cmocka_unit_test(field_of_view_and_noise),
       cmocka_unit_test(scanning_head),
       cmocka_unit_test(stick_noise_of_a_frame),
-      cmocka_unit_test(draws_are_apart),
+      cmocka_unit_test(draws_are_independent),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

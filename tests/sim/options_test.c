@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Options of a world: defaults, presets, sizes of other versions, and what is refused. */
+/* Options of a world: defaults, presets, structs of other versions, and refused values. */
 #include "support.h"
 
-static void defaults_are_table_1(void** state) {
+static void defaults_equal_table_1(void** state) {
   const cairn_world_options o = default_options();
   (void)state;
   assert_int_equal(o.struct_size, sizeof o);
@@ -31,7 +31,7 @@ static void presets(void** state) {
   (void)state;
   o.seed = 77;
   for (i = 0; i < 4; ++i) {
-    o.landmark_height = 9; /* a preset leaves nothing of this */
+    o.landmark_height = 9; /* a preset must overwrite all of this */
     assert_ok(cairn_world_options_preset(&o, CAIRN_PRESET_ROW1 + i, &submap));
     assert_int_equal(submap, rows[i].submap);
     assert_near(o.velocity_sigma, rows[i].velocity, 0);
@@ -56,7 +56,7 @@ static void presets(void** state) {
   assert_refused(cairn_world_options_preset(NULL, 0, NULL), CAIRN_ERROR_ARGUMENT, "options");
 }
 
-/* Nothing beyond the caller's struct is written, and what an older caller leaves out has its default. */
+/* No byte beyond the caller's struct is written, and fields that an older caller lacks have their defaults. */
 static void other_sizes(void** state) {
   unsigned char bytes[sizeof(cairn_world_options) + 64];
   const size_t old = offsetof(cairn_world_options, landmarks) + sizeof(uint32_t);
@@ -78,7 +78,7 @@ static void other_sizes(void** state) {
   assert_refused(cairn_world_landmark(world, 31, position), CAIRN_ERROR_NOT_FOUND, "id 31");
   cairn_world_destroy(world);
   memset(o, 0xa5, sizeof bytes);
-  assert_ok(cairn_world_options_init(o, sizeof bytes)); /* a newer caller's */
+  assert_ok(cairn_world_options_init(o, sizeof bytes)); /* a newer caller */
   assert_int_equal(((unsigned char*)o)[sizeof bytes - 1], 0);
   world = open_world(o);
   cairn_world_destroy(world);
@@ -168,10 +168,10 @@ static void contradictions(void** state) {
   cairn_world_options o = default_options();
   cairn_world* world = NULL;
   (void)state;
-  REFUSE(radius, 25);          /* no more than the strip */
+  REFUSE(radius, 25);          /* not larger than the strip */
   REFUSE(far_range, 1.5);      /* below near_range */
-  REFUSE(wavelength[0], 151);  /* above the longest */
-  REFUSE(motion_period, 0.12); /* no multiple of 0.05 */
+  REFUSE(wavelength[0], 151);  /* above the longest wavelength */
+  REFUSE(motion_period, 0.12); /* not a multiple of 0.05 */
   REFUSE(frame_period, 2.1);
   REFUSE(laps, 1e300);
   o.course = CAIRN_COURSE_TRAVERSE;
@@ -184,8 +184,11 @@ static void contradictions(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(defaults_are_table_1), cmocka_unit_test(presets),        cmocka_unit_test(other_sizes),
-      cmocka_unit_test(bad_options),          cmocka_unit_test(contradictions),
+      cmocka_unit_test(defaults_equal_table_1),
+      cmocka_unit_test(presets),
+      cmocka_unit_test(other_sizes),
+      cmocka_unit_test(bad_options),
+      cmocka_unit_test(contradictions),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

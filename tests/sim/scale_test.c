@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A large world: it opens, streams, and its memory is that of its landmarks. */
+/* A large world: it opens and streams, and its memory is proportional to its landmarks. */
 #include <sys/resource.h>
 
 #include "support.h"
@@ -29,7 +29,7 @@ static void a_hundred_thousand_landmarks(void** state) {
     assert_between((double)steps * 2 * o.speed / 1000, 380, 450); /* 320 km of circles, driven 1.25 times */
     for (k = 0; k < 2000; ++k) seen += next_step(w).observation_count;
     assert_between((double)seen / 2000, 8, 11.5);
-#ifndef __SANITIZE_ADDRESS__ /* which keeps what was freed */
+#ifndef __SANITIZE_ADDRESS__ /* the allocator keeps freed memory */
     assert_between(opened - before, 0, 30);
     assert_between(peak_mib() - opened, 0, 1);
 #else

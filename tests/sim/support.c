@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* Helpers of the tests of libcairn_sim. */
 #include "support.h"
 
 void check_near(double actual, double expected, double tolerance, const char* what, const char* file, int line) {
@@ -77,7 +78,7 @@ void to_body(const cairn_pose* T_map_body, const double point[3], double out[3])
   assert_int_equal(cairn_pose_apply(&inverse, point, out), CAIRN_OK);
 }
 
-/* In 64 short steps of second order, to stay apart from the library's exponential. */
+/* 64 short steps of second order, independent of the library's exponential. */
 cairn_pose moved(const cairn_pose* pose, const double velocity[3], const double rate[3], double dt) {
   cairn_pose result = *pose, half, step;
   double way[3], turn[3];

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the tests of the simulated worlds share. */
+/* Shared by the tests of simulated worlds and fleets. */
 #ifndef CAIRN_TESTS_SIM_SUPPORT_H
 #define CAIRN_TESTS_SIM_SUPPORT_H
 
-/* What cmocka.h needs comes before it. */
+/* cmocka.h needs these headers before it. */
 /* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,12 +26,12 @@
 #define DEGREE (PI / 180.0)
 #define LENGTH(array) (sizeof(array) / sizeof((array)[0]))
 
-/* Checks that say what they compared. */
+/* Checks that print the compared values. */
 #define assert_near(actual, expected, tolerance) \
   check_near((actual), (expected), (tolerance), #actual " against " #expected, __FILE__, __LINE__)
 #define assert_between(actual, lower, upper) check_between((actual), (lower), (upper), #actual, __FILE__, __LINE__)
 #define assert_ok(call) check_status((call), CAIRN_OK, "", #call, __FILE__, __LINE__)
-/* A refused call, whose message names `word`. */
+/* A call that must be refused. The message must contain `word`. */
 #define assert_refused(call, status, word) check_status((call), (status), (word), #call, __FILE__, __LINE__)
 void check_near(double actual, double expected, double tolerance, const char* what, const char* file, int line);
 void check_between(double actual, double lower, double upper, const char* what, const char* file, int line);
@@ -42,19 +42,19 @@ cairn_world_options default_options(void);
 cairn_world_options preset_options(int32_t preset);
 cairn_world* open_world(const cairn_world_options* options);
 size_t steps_of(const cairn_world* world);
-/* The next step, which has to be there. */
+/* The next step, which must exist. */
 cairn_world_step next_step(cairn_world* world);
 
 cairn_fleet_options default_fleet_options(void);
 cairn_fleet* open_fleet(const cairn_fleet_options* options);
 cairn_fleet_step next_fleet_step(cairn_fleet* fleet);
 
-/* Point of the map seen from the body, and the body's z axis in the map. */
+/* A point of the map in the body frame, and the z axis of the body in the map. */
 void to_body(const cairn_pose* T_map_body, const double point[3], double out[3]);
-/* Moves a pose by a constant twist for a while. */
+/* Moves a pose by a constant twist over a time. */
 cairn_pose moved(const cairn_pose* pose, const double velocity[3], const double rate[3], double dt);
 
-/* Mean and spread of many numbers. */
+/* Mean and spread of a series of numbers. */
 typedef struct tally {
   double count, sum, square;
 } tally;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A world and its queries: the ground, the wheels on it, the drive step by step, and the rules of every call. */
+/* A world and its queries: the ground, the wheels on it, the drive step by step, and the rules that all calls follow.
+ * */
 #include "support.h"
 
-static void refuses_null_and_nonsense(void** state) {
+static void null_and_bad_values_are_refused(void** state) {
   const cairn_world_options o = default_options();
   cairn_world* w = open_world(&o);
   cairn_world_step step;
@@ -52,7 +53,7 @@ static void refuses_null_and_nonsense(void** state) {
   cairn_world_destroy(NULL);
 }
 
-/* One that fails takes no step; a short struct gets its part alone. */
+/* A failed call does not consume a step. A short struct gets only its part. */
 static void sizes_of_step(void** state) {
   const cairn_world_options o = default_options();
   cairn_world* w = open_world(&o);
@@ -77,7 +78,7 @@ static void sizes_of_step(void** state) {
   cairn_world_destroy(w);
 }
 
-static void the_end_and_back(void** state) {
+static void the_end_and_rewind(void** state) {
   const cairn_world_options o = default_options();
   cairn_world* w = open_world(&o);
   const size_t steps = steps_of(w);
@@ -110,7 +111,7 @@ static void the_end_and_back(void** state) {
   cairn_world_destroy(w);
 }
 
-/* Two worlds of one seed give the same bytes, others don't. */
+/* Two worlds with the same seed give the same bytes; different seeds give different bytes. */
 static void deterministic(void** state) {
   static const int32_t courses[] = {CAIRN_COURSE_CIRCLE, CAIRN_COURSE_LAPS, CAIRN_COURSE_TRAVERSE};
   size_t c, k, i;
@@ -141,8 +142,8 @@ static void deterministic(void** state) {
   }
 }
 
-/* The draws themselves are pinned, so that another compiler or machine can't change the worlds unnoticed. Values by a
- * program of its own (Python: SplitMix64 and the polar method written out). */
+/* The draws are pinned, so that another compiler or machine cannot change the worlds unnoticed. An independent program
+ * computed the values (Python: SplitMix64 and the polar method written out). */
 static void draws_are_pinned(void** state) {
   cairn_world_options o = default_options();
   cairn_world* w;
@@ -159,7 +160,7 @@ static void draws_are_pinned(void** state) {
   assert_near(hypot(position[0], position[1]), 98.20688325407642, 1e-12);
   next_step(w);
   step = next_step(w);
-  assert_near(step.motions[0].rate[0], 1.6390710571589302, 1e-13); /* the ground is flat: nothing but noise */
+  assert_near(step.motions[0].rate[0], 1.6390710571589302, 1e-13); /* the ground is flat: only noise remains */
   assert_near(step.motions[0].rate[1], -0.2439869727027117, 1e-13);
   cairn_world_destroy(w);
 }
@@ -190,7 +191,7 @@ static void rolling_ground(void** state) {
       const double slope = slope_of(w, -300 + 6.1 * (i % 100), -300 + 3.07 * (i / 100));
       if (slope > steepest) steepest = slope;
     }
-    assert_between(atan(steepest), 4 * DEGREE, 15 * DEGREE); /* rolling, and never steeper than told */
+    assert_between(atan(steepest), 4 * DEGREE, 15 * DEGREE); /* rolling ground, nowhere steeper than max_slope */
     cairn_world_destroy(w);
   }
 }
@@ -212,14 +213,15 @@ static void other_grounds(void** state) {
   cairn_world_destroy(w);
 }
 
-/* All four wheels touch; in the body they stand at the corners, and give way as rockers with a differential do. */
+/* All four wheels touch the ground. In the body frame they stand at the corners, shifted by the rockers and their
+ * differential. */
 static void wheels_touch_the_ground(void** state) {
   cairn_world_options o = default_options();
   cairn_world* w;
   double deepest = 0;
   int k, i;
   (void)state;
-  o.wavelength[0] = 6; /* rough enough that it matters */
+  o.wavelength[0] = 6; /* rough enough to matter */
   o.track = 1.4, o.wheelbase = 2;
   w = open_world(&o);
   for (k = 0; k <= 400; ++k) {
@@ -245,7 +247,7 @@ static void wheels_touch_the_ground(void** state) {
   cairn_world_destroy(w);
 }
 
-/* The smaller the rover, the nearer it comes to the one that stands on a point: z the ground's normal. */
+/* The smaller the rover, the more it agrees with a rover on one point, whose z axis is the normal of the ground. */
 static void small_rover_stands_on_a_point(void** state) {
   cairn_world_options o = default_options();
   cairn_world *wheels, *point;
@@ -268,7 +270,7 @@ static void small_rover_stands_on_a_point(void** state) {
   cairn_world_destroy(wheels), cairn_world_destroy(point);
 }
 
-/* Ground as steep as the options allow, of waves hardly longer than the rover. */
+/* Ground as steep as the options allow, with waves hardly longer than the rover. */
 static void rough_ground(void** state) {
   cairn_world_options o = default_options();
   cairn_world* w;
@@ -294,9 +296,9 @@ static void rough_ground(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(refuses_null_and_nonsense),
+      cmocka_unit_test(null_and_bad_values_are_refused),
       cmocka_unit_test(sizes_of_step),
-      cmocka_unit_test(the_end_and_back),
+      cmocka_unit_test(the_end_and_rewind),
       cmocka_unit_test(deterministic),
       cmocka_unit_test(draws_are_pinned),
       cmocka_unit_test(rolling_ground),

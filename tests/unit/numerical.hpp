@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Derivatives by differences, for every test that checks a Jacobian; and the inputs at which Jacobians go wrong.
+// Numerical derivatives for all tests of Jacobians, and the inputs at which Jacobians tend to be wrong.
 #pragma once
 
 #include <cmath>
@@ -13,11 +13,11 @@
 
 namespace cairn::test {
 
-// Step of the central differences below. Their own error is step^4 / 30 times the fifth derivative, 3e-11 for 1/x at
-// x = 0.1, and about 1e-12 of the function's value by rounding.
+// Step of the central differences below. Their error is step^4 / 30 times the fifth derivative, which is 3e-11 for 1/x
+// at x = 0.1, plus about 1e-12 of the function's value by rounding.
 constexpr double kStep = 1e-4;
 
-// What a difference of two function values is; a function of angles brings its own.
+// The difference of two function values. A function of angles passes its own difference.
 struct Minus {
   template <class Value>
   Value operator()(const Value& a, const Value& b) const {
@@ -25,7 +25,8 @@ struct Minus {
   }
 };
 
-// df / dx at x = 0 by five points, one column a coordinate. f takes a Vector<double, Columns> and returns a vector.
+// df/dx at x = 0 by five points, one column for each coordinate. f takes a Vector<double, Columns> and returns a
+// vector.
 template <int Columns, class F, class Difference = Minus>
 auto jacobian_at_zero(const F& f, const Difference& minus = {}) {
   using Input = Eigen::Matrix<double, Columns, 1>;
@@ -46,7 +47,7 @@ auto jacobian(const F& f, const Eigen::Matrix<double, Columns, 1>& x, const Diff
   return jacobian_at_zero<Columns>([&](const Input& d) { return f(Input(x + d)); }, minus);
 }
 
-// df / d[dp; dtheta] at a pose, in the ordinary error: p + dp, Exp(dtheta) R.
+// df/d[dp; dtheta] at a pose, in the ordinary error: p + dp, Exp(dtheta) R.
 template <class Rotation, class F, class Difference = Minus>
 auto pose_jacobian(const F& f, const Rigid<Rotation>& pose, const Difference& minus = {}) {
   using Pose = Rigid<Rotation>;
@@ -54,8 +55,8 @@ auto pose_jacobian(const F& f, const Rigid<Rotation>& pose, const Difference& mi
                                       minus);
 }
 
-// Random numbers from a seed that the test states. Only the engine of <random> is the same everywhere, its
-// distributions aren't.
+// Random numbers from a seed that the test states. The engine of <random> is the same everywhere, its distributions are
+// not.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
@@ -78,8 +79,8 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// Rotation vectors of length N where formulas tend to break: none, too small to square, small, about one where the
-// series of Stumpff ends, any, close to a half turn and a half turn.
+// Rotation vectors of length N at which formulas tend to break: zero, too small to square, small, about one where the
+// series of the Stumpff functions ends, arbitrary, close to a half turn, and a half turn.
 template <int N>
 std::vector<Eigen::Matrix<double, N, 1>> awkward_turns(unsigned seed) {
   Random random(seed);
@@ -92,7 +93,7 @@ std::vector<Eigen::Matrix<double, N, 1>> awkward_turns(unsigned seed) {
   return turns;
 }
 
-// Poses with these turns, from the origin to far from it.
+// Poses with these rotations, from the origin to far away.
 template <class Pose = Rigid<SO3>>
 std::vector<Pose> awkward_poses(unsigned seed) {
   Random random(seed);

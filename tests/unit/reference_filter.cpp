@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A slow, dense filter as a reference.
 #include "reference_filter.hpp"
 
 #include <Eigen/Cholesky>
@@ -13,7 +14,7 @@ Vector3 piece(const DynamicVector& x, std::size_t at) {
   return x.segment<3>(static_cast<Eigen::Index>(at));
 }
 
-// sum of hat(theta)^k / (k + 1)!: what multiplies the translations in an exponential of SE_{K+1}(3).
+// sum of hat(theta)^k / (k + 1)!: the factor of the translations in an exponential of SE_{K+1}(3).
 Matrix3 series(const Vector3& theta) {
   Matrix3 sum = Matrix3::Identity(), term = Matrix3::Identity();
   for (int k = 1; k < 30; ++k) {
@@ -61,8 +62,8 @@ int ReferenceFilter::find(std::uint64_t id) const {
   return at == ids_.end() ? -1 : static_cast<int>(at - ids_.begin());
 }
 
-// R = Exp(xi_R) R_hat, and for the position and every landmark: invariant x = Exp(xi_R) x_hat + J(xi_R) xi_x, which is
-// the exponential of SE_{K+1}(3) times the state; standard x = x_hat + e_x.
+// R = Exp(xi_R) R_hat. Position and landmarks: invariant x = Exp(xi_R) x_hat + J(xi_R) xi_x, which is the exponential
+// of SE_{K+1}(3) times the state; standard x = x_hat + e_x (docs/invariant_error.md).
 ReferenceState ReferenceFilter::retract(const ReferenceState& state, const DynamicVector& error) const {
   const Vector3 turn = piece(error, 3);
   const SO3 R = SO3::exp(turn);
@@ -96,7 +97,7 @@ DynamicVector ReferenceFilter::local(const ReferenceState& from, const Reference
   return result;
 }
 
-// Derivative of the ordinary error by the filter's own.
+// Derivative of the ordinary error by the filter's own error.
 Dynamic ReferenceFilter::ordinary_by_own() const {
   return differentiate(
       [&](const DynamicVector& error) {
@@ -141,7 +142,7 @@ void ReferenceFilter::predict_twist(const Vector3& v, const Vector3& w, double d
           Matrix6(sigma.cwiseAbs2().asDiagonal()));
 }
 
-// (Mars paper, eq. 1): noise of the left and right rate, then of what wheels do not measure.
+// (Mars paper, eq. 1): noise of the left and right rates, then of the components that wheels do not measure.
 void ReferenceFilter::predict_wheels(const Wheels& wheels, double left, double right, double dt) {
   const auto twist = [&](const DynamicVector& n) {
     const double l = left + n[0], r = right + n[1];
@@ -166,7 +167,8 @@ void ReferenceFilter::predict_increment(const SE3& T_before_after, const Matrix6
       covariance);
 }
 
-// Gauss-Newton with the prior's coordinates kept for P: xi <- P H^T S^-1 (r + H xi), H by the error about the iterate.
+// Gauss-Newton. P stays in the coordinates of the prior: xi <- P H^T S^-1 (r + H xi), H by the error at the iterate
+// (docs/update.md).
 FrameResult ReferenceFilter::update(const Residual& residual, const Noise& noise, int least, int iterations) {
   FrameResult result;
   const Eigen::Index n = state_.size();

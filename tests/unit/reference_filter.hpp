@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A second filter to hold the first one against: slow, dense and without a single Jacobian written out. Every
-// derivative is a difference, taken through the filter's own retraction; every prediction goes through the whole
-// covariance; the common error of a mount is a state like any other for as long as a frame lasts.
+// A reference filter for comparison: slow, dense, and without any analytic Jacobian. Every derivative is a difference
+// through the filter's own retraction. Every prediction uses the whole covariance. The common error of a mount is a
+// state for the duration of a frame.
 //
-// It shares the geometry and the sensors' values with the library, nothing of src/ekf and src/slam.
+// It shares the geometry and the values of the sensors with the library, but nothing of src/cairn/ekf and
+// src/cairn/slam.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +21,8 @@ namespace cairn::test {
 using Dynamic = Eigen::MatrixXd;
 using DynamicVector = Eigen::VectorXd;
 
-// Errors of a state stand as [position; attitude; landmarks...; mount angles], the last only where there are any.
+// The error of a state is [position; attitude; landmarks...; mount angles]. The mount angles are present only during a
+// frame.
 struct ReferenceState {
   SE3 pose;
   std::vector<Vector3> landmarks;
@@ -32,10 +34,10 @@ struct ReferenceState {
 struct Seen {
   std::uint64_t id;
   Vector3 z;
-  Matrix3 noise;  // of the observation itself
+  Matrix3 noise;  // noise of the observation
 };
 
-// What the reference made of one frame; `distance` has an entry a observation, -1 where there was nothing to compare.
+// Result of the reference for one frame. `distance` has an entry for each observation; -1 if no distance was computed.
 struct FrameResult {
   std::vector<double> distance;
   std::vector<bool> taken;  // matched or placed
@@ -49,28 +51,28 @@ class ReferenceFilter {
     bool invariant = true;
     int iterations = 3;
     double tolerance = 0.1;
-    double gate = 1, batch_gate = 1;  // probabilities; 1 lets all pass
+    double gate = 1, batch_gate = 1;  // probabilities; 1 accepts everything
   };
 
   ReferenceFilter(const Options& options, const SE3& pose, const Matrix6& ordinary_covariance);
 
-  // --- motion --- the pose after a step, given the one before and the step's noise
+  // --- motion --- The pose after a step, given the pose before it and the noise of the step.
   using Motion = std::function<SE3(const SE3&, const DynamicVector& noise)>;
   void predict(const Motion& motion, const Dynamic& noise_covariance);
   void predict_twist(const Vector3& v, const Vector3& w, double dt, const TwistNoise& noise);
   void predict_wheels(const Wheels& wheels, double left, double right, double dt);
   void predict_increment(const SE3& T_before_after, const Matrix6& covariance);
 
-  // --- updates --- a residual z - h(state), false where there is none; its noise may depend on the state
+  // --- updates --- A residual z - h(state); false if there is none. Its noise may depend on the state.
   using Residual = std::function<bool(const ReferenceState&, DynamicVector& out)>;
   using Noise = std::function<Dynamic(const ReferenceState&)>;
-  // `least`: linearisations before the residual may end it, as far as `iterations` allow.
+  // `least`: number of linearisations before the residual may end the iteration, up to `iterations`.
   FrameResult update(const Residual& residual, const Noise& noise, int least, int iterations);
   FrameResult update_frame(const Sensor<SE3>& sensor, const std::vector<Seen>& frame);
   FrameResult update_position(const Vector3& position, const Matrix3& covariance, const Vector3& lever_arm);
   FrameResult update_attitude(const SO3& attitude, const Matrix3& covariance);
   FrameResult update_heading(double heading, double sigma);
-  // Jacobians by ordinary errors; those of the landmarks side by side, in the order of `ids`.
+  // Jacobians by ordinary errors. Those of the landmarks are side by side in the order of `ids`.
   FrameResult update_linear(const DynamicVector& residual, const Dynamic& covariance, const Dynamic& J_pose,
                             const std::vector<std::uint64_t>& ids, const Dynamic& J_landmarks);
 
@@ -91,7 +93,7 @@ class ReferenceFilter {
   bool compare(const Sensor<SE3>& sensor, const Seen& seen, const ReferenceState& state, Vector3& residual) const;
   Residual frame_residual(const Sensor<SE3>& sensor, const std::vector<Seen>& frame) const;
   Dynamic frame_noise(const Sensor<SE3>& sensor, const std::vector<Seen>& frame, const ReferenceState& state) const;
-  // Numbers of the known observations that pass, and each one's own squared distance.
+  // Numbers of the known observations that pass the gates, and the squared distance of each.
   void gate(const Sensor<SE3>& sensor, const std::vector<Seen>& known, std::vector<std::size_t>& kept,
             std::vector<double>& distance) const;
   bool place(const Sensor<SE3>& sensor, const Seen& seen);
@@ -102,8 +104,9 @@ class ReferenceFilter {
   Dynamic P_;
 };
 
-// df / dx at zero by nine points: the error is step^8 / 630 times the ninth derivative, below rounding for everything
-// here, which changes over metres and radians. The step is a power of two, so that adding it to a coordinate is exact.
+// df/dx at zero by nine points. The error is step^8 / 630 times the ninth derivative, which is below rounding for all
+// functions here: they change over metres and radians. The step is a power of two, so that adding it to a coordinate is
+// exact.
 Dynamic differentiate(const std::function<DynamicVector(const DynamicVector&)>& f, Eigen::Index inputs);
 
 }  // namespace cairn::test

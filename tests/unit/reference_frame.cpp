@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the reference does with a frame of observations: gates by trying everything, and places new landmarks.
+// The frame of the reference filter: gates by exhaustive search, and placing of new landmarks.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <stdexcept>
@@ -20,7 +20,7 @@ double squared_distance(const DynamicVector& r, const Dynamic& S) {
   return r.dot(S.llt().solve(r));
 }
 
-// The rows of some observations out of those of all.
+// The rows of some observations from the rows of all.
 Dynamic choose(const std::vector<std::size_t>& which, Index rows, std::size_t all) {
   Dynamic select = Dynamic::Zero(rows * static_cast<Index>(which.size()), rows * static_cast<Index>(all));
   for (std::size_t i = 0; i < which.size(); ++i)
@@ -54,7 +54,7 @@ ReferenceFilter::Residual ReferenceFilter::frame_residual(const Sensor<SE3>& sen
   };
 }
 
-// Noise of the observations, with that of the mount's angles where each observation has its own.
+// Noise of the observations, plus the noise of the mount angles if each observation has its own.
 Dynamic ReferenceFilter::frame_noise(const Sensor<SE3>& sensor, const std::vector<Seen>& frame,
                                      const ReferenceState& x) const {
   const Index rows = sensor.rows(), m = rows * static_cast<Index>(frame.size());
@@ -78,7 +78,8 @@ Dynamic ReferenceFilter::frame_noise(const Sensor<SE3>& sensor, const std::vecto
   return R;
 }
 
-// Each observation alone, then all together: while those fail, the one goes without which the others fit best.
+// Each observation is tested alone, then all together. While the joint test fails, the observation is removed without
+// which the others fit best.
 void ReferenceFilter::gate(const Sensor<SE3>& sensor, const std::vector<Seen>& known, std::vector<std::size_t>& kept,
                            std::vector<double>& distance) const {
   kept.clear();
@@ -118,7 +119,7 @@ void ReferenceFilter::gate(const Sensor<SE3>& sensor, const std::vector<Seen>& k
   }
 }
 
-// The new landmark's error as a function of everything it depends on: the whole state, and the observation's own noise.
+// Error of a new landmark as a function of everything it depends on: the whole state, and the noise of the observation.
 bool ReferenceFilter::place(const Sensor<SE3>& sensor, const Seen& seen) {
   const Index rows = sensor.rows();
   const bool own_mount = sensor.mount_noise_mode() == MountNoise::per_observation;

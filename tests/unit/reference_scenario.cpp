@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Scenarios that drive the filter and its reference.
 #include "reference_scenario.hpp"
 
 #include <algorithm>
@@ -81,18 +82,19 @@ void Pair::remove(std::uint64_t id) {
 }
 
 bool Pair::update(int sensor, const std::vector<Seen>& frame) {
+  std::vector<Observation> observations(frame.size());
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    Observation& o = filter_->staging()[i];
+    Observation& o = observations[i];
     o = {frame[i].id, {}, {}};
     std::copy_n(frame[i].z.data(), 3, o.z);
     if (frame[i].noise != sensors_[static_cast<std::size_t>(sensor)]->noise())
       std::copy_n(frame[i].noise.data(), 9, o.covariance);
   }
-  filter_->update(sensor, static_cast<Index>(frame.size()));
+  filter_->update(sensor, observations.data(), static_cast<Index>(frame.size()));
   const FrameResult expected = reference_.update_frame(*sensors_[static_cast<std::size_t>(sensor)], frame);
   bool same = filter_->report().iterations == expected.iterations && near(filter_->report().nis, expected.nis);
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    const Match& match = filter_->decisions()[i];
+    const Match& match = filter_->matches()[i];
     same = same && (match.decision != Decision::rejected) == expected.taken[i];
     if (match.reason != Reason::batch_gate) same = same && near(match.distance, std::max(0.0, expected.distance[i]));
   }
@@ -108,11 +110,12 @@ Difference Pair::difference() {
   };
   note(filter_->pose().translation(), x.pose.translation());
   note((filter_->pose().rotation() * x.pose.rotation().inverse()).log(), Vector3::Zero());
-  if (filter_->size() != ids.size()) return {1, 1};
+  const Landmarks& landmarks = filter_->landmarks();
+  if (landmarks.size() != ids.size()) return {1, 1};
   std::vector<std::size_t> indices(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (!filter_->find(ids[i], indices[i])) return {1, 1};
-    note(filter_->position(indices[i]), x.landmarks[i]);
+    if (!landmarks.find(ids[i], indices[i])) return {1, 1};
+    note(landmarks.position(indices[i]), x.landmarks[i]);
   }
   const Dynamic expected = reference_.ordinary_covariance();
   Dynamic actual(expected.rows(), expected.cols());
@@ -202,7 +205,7 @@ void Drive::move(Pair& pair) {
     if (kind < 1) {
       const Vector3 v = noisy(random_, tau.head<3>() / dt, twist.velocity_sigma);
       pair.predict_twist(v, noisy(random_, tau.tail<3>() / dt, twist.rate_sigma), dt);
-    } else if (kind < 2) {  // no slip: left and right wheels that give this forward velocity and yaw rate
+    } else if (kind < 2) {  // no slip: the rates of the left and right wheels for this forward velocity and yaw rate
       const double forward = tau[0] / dt / wheels.radius;
       const double turn = (wheels.yaw_left_minus_right ? -0.5 : 0.5) * tau[5] / dt * wheels.track / wheels.radius;
       tau << tau[0], 0, 0, 0, 0, tau[5];
@@ -233,11 +236,12 @@ std::vector<Seen> Drive::look(const Sensor<SE3>& sensor, std::size_t most, doubl
     if (distance < 2 || distance > 25 || !sensor.predict(truth_, landmarks_[i], mount, seen)) continue;
     Seen one{i + 100, seen.z, sensor.noise()};
     one.z = noisy(random_, seen.z, scale * Vector3(sensor.noise().diagonal().cwiseSqrt()));
-    if (!sensor.place(truth_, one.z, mount, placed)) continue;  // a camera's point too far to be of use
-    // Nor what lies so near an image's edge or the zenith that the differences' steps lead beyond.
+    if (!sensor.place(truth_, one.z, mount, placed))
+      continue;  // a point of the camera that is too far away to be useful
+    // Nor points so near the edge of an image or the zenith that the steps of the differences lead beyond it.
     if (dynamic_cast<const StereoCamera*>(&sensor) != nullptr && (seen.z[0] < 0 || seen.z[0] > 640)) continue;
     if (dynamic_cast<const StereoHead*>(&sensor) != nullptr && std::abs(seen.z[2]) > 1.2) continue;
-    if (random_.uniform(0, 1) < 0.2) {  // noise of its own, correlated, in place of the sensor's
+    if (random_.uniform(0, 1) < 0.2) {  // correlated noise of the observation replaces the noise of the sensor
       Matrix3 A = Matrix3::Identity();
       A(0, 1) = 0.3, A(2, 0) = -0.2;
       const Vector3 sigma = sensor.noise().diagonal().cwiseSqrt();

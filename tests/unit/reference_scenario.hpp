@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A random drive among landmarks that takes the library's filter and the reference through the same motions and
-// observations, and holds them against each other after each.
+// A random drive among landmarks. It gives the filter and the reference the same motions and observations, and compares
+// them after each step.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@
 
 namespace cairn::test {
 
-// What differs, each relative: positions to 1 m and their own size, covariances to the standard deviations.
+// Relative differences: positions relative to 1 m plus their own size, covariances relative to the standard deviations.
 struct Difference {
   double state = 0, covariance = 0;
 };
@@ -31,7 +31,7 @@ class Pair {
   void predict_wheels(double left, double right, double dt);
   void predict_increment(const SE3& T, const Matrix6& covariance);
   void set_noise(const TwistNoise& twist, const Wheels& wheels);
-  // False where a decision, a distance, the NIS or the number of linearisations differs.
+  // False if a match, a distance, the NIS or the number of linearisations differs.
   bool update(int sensor, const std::vector<Seen>& frame);
   void remove(std::uint64_t id);
   Difference difference();
@@ -45,14 +45,14 @@ class Pair {
   Wheels wheels_;
 };
 
-// Sensors with a mount that is not the body's own axes.
+// Sensors whose axes differ from those of the body.
 StereoHead scenario_head(double encoder_sigma, bool per_frame);
 StereoCamera scenario_camera();
 Cartesian<SE3> scenario_points();
-// Sees landmarks along the map's own axes, as with a compass: it depends on more than the body point.
+// Observes landmarks in the axes of the map, as with a compass: it depends not only on the point in the body frame.
 CustomSensor<SE3> scenario_compass();
 
-// Options with a random start, uncertain by centimetres to metres and by some degrees, gates open.
+// Options with a random start that is uncertain by centimetres to metres and by some degrees. The gates are open.
 FilterOptions<SE3> random_options(ErrorKind error, Random& random);
 Matrix6 random_covariance(Random& random, double metres, double radians);
 
@@ -60,12 +60,12 @@ class Drive {
  public:
   Drive(unsigned seed, const FilterOptions<SE3>& options, int landmarks = 16);
 
-  // One to four motions, not necessarily of one kind.
+  // One to four motions, of the same kind or of different kinds.
   void move(Pair& pair);
-  // One motion; returns its increment without noise.
+  // One motion. Returns its increment without noise.
   SE3 advance(const Vector6& tau);
-  // What the sensor sees of up to `most` landmarks between 2 m and 25 m, with noise `scale` times what it claims. A
-  // head's true mount angles are off by `mount`.
+  // Observations of up to `most` landmarks between 2 m and 25 m, with `scale` times the stated noise. `mount` is the
+  // error of the mount angles of a head.
   std::vector<Seen> look(const Sensor<SE3>& sensor, std::size_t most, double scale = 1,
                          const Vector2& mount = Vector2::Zero());
   const SE3& truth() const { return truth_; }

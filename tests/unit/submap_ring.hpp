@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Submaps whose truth is known, and the whole problem that they pose: all bases and all landmarks at once, dense, with
-// nothing left out and nothing kept from before.
+// Submaps with known truth, and the complete problem that they define: all bases and all landmarks at once, dense,
+// solved anew each time.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -12,8 +12,8 @@
 #include "geometry/embedding.hpp"
 #include "map/global_map.hpp"
 #include "map/join/sparse/submap_factor.hpp"
-#include "numerical.hpp"
 #include "map/join/submap_hessian.hpp"
+#include "numerical.hpp"
 
 namespace cairn::test {
 
@@ -25,7 +25,7 @@ struct Noise {
   double position, turn;
 };
 
-// Submaps round a ring of bases, their estimates drawn from the covariance that they claim.
+// Submaps around a ring of bases. Their estimates are drawn from the covariance that they state.
 template <class Pose>
 class Ring {
  public:
@@ -41,14 +41,14 @@ class Ring {
                             Space::down(Vector3(6, 6, 2)).cwiseProduct(random_.template normal_vector<kDim>()));
   }
 
-  std::vector<Point> landmarks;  // in the map frame; five of each place
+  std::vector<Point> landmarks;  // in the map frame; five at each place
 
   Pose base(int i) const {
     const double angle = 6.283185307179586 * i / bases_;
     return Space::down(SE3(SO3::exp(Vector3(0, 0, angle)) * SO3::exp(Vector3(0.1, 0.05 * std::sin(i), 0)),
                            radius_ * Vector3(std::cos(angle), std::sin(angle), 0.1 * std::cos(2 * angle))));
   }
-  // The submap that begins at base(i): landmarks of its own place and some of the one before and of the one after.
+  // The submap that begins at base(i): landmarks of its own place, and some of the places before and after it.
   Submap<Pose> submap(int i) {
     Ids ids;
     const int before = (i + bases_ - 1) % bases_, here = i % bases_, after = (i + 1) % bases_;
@@ -86,7 +86,7 @@ class Ring {
   MapOptions<Pose> options() const {
     MapOptions<Pose> options;
     options.cost_tolerance = 0.0;
-    options.step_tolerance = 1e-6;  // by default small motions are not handed down, and the cost is that of a while ago
+    options.step_tolerance = 1e-6;  // by default small motions are passed down later, and the cost is not up to date
     options.error = error_;
     options.gate_probability = options.joint_gate_probability = 1.0 - 1e-9;
     options.initial_pose = base(0);

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Landmark SLAM: a vehicle's pose and its map, and how far to trust both.
 
-SI units, radians. Body axes x forward, y left, z up; quaternions w x y z. Covariances of a pose are 6 x 6, of its error
-[dp; dtheta] in the map's axes. Arrays come and go as numpy; shapes are checked.
+SI units, radians. Body axes: x forward, y left, z up. Quaternions: w x y z. The covariance of a pose is 6 x 6: that of
+the pose's error [dp; dtheta] in the axes of the map. Arrays are numpy arrays; their shapes are checked.
 
-Filter, Map, Team, World, Fleet, Pose and CairnError are the Python layer. `cairn.lib` has every function of the C
-headers and `cairn.ffi` is the cffi object that goes with it; constants stand there too, and here without their prefix:
-cairn.NEW is lib.CAIRN_NEW. The library is loaded when the first of these is asked for, so that cairn.report works
-without it.
+Filter, Map, Team, World, Fleet, Pose and CairnError are the Python layer. `cairn.lib` has every function and constant
+of the C headers, and `cairn.ffi` is its cffi object. Constants are also here without their prefix: cairn.NEW is
+lib.CAIRN_NEW. The library is loaded at the first use of one of these names, so that cairn.report works without it.
 """
 import importlib
 
@@ -21,7 +20,7 @@ _HOMES = {"CairnError": "error", "Filter": "filter", "Fleet": "fleet", "Map": "m
 
 
 def version():
-    """Version of the loaded library, "0.1.0" for one."""
+    """Version of the loaded library, for example "0.1.0"."""
     from ._library import ffi, lib
     return ffi.string(lib.cairn_version()).decode()
 

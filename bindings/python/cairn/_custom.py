@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Functions of the caller that the library calls back: custom sensors, the log."""
+"""The caller's functions that the library calls: custom sensors and the log."""
 import numpy as np
 
 from . import _structs
@@ -12,7 +12,8 @@ def _values(pointer, count):
 
 
 class Callbacks:
-    """Keeps the callbacks of one filter alive, and what they raise until the call is over: nothing may pass through C."""
+    """Keeps the callbacks of one filter alive. Keeps an exception of a callback until the C call is over, because an
+    exception must not pass through C."""
 
     def __init__(self):
         self._kept = []
@@ -25,22 +26,23 @@ class Callbacks:
             raise error
 
     def _guarded(self, answer):
-        """0 once `answer` has written its outputs; 1 where it had none, or raised."""
+        """Returns 0 if `answer` wrote its outputs, 1 if it had none or raised an exception."""
         if self._pending is not None:
             return 1
         try:
             return 0 if answer() else 1
-        except BaseException as error:  # also an interrupt from the keyboard
+        except BaseException as error:  # KeyboardInterrupt too
             self._pending = error
             return 1
 
     @staticmethod
     def _write(result, outputs):
-        """Copies (value, array, ...) to the C arrays [(name, pointer, shape), ...]; False where the result is None."""
+        """Copies (value, array, ...) to the C arrays [(name, pointer, shape), ...]. Returns False if the result is
+        None."""
         if result is None:
             return False
         if len(result) != len(outputs):
-            raise ValueError(f"{len(outputs)} results are wanted, not {len(result)}")
+            raise ValueError(f"a callback must return {len(outputs)} values, and returned {len(result)}")
         for value, (name, pointer, shape) in zip(result, outputs):
             _values(pointer, int(np.prod(shape)))[:] = _structs.array(name, value, shape).ravel()
         return True
@@ -66,10 +68,10 @@ class Callbacks:
     def _keep(self, struct, name, function):
         callback = ffi.callback(f"cairn_custom_{name}", function, error=1)
         setattr(struct, name, callback)
-        self._kept.append(callback)  # the struct's field does not keep it alive
+        self._kept.append(callback)  # a field of a C struct does not keep it alive
 
     def log(self, function):
-        """The C callback of a log function; the one before it is kept, it may be in use."""
+        """The C callback of a log function. Earlier callbacks are kept, because they may be in use."""
         if function is None:
             return ffi.NULL
 

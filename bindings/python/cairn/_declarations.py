@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes cffi's declarations from the C headers, by the C preprocessor: no declaration is written twice.
+"""Makes cffi's declarations from the C headers with the C preprocessor, so that no declaration is written twice.
 
-Every header of include/cairn goes through `cc -E`. The standard headers that they include are replaced by a few lines,
-because cffi knows their types itself; with no predefined macros, CAIRN_API comes out empty. What is left are plain C
-declarations. The macros that stand for a whole number become constants.
+Every header of include/cairn is run through `cc -E`. A few lines replace the standard headers, because cffi knows their
+types. There are no predefined macros, so CAIRN_API expands to nothing. The result is plain C declarations. Macros that
+expand to a whole number become constants.
 
-Environment: CAIRN_INCLUDE_DIR is the folder that holds cairn/cairn.h (otherwise that of the source tree about this
-file, otherwise what pkg-config tells), CC the compiler (otherwise cc).
+Environment: CAIRN_INCLUDE_DIR is the folder that holds cairn/cairn.h. Without it, the folder of the source tree around
+this file is used; without that, the folder that pkg-config names. CC is the compiler; the default is cc.
 """
 import glob
 import os
@@ -34,15 +34,15 @@ def find_include_dir():
     of_source_tree = os.path.normpath(os.path.join(HERE, "..", "..", "..", "include"))
     if _is_include_dir(of_source_tree):
         return of_source_tree
-    told = pkg_config("includedir")
-    if told and _is_include_dir(told):
-        return told
+    installed = pkg_config("includedir")
+    if installed and _is_include_dir(installed):
+        return installed
     raise RuntimeError("cairn's C headers were not found: install the library with its headers so that "
-                       "'pkg-config cairn' knows it, or name the folder that holds cairn/cairn.h in CAIRN_INCLUDE_DIR")
+                       "'pkg-config cairn' finds it, or set CAIRN_INCLUDE_DIR to the folder that holds cairn/cairn.h")
 
 
 def pkg_config(variable):
-    """A variable of cairn.pc, or None where there is none."""
+    """A variable of cairn.pc, or None if there is none."""
     try:
         done = subprocess.run(["pkg-config", f"--variable={variable}", "cairn"], stdout=subprocess.PIPE,
                               stderr=subprocess.DEVNULL, text=True, check=True)
@@ -57,7 +57,7 @@ def _preprocess(source, *options):
         done = subprocess.run(command, input=source, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     except OSError as error:
         raise RuntimeError(f"the C preprocessor can't be run ({command[0]}: {error.strerror}): install a C compiler, "
-                           "or name one in CC") from error
+                           "or set CC to one") from error
     if done.returncode != 0:
         raise RuntimeError(f"the C preprocessor failed: {' '.join(command)}\n{done.stderr}")
     return done.stdout
@@ -85,7 +85,7 @@ def declarations(include_dir):
 
 
 def make_ffi(include_dir=None):
-    """cffi's view of the headers, made now."""
+    """cffi's declarations, made from the headers now."""
     import cffi
     ffi = cffi.FFI()
     ffi.cdef(declarations(include_dir or find_include_dir()))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What every handle of the library has in common: it is closed once, used by one thread at a time, and never after."""
+"""The base of all handles of the library: used by one thread at a time, closed once, and never used after that."""
 import contextlib
 import threading
 
@@ -8,7 +8,7 @@ from .error import CairnError, closed
 
 
 class Handle:
-    """Owns a C handle, or borrows one from another Handle, which it then keeps alive."""
+    """Owns a C handle, or borrows one from another Handle and keeps that one alive."""
 
     WHAT = "handle"
 
@@ -21,7 +21,7 @@ class Handle:
 
     @contextlib.contextmanager
     def _use(self):
-        """The C handle, for a call. Threads wait for each other; a callback may not call its own filter."""
+        """The C handle, for one call. Threads wait for each other. A callback must not call its own filter."""
         with self._lock:
             if self._owner is not None and self._owner.closed:
                 raise closed(self._owner.WHAT)
@@ -29,7 +29,7 @@ class Handle:
                 raise closed(self.WHAT)
             if self._busy[0]:
                 raise CairnError(lib.CAIRN_ERROR_STATE, f"this {self.WHAT} is in a call already: a callback must not "
-                                                        "call the filter that called it")
+                                                        "call the filter that called the callback")
             self._busy[0] = True
             try:
                 yield self._pointer
@@ -41,12 +41,13 @@ class Handle:
         return self._pointer is None or (self._owner is not None and self._owner.closed)
 
     def close(self):
-        """Frees what the handle holds. Later calls raise CairnError; closing twice is no error."""
+        """Frees the memory of the handle. Later calls raise CairnError; closing twice is not an error."""
         with self._lock:
             if self._pointer is None:
                 return
             if self._busy[0] and self._destroy is not None:
-                raise CairnError(lib.CAIRN_ERROR_STATE, f"this {self.WHAT} is in a call: it can't be closed now")
+                raise CairnError(lib.CAIRN_ERROR_STATE, f"this {self.WHAT} is in a call and can't be closed now: close it "
+                                                        "after the call")
             pointer, self._pointer = self._pointer, None
             if self._destroy is not None:
                 self._destroy(pointer)

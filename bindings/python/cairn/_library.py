@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Loads libcairn, and libcairn_sim where it is asked for.
+"""Loads libcairn, and libcairn_sim when one of its functions is used.
 
-Environment: CAIRN_LIBRARY is the path of libcairn.so, or of its folder (otherwise the folder that pkg-config told when
-this package was built, otherwise where the loader looks).
+Environment: CAIRN_LIBRARY is the path of libcairn.so or of its folder. Without it, the folder is used that pkg-config
+named when this package was built; without that, the search path of the loader.
 """
 import os
 
@@ -13,14 +13,14 @@ except ImportError:  # run from the source tree
     ffi, library_dir = make_ffi(), None
 
 
-_declared = ffi.dlopen(None)  # knows the headers' constants and the names of their functions
+_declared = ffi.dlopen(None)  # has the constants of the headers and the names of their functions
 
-# What cffi raises for a symbol that a library lacks: the second where the declarations were made at installation.
+# cffi raises one of these for a missing symbol; the second one if the declarations were made at installation.
 _MISSING = (AttributeError, getattr(ffi, "error", AttributeError))
 
 
 def _has_v3():
-    """Whether this processor has the instructions of x86-64-v3."""
+    """Whether this processor supports x86-64-v3."""
     try:
         with open("/proc/cpuinfo") as file:
             flags = next((line for line in file if line.startswith("flags")), "").split()
@@ -30,13 +30,13 @@ def _has_v3():
 
 
 def _builds(folder, soname):
-    """Paths in a folder, the best first. The loader would choose by itself, but not where it is given a path."""
+    """Paths of the builds in a folder, the best first. The loader chooses a build only if it is given no path."""
     best = os.path.join(folder, "glibc-hwcaps", "x86-64-v3", soname)
     return ([best] if os.path.isfile(best) and _has_v3() else []) + [os.path.join(folder, soname)]
 
 
 def _open(stem):
-    """Opens lib`stem`.so, in the folder that was named or where the loader finds it."""
+    """Opens lib`stem`.so in the named folder, or on the search path of the loader."""
     soname = f"lib{stem}.so.{_declared.CAIRN_VERSION_MAJOR}"
     named = os.environ.get("CAIRN_LIBRARY")
     if named and os.path.isfile(named) and stem == "cairn":
@@ -53,8 +53,8 @@ def _open(stem):
             return ffi.dlopen(path)
         except OSError as error:
             causes.append(str(error).split(".  Additionally")[0])
-    raise ImportError(f"{soname} can't be loaded ({'; '.join(causes)}): install the library, or name its path in "
-                      "CAIRN_LIBRARY")
+    raise ImportError(f"{soname} can't be loaded ({'; '.join(causes)}): install the library, or set CAIRN_LIBRARY to "
+                      "its path")
 
 
 class Library:
@@ -65,8 +65,8 @@ class Library:
         built = [_declared.CAIRN_VERSION_MAJOR, _declared.CAIRN_VERSION_MINOR]
         loaded = ffi.string(self._cairn.cairn_version()).decode()
         if [int(part) for part in loaded.split(".")[:2]] != built:
-            raise ImportError(f"this package was made from the headers of cairn {built[0]}.{built[1]}, but the library "
-                              f"that was loaded is {loaded}: install both from one version")
+            raise ImportError(f"this package was made from the headers of cairn {built[0]}.{built[1]}, but the loaded "
+                              f"library is {loaded}: install the same version of both")
 
     def __getattr__(self, name):
         if name.startswith("__"):

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Statuses of the C interface as exceptions."""
+"""Error statuses of the C interface as exceptions."""
 from ._library import ffi, lib
 
 
 class CairnError(Exception):
-    """A call that the library refused. It left its handle as it was.
+    """The library refused a call. The handle is unchanged.
 
-    status: one of the CAIRN_ERROR_ constants (a negative whole number); name: that constant's name; message: which
-    argument or variable, the cause, the remedy.
+    status: one of the CAIRN_ERROR_ constants (a negative whole number). name: the name of that constant. message: which
+    argument or variable is wrong, why, and what to do.
     """
 
     def __init__(self, status, message):
@@ -21,12 +21,12 @@ class CairnError(Exception):
 
 
 def check(status, message="cairn_last_message"):
-    """Raises the CairnError of a status that is an error. Called in the thread, and right after, the call failed;
-    `message` is the function that tells of it."""
+    """Raises a CairnError if `status` is an error. Must run in the thread of the failed call and right after it.
+    `message` is the name of the function that returns the message."""
     if status != 0:
         raise CairnError(status, ffi.string(getattr(lib, message)()).decode(errors="replace"))
 
 
 def closed(what):
-    """The error of one who uses a handle after it was closed."""
+    """The error of a call on a closed handle."""
     return CairnError(lib.CAIRN_ERROR_STATE, f"the {what} is closed: make a new one")

@@ -1,35 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Boats with radars to try a team in (libcairn_sim): what each measures, and the truth."""
+"""Simulated boats with radars for tests of a team (libcairn_sim): their measurements, and the truth."""
 import types
 
 import numpy as np
 
 from . import _structs
-from ._handle import Handle
 from ._library import ffi, lib
-from .error import CairnError, check
+from ._simulation import Simulation, check_sim
 from .pose import planar_pose
 
 
-def _check(status):
-    check(status, "cairn_sim_last_message")
-
-
 class Boat(types.SimpleNamespace):
-    """One boat at the end of a step: speed (m/s) and rate (rad/s) as commanded over the step, truth (a Pose), and what its
-    radar measured of features and of the other boats (vehicles), arrays of observations as Team.observe takes them."""
+    """One boat at the end of a step: the commanded speed (m/s) and rate (rad/s) of the step, truth (a Pose), and the
+    radar's observations of features and of other boats (vehicles): arrays of observations for Team.observe."""
 
 
 class FleetStep(types.SimpleNamespace):
     """One step of a fleet: number, time (s), dt (s, 0 at the start) and vehicles, a list of Boat."""
 
 
-class Fleet(Handle):
+class Fleet(Simulation):
     """Boats in a square of sea. Features and boats are numbered from 1.
 
     Options are the fields of cairn_fleet_options, by name: Fleet(seed=3, features=6, layout="coast").
 
-        for step in fleet:                        # from the start, every time
+        for step in fleet:                        # each loop begins at the start
             for team, boat in zip(teams, step.vehicles):
                 if step.dt > 0:
                     team.predict_twist(step.dt, (boat.speed, 0, 0), (0, 0, boat.rate), **fleet.twist_noise())
@@ -41,49 +36,23 @@ class Fleet(Handle):
     def __init__(self, **options):
         struct = _structs.new("cairn_fleet_options", options)
         created = ffi.new("cairn_fleet **")
-        _check(lib.cairn_fleet_create(struct, created))
+        check_sim(lib.cairn_fleet_create(struct, created))
         self.options = _structs.as_dict(struct[0])
         super().__init__(created[0], lib.cairn_fleet_destroy)
 
-    def __len__(self):
-        """Number of steps, the start included."""
-        steps = ffi.new("size_t *")
-        with self._use() as handle:
-            _check(lib.cairn_fleet_steps(handle, steps))
-        return steps[0]
-
-    def __iter__(self):
-        self.rewind()
-        for _ in range(len(self)):
-            yield self.next()
-
-    def next(self):
-        """The next FleetStep; StopIteration after the last one."""
-        struct = _structs.sized("cairn_fleet_step")
-        with self._use() as handle:
-            try:
-                _check(lib.cairn_fleet_next(handle, struct))
-            except CairnError as error:
-                if error.status == lib.CAIRN_ERROR_STATE:
-                    raise StopIteration from None
-                raise
-            boats = [self._boat(struct.vehicles[i]) for i in range(struct.vehicle_count)]
-            return FleetStep(number=struct.number, time=struct.time, dt=struct.dt, vehicles=boats)
+    def _step(self, struct):
+        boats = [self._boat(struct.vehicles[i]) for i in range(struct.vehicle_count)]
+        return FleetStep(number=struct.number, time=struct.time, dt=struct.dt, vehicles=boats)
 
     @staticmethod
     def _boat(boat):
         def observations(sightings, count):
-            told = [sightings[i] for i in range(count)]
-            return _structs.observations([s.id for s in told], np.reshape([(s.range, s.bearing) for s in told], (-1, 2)))
+            seen = [sightings[i] for i in range(count)]
+            return _structs.observations([s.id for s in seen], np.reshape([(s.range, s.bearing) for s in seen], (-1, 2)))
 
         return Boat(speed=boat.speed, rate=boat.rate, truth=planar_pose(boat.x, boat.y, boat.heading),
                     features=observations(boat.features, boat.feature_count),
                     vehicles=observations(boat.vehicles, boat.vehicle_count))
-
-    def rewind(self):
-        """Back to before the first step: the same drive again, to the bit."""
-        with self._use() as handle:
-            _check(lib.cairn_fleet_rewind(handle))
 
     def radar(self):
         """The radar of all boats: Team(radar=fleet.radar()), or filter.add_range_bearing(**fleet.radar())."""
@@ -96,10 +65,10 @@ class Fleet(Handle):
     def _points(self, function):
         needed = ffi.new("size_t *")
         with self._use() as handle:
-            _check(function(handle, ffi.NULL, 0, needed))
+            check_sim(function(handle, ffi.NULL, 0, needed))
             points = np.zeros((needed[0], 2))
             if len(points):
-                _check(function(handle, _structs.doubles(points), len(points), needed))
+                check_sim(function(handle, _structs.doubles(points), len(points), needed))
         return points
 
     def features(self):

@@ -11,16 +11,16 @@ from .error import CairnError, check
 
 
 class Map(Handle):
-    """Landmarks, by estimate and covariance. A filter's maps follow the filter and keep it alive; once the filter is
-    closed they are too. A copy stands on its own, stays as it is, and takes in other maps.
+    """Landmarks with their estimates and covariances. A filter's maps change with the filter and keep it alive; closing
+    the filter closes them too. A copy is independent of the filter, and other maps can be merged into it.
 
-    Queries give arrays with the fields id, observations, position (3, m) and covariance (3 x 3, m^2).
+    Queries return arrays with the fields id, observations, position (3, m) and covariance (3 x 3, m^2).
     """
 
     WHAT = "map"
 
     def __init__(self, pointer, owner=None):
-        """Not for callers: Filter.map, Filter.local_map and copy() make maps."""
+        """Internal: Filter.map, Filter.local_map and copy() create maps."""
         super().__init__(pointer, None if owner is not None else lib.cairn_map_destroy, owner)
 
     def __len__(self):
@@ -35,7 +35,7 @@ class Map(Handle):
         return len(self)
 
     def landmark(self, id):
-        """One landmark by its id; CairnError (CAIRN_ERROR_NOT_FOUND) where there is none."""
+        """The landmark with this id. Raises CairnError (CAIRN_ERROR_NOT_FOUND) if there is none."""
         number = _structs.identifiers("id", [id])
         result = np.zeros(1, _structs.dtype("cairn_landmark"))
         with self._use() as handle:
@@ -62,7 +62,7 @@ class Map(Handle):
         return self._query(lib.cairn_map_in_box, _structs.doubles(lower), _structs.doubles(upper))
 
     def joint_covariance(self, ids):
-        """Joint covariance of the positions of chosen landmarks: 3n x 3n, m^2, blocks in the order of `ids`."""
+        """Joint covariance of the positions of the landmarks `ids`: 3n x 3n, m^2, blocks in the order of `ids`."""
         ids = _structs.identifiers("ids", ids)
         matrix = np.zeros((3 * len(ids), 3 * len(ids)))
         needed = ffi.new("size_t *")
@@ -73,43 +73,44 @@ class Map(Handle):
 
     @property
     def kind(self):
-        """"dense" or "sparse", as the filter joins its submaps; maps of one kind merge."""
+        """"dense" or "sparse": how the filter joins its submaps. Only maps of the same kind can be merged."""
         kind = ffi.new("int32_t *")
         with self._use() as handle:
             check(lib.cairn_map_kind(handle, kind))
         return "sparse" if kind[0] == lib.CAIRN_MAP_SPARSE else "dense"
 
     def copy(self):
-        """A map of its own with the same landmarks."""
+        """An independent map with the same landmarks."""
         copy = ffi.new("cairn_map **")
         with self._use() as handle:
             check(lib.cairn_map_copy(handle, copy))
         return Map(copy[0])
 
     def merge(self, other, by="id", transform=None, covariance=None, **options):
-        """Takes the landmarks of `other` into this map, a copy, and gives a report as a dictionary: landmarks in common
-        and added, T_map_other with its covariance, the joint distance with rows and threshold.
+        """Merges the landmarks of `other` into this map, which must be a copy. Returns a report as a dictionary:
+        numbers of common and of added landmarks, T_map_other with its covariance, the joint distance with its rows and
+        threshold.
 
-        by: "id", or "geometry" where the ids of the two maps have nothing to do with each other (then `merged_ids`
-        tells who became whom). transform: (position, quaternion) that takes points of the other's frame into this
-        one's, where it is known beforehand; covariance: of its error [dp; dtheta], 6 x 6, exact where it is not given.
-        The other options are the fields of cairn_merge_options.
+        by: "id", or "geometry" if the ids of the two maps are unrelated; then `merged_ids` tells the new id of each
+        landmark. transform: (position, quaternion) that takes points of the other map's frame into this map's frame, if
+        it is known beforehand. covariance: of the transform's error [dp; dtheta], 6 x 6; without it the transform is
+        exact. The other options are the fields of cairn_merge_options.
 
-        A refusal is a CairnError that has the report too, as `report`; it changes neither map.
+        A refused merge raises a CairnError whose attribute `report` holds the report; neither map changes.
         """
         if not isinstance(other, Map):
-            raise TypeError(f"other: a Map is wanted, not a {type(other).__name__}")
+            raise TypeError(f"other: must be a Map, and is a {type(other).__name__}")
         if transform is None and covariance is not None:
-            raise TypeError("covariance: that of `transform`, which is not given")
+            raise TypeError("covariance: it belongs to `transform`, which is not given")
         if by not in ("id", "geometry"):
-            raise ValueError(f"by: 'id' or 'geometry', not {by!r}")
+            raise ValueError(f"by: must be 'id' or 'geometry', and is {by!r}")
         options["association"] = lib.CAIRN_MERGE_BY_ID if by == "id" else lib.CAIRN_MERGE_BY_GEOMETRY
         if transform is not None:
             options.update(has_transform=1, T_map_other=transform)
             if covariance is not None:
                 options["covariance"] = covariance
         settings, report = _structs.new("cairn_merge_options", options), _structs.sized("cairn_merge_report")
-        # Always in the same order, so that two threads never wait for each other.
+        # Always lock in the same order, so that two threads cannot deadlock.
         handles = sorted({id(one): one for one in (self, other)}.values(), key=lambda one: id(one._lock))
         with contextlib.ExitStack() as stack:
             used = {id(one): stack.enter_context(one._use()) for one in handles}
@@ -122,8 +123,8 @@ class Map(Handle):
         return _structs.as_dict(report[0])
 
     def merged_ids(self):
-        """What the last merge made of the other's landmarks, by ascending other_id: the fields other_id, id (in this
-        map) and common (whether this map held it before). Empty before a merge."""
+        """The landmarks of the other map after the last merge, by ascending other_id: the fields other_id, id (in this
+        map) and common (whether this map held the landmark before). Empty before a merge."""
         with self._use() as handle:
             return _structs.filled("cairn_merged_id", lambda *buffer: lib.cairn_map_merged_ids(handle, *buffer))
 

@@ -1,32 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Poses, and the ways in and out of Euler angles."""
+"""Poses, and conversions from and to Euler angles."""
 import math
-import typing
 
 import numpy as np
 
 from . import _structs
 from ._library import ffi, lib
+from ._pose_type import Pose
 from .error import check
-
-
-class Pose(typing.NamedTuple):
-    """Pose of a frame b in a frame a: p_a = R(quaternion) p_b + position.
-
-    position: (3,), m. quaternion: (4,), w x y z, from b to a.
-    """
-
-    position: np.ndarray
-    quaternion: np.ndarray
-
-    @classmethod
-    def identity(cls):
-        return cls(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
-
-    @classmethod
-    def of(cls, struct):
-        """Of a cairn_pose."""
-        return cls(np.array(list(struct.position)), np.array(list(struct.quaternion)))
 
 
 def planar_pose(x, y, heading):
@@ -42,14 +23,14 @@ def pose_compose(T_a_b, T_b_c):
 
 
 def pose_inverse(T_a_b):
-    """T_b_a of a T_a_b."""
+    """T_b_a, the inverse of T_a_b."""
     result = ffi.new("cairn_pose *")
     check(lib.cairn_pose_inverse(_structs.new_pose("T_a_b", T_a_b), result))
     return Pose.of(result)
 
 
 def pose_error(truth, estimate):
-    """Error [dp; dtheta] of an estimated pose, (6,), m and rad, in the axes of the frame a."""
+    """Error [dp; dtheta] of an estimated pose, (6,), m and rad, in the axes of frame a."""
     error = np.zeros(6)
     check(lib.cairn_pose_error(_structs.new_pose("truth", truth), _structs.new_pose("estimate", estimate),
                                _structs.doubles(error)))

@@ -1,32 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Worlds to try a filter in (libcairn_sim): terrain, landmarks, a rover, its sensors with their noise, and the truth."""
+"""Simulated worlds for tests of a filter (libcairn_sim): terrain, landmarks, a rover, noisy sensors, and the truth."""
 import types
 
 import numpy as np
 
 from . import _structs
-from ._handle import Handle
 from ._library import ffi, lib
-from .error import CairnError, check
+from ._simulation import Simulation, check_sim
 from .pose import Pose
 
 
-def _check(status):
-    check(status, "cairn_sim_last_message")
-
-
 class Step(types.SimpleNamespace):
-    """One step of a world: number, time (s), truth (a Pose), velocity_sigma and rate_sigma (3 each), pan and stick (rad),
-    motions (an array with the fields dt, velocity, rate, wheels, ...) and observations (id, z, covariance)."""
+    """One step of a world: number, time (s), truth (a Pose), velocity_sigma and rate_sigma (3 each), pan and stick
+    (rad), motions (an array with the fields dt, velocity, rate, wheels, ...) and observations (id, z, covariance)."""
 
 
-class World(Handle):
-    """A rover on its way over rolling ground, and what it measures.
+class World(Simulation):
+    """A rover that drives over rolling ground, and its measurements.
 
-    Options are the fields of cairn_world_options, by name: World(seed=3, course="laps", landmarks=500); `preset` names
-    where they start from ("paper", "row1" ... "row4").
+    Options are the fields of cairn_world_options, by name: World(seed=3, course="laps", landmarks=500). `preset` names
+    the set of defaults ("paper", "row1" ... "row4").
 
-        for step in world:                        # from the start, every time
+        for step in world:                        # each loop begins at the start
             for motion in step.motions:
                 filter.predict_twist(motion["dt"], motion["velocity"], motion["rate"])
             filter.point_head(head, step.pan, step.stick)
@@ -39,79 +34,57 @@ class World(Handle):
         struct = _structs.new("cairn_world_options", {})
         if preset is not None:
             number = _structs.constant("preset", preset) if isinstance(preset, str) else preset
-            _check(lib.cairn_world_options_preset(struct, number, ffi.NULL))
+            check_sim(lib.cairn_world_options_preset(struct, number, ffi.NULL))
         _structs.set_fields(struct, ffi.typeof("cairn_world_options"), options)
         created = ffi.new("cairn_world **")
-        _check(lib.cairn_world_create(struct, created))
+        check_sim(lib.cairn_world_create(struct, created))
         super().__init__(created[0], lib.cairn_world_destroy)
 
     def _ask(self, type_name, function, *arguments):
-        """What a function writes to its last argument."""
+        """The value that a function writes to its last argument."""
         answer = ffi.new(type_name)
         with self._use() as handle:
-            _check(function(handle, *arguments, answer))
+            check_sim(function(handle, *arguments, answer))
         return answer
 
-    def __len__(self):
-        """Number of steps, the start included."""
-        return self._ask("size_t *", lib.cairn_world_steps)[0]
-
-    def __iter__(self):
-        self.rewind()
-        for _ in range(len(self)):
-            yield self.next()
-
-    def next(self):
-        """The next Step; StopIteration after the last one."""
-        struct = _structs.sized("cairn_world_step")
-        with self._use() as handle:
-            try:
-                _check(lib.cairn_world_next(handle, struct))
-            except CairnError as error:
-                if error.status == lib.CAIRN_ERROR_STATE:
-                    raise StopIteration from None
-                raise
-            step = _structs.as_dict(struct[0])
-            for name, type_name in (("motions", "cairn_world_motion"), ("observations", "cairn_observation")):
-                layout, count = _structs.dtype(type_name), step.pop(name[:-1] + "_count")
-                copied = ffi.buffer(getattr(struct, name), count * layout.itemsize)[:] if count else b""
-                step[name] = np.frombuffer(copied, layout).copy()
+    def _step(self, struct):
+        step = _structs.as_dict(struct[0])
+        for name, type_name in (("motions", "cairn_world_motion"), ("observations", "cairn_observation")):
+            layout, count = _structs.dtype(type_name), step.pop(name[:-1] + "_count")
+            copied = ffi.buffer(getattr(struct, name), count * layout.itemsize)[:] if count else b""
+            step[name] = np.frombuffer(copied, layout).copy()
         return Step(**step)
-
-    def rewind(self):
-        """Back to before the first step: the same drive again, to the bit."""
-        with self._use() as handle:
-            _check(lib.cairn_world_rewind(handle))
 
     @property
     def most_observations(self):
-        """An upper bound of the observations of a frame."""
+        """An upper bound of the number of observations in a frame."""
         return self._ask("size_t *", lib.cairn_world_most_observations)[0]
 
     def _description(self, type_name, function):
         struct = _structs.sized(type_name)
         with self._use() as handle:
-            _check(function(handle, struct))
+            check_sim(function(handle, struct))
         return _structs.as_dict(struct[0])
 
     def head(self):
-        """The stereo head that the observations are of: filter.add_stereo_head(**world.head())."""
+        """The stereo head that makes the observations: filter.add_stereo_head(**world.head())."""
         return self._description("cairn_stereo_head", lib.cairn_world_head)
 
     def wheels(self):
-        """The wheels that the world drives: filter.set_wheels(**world.wheels())."""
+        """The wheels of the rover: filter.set_wheels(**world.wheels())."""
         return self._description("cairn_wheels", lib.cairn_world_wheels)
 
     def pose(self, time):
-        """True Pose of the body in the map at a time (s)."""
+        """True Pose of the body in the map at `time` (s)."""
         return Pose.of(self._ask("cairn_pose *", lib.cairn_world_pose, time))
 
     def contacts(self, time):
-        """Where the wheels touch the ground at a time (s): front left, front right, rear left, rear right (4 x 3, m)."""
+        """The points where the wheels touch the ground at `time` (s): front left, front right, rear left, rear right
+        (4 x 3, m)."""
         return np.array(list(self._ask("double[12]", lib.cairn_world_contacts, time))).reshape(4, 3)
 
     def height(self, x, y):
-        """Height of the ground, m, at x and y (m); arrays of one shape give an array."""
+        """Height of the ground, m, at x and y (m). Two arrays of the same shape give an array."""
         at = np.broadcast(x, y)
         heights = [self._ask("double *", lib.cairn_world_height, *map(float, pair))[0] for pair in at]
         return np.array(heights).reshape(at.shape)[()]
@@ -120,7 +93,7 @@ class World(Handle):
         """The rectangle that holds the course and all landmarks: lower and upper corner (2 each, m)."""
         lower, upper = np.zeros(2), np.zeros(2)
         with self._use() as handle:
-            _check(lib.cairn_world_extent(handle, _structs.doubles(lower), _structs.doubles(upper)))
+            check_sim(lib.cairn_world_extent(handle, _structs.doubles(lower), _structs.doubles(upper)))
         return lower, upper
 
     def landmark(self, id):
@@ -132,8 +105,8 @@ class World(Handle):
         """True positions of all landmarks (n x 3, m), by ascending id: row i is landmark i."""
         needed = ffi.new("size_t *")
         with self._use() as handle:
-            _check(lib.cairn_world_landmarks(handle, ffi.NULL, 0, needed))
+            check_sim(lib.cairn_world_landmarks(handle, ffi.NULL, 0, needed))
             positions = np.zeros((needed[0], 3))
             if len(positions):
-                _check(lib.cairn_world_landmarks(handle, _structs.doubles(positions), len(positions), needed))
+                check_sim(lib.cairn_world_landmarks(handle, _structs.doubles(positions), len(positions), needed))
         return positions

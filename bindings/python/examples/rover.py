@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A rover drives a small circle among rocks: examples/rover.c in Python, which prints the same figures."""
+"""A rover drives a small circle among rocks. This is examples/rover.c in Python; it prints the same figures."""
 import math
 
 import cairn
@@ -56,16 +56,16 @@ class Truth:
 
 def main():
     noise, truth = Noise(), Truth()
-    with cairn.Filter(max_landmarks=100) as rover:  # all memory is taken at creation
+    with cairn.Filter(max_landmarks=100) as rover:  # all memory is allocated here
         camera = rover.add_stereo_head(range_sigma=0.1, azimuth_sigma=DEGREE, elevation_sigma=DEGREE)
         results = []
         for _ in range(STEPS):
-            # The wheels turn; the encoders say nearly how fast.
+            # The wheels turn. The encoders measure their rates with noise.
             dt, left, right = 0.2, 1.6, 2.0
             truth.drive(dt, left, right)
             right_noise, left_noise = noise(0.01), noise(0.01)  # GCC computes the arguments of the C program in this order
             rover.predict_wheels(dt, left + left_noise, right + right_noise)
-            # A frame: all its observations go in together, each comes back with its decision.
+            # One frame: all its observations go in together, and each gets its match.
             results.extend(rover.update(camera, *truth.look(noise, 0.1, DEGREE))["result"])
 
         position, quaternion, covariance = rover.pose()

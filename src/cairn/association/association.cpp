@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Nearest neighbour and joint compatibility (docs/association.md).
 #include "association/association.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// Where row i of a packed lower triangle begins.
+// Start of row i of a packed lower triangle.
 Index row_start(Index i) {
   return i * (i + 1) / 2;
 }
@@ -24,7 +25,7 @@ Association::Association(Arena& arena, const Capacity& capacity)
       queue_(arena.take<Index>(static_cast<std::size_t>(capacity.candidates))),
       joint_(arena.take<double>(static_cast<std::size_t>(capacity.candidates))),
       taken_(arena.take<char>(static_cast<std::size_t>(capacity.landmarks))),
-      now_(arena.take<Index>(static_cast<std::size_t>(capacity.observations))),
+      current_(arena.take<Index>(static_cast<std::size_t>(capacity.observations))),
       best_(arena.take<Index>(static_cast<std::size_t>(capacity.observations))),
       factor_(arena.take<double>(static_cast<std::size_t>(row_start(kMostRows * capacity.observations)))),
       whitened_(arena.take<double>(static_cast<std::size_t>(kMostRows * capacity.observations))) {}
@@ -67,13 +68,13 @@ void Association::joint_compatibility(const PairCandidate* candidates, Index cou
   innovations_ = &innovations;
   rows_ = innovations.rows();
   budget_ = nodes;
-  // Observations with few candidates first: what they settle makes the others' innovations sharper.
+  // Observations with few candidates come first: their pairs make the innovations of the others sharper.
   std::iota(order_, order_ + observations, Index{0});
   const auto candidates_of = [&](Index o) { return first_[o + 1] - first_[o]; };
   std::sort(order_, order_ + observations, [&](Index a, Index b) {
     return candidates_of(a) != candidates_of(b) ? candidates_of(a) < candidates_of(b) : a < b;
   });
-  // Without candidates there is nothing to search for.
+  // Observations without candidates take no part in the search.
   while (observations_ > 0 && candidates_of(order_[0]) == 0) {
     std::rotate(order_, order_ + 1, order_ + observations_);
     --observations_;
@@ -81,15 +82,16 @@ void Association::joint_compatibility(const PairCandidate* candidates, Index cou
   search(0, 0, 0.0);
 }
 
-// Borders the factor of the set at hand, of `pairs` pairs, by a candidate, and returns by how much the joint distance
-// grows; infinity where its covariance, given the others, is not positive definite. With L L^T = S of the set,
+// Extends the Cholesky factor of the current set of `pairs` pairs by a candidate c and returns the growth of the joint
+// distance, or infinity if the covariance of c given the set is not positive definite. With L L^T = S of the set,
 //   L' = [L 0; X^T L_c],  X = L^-1 S_set,c,  L_c L_c^T = S_cc - X^T X,  y_c = L_c^-1 (nu_c - X^T y),
-// and the distance grows by |y_c|^2. Rows of L are packed, so that the set's stay where they are.
-double Association::border(Index candidate, Index pairs) {
+// and the distance grows by |y_c|^2 (docs/association.md). The rows of L are packed, so that the rows of the set stay
+// in place.
+double Association::extend(Index candidate, Index pairs) {
   const Index k = rows_, n = k * pairs;
   double block[kMostRows * kMostRows], nu[kMostRows];
   for (Index p = 0; p < pairs; ++p) {
-    innovations_->covariance(candidate, now_[p], block);
+    innovations_->covariance(candidate, current_[p], block);
     for (Index r = 0; r < k; ++r)
       for (Index c = 0; c < k; ++c) factor_[row_start(n + r) + k * p + c] = block[c * k + r];
   }
@@ -113,12 +115,12 @@ double Association::border(Index candidate, Index pairs) {
   return grown;
 }
 
-// From the set at hand down: the candidates of one more observation, those that fit best first, then none of them.
+// Extends the current set by one more observation: by each compatible candidate, the best first, then by none.
 void Association::search(Index depth, Index pairs, double distance) {
   if (depth == observations_) {
     if (!better(pairs, distance)) return;
     for (Index d = 0; d < observations_; ++d) best_[order_[d]] = kUnpaired;
-    for (Index p = 0; p < pairs; ++p) best_[candidates_[now_[p]].observation] = now_[p];
+    for (Index p = 0; p < pairs; ++p) best_[candidates_[current_[p]].observation] = current_[p];
     best_pairs_ = pairs;
     best_distance_ = distance;
     return;
@@ -126,29 +128,29 @@ void Association::search(Index depth, Index pairs, double distance) {
   const Index o = order_[depth], rest = observations_ - depth - 1;
   const Index begin = first_[o], end = first_[o + 1];
   const double bound = innovations_->threshold(rows_ * (pairs + 1));
-  Index* fitting = queue_ + begin;  // each observation has its own part
-  Index count = 0, bordered = kUnpaired;
+  Index* fitting = queue_ + begin;  // each observation has its own part of the queue
+  Index count = 0, extended = kUnpaired;
   for (Index c = begin; c < end; ++c) {
     if (taken_[candidates_[c].landmark] != 0) continue;
-    joint_[c] = distance + border(c, pairs);
-    bordered = c;
+    joint_[c] = distance + extend(c, pairs);
+    extended = c;
     ++nodes_;
     if (joint_[c] <= bound) fitting[count++] = c;
   }
   std::sort(fitting, fitting + count,
             [&](Index a, Index b) { return joint_[a] != joint_[b] ? joint_[a] < joint_[b] : a < b; });
-  // Deeper calls work on other observations' parts, so that these lists outlive them.
+  // Deeper calls use the parts of other observations, so this list stays valid.
   for (Index i = 0; i < count; ++i) {
     const Index c = fitting[i];
-    // All that is left may be paired at no more distance.
+    // At best, all remaining observations are matched without adding distance.
     if (!better(pairs + 1 + rest, joint_[c])) break;
     if (i > 0 && nodes_ >= budget_) {
       exhausted_ = true;
       return;
     }
-    if (c != bordered) border(c, pairs);
-    bordered = kUnpaired;  // deeper calls write below
-    now_[pairs] = c;
+    if (c != extended) extend(c, pairs);
+    extended = kUnpaired;  // deeper calls overwrite the rows of this candidate
+    current_[pairs] = c;
     taken_[candidates_[c].landmark] = 1;
     search(depth + 1, pairs + 1, joint_[c]);
     taken_[candidates_[c].landmark] = 0;

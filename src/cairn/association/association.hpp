@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which landmark an observation is of, where it brings no name: nearest neighbour, and joint compatibility by branch
-// and bound (Neira and Tardos 2001). Both choose among candidates, pairs of an observation and a landmark that pass
-// their gate alone, and give a landmark to one observation at most (docs/association.md).
+// Association of observations without ids: nearest neighbour, and joint compatibility by branch and bound (Neira and
+// Tardos 2001). Both choose among candidates: pairs of an observation and a landmark that pass the individual gate.
+// Each landmark is matched at most once (docs/association.md).
 //
-// Nothing allocates after construction, and nothing depends on more than the arguments: ties go to the candidate that
-// was named first.
+// Nothing allocates after construction. The result depends only on the arguments: of equal candidates the first is
+// taken.
 #pragma once
 
 #include "core/arena.hpp"
@@ -13,23 +13,23 @@
 namespace cairn {
 
 struct PairCandidate {
-  Index observation;  // candidates of one observation stand together, observations ascend
+  Index observation;  // candidates are sorted by observation
   Index landmark;
-  double distance;  // squared Mahalanobis distance of its innovation
+  double distance;  // squared Mahalanobis distance of the innovation
 };
 
 constexpr Index kUnpaired = -1;
 
-// What joint compatibility asks for. An innovation has rows() <= 3 rows.
+// The innovations of all candidates, for joint compatibility. An innovation has rows() <= 3 rows.
 class Innovations {
  public:
   virtual ~Innovations() = default;
   virtual Index rows() const = 0;
   virtual void innovation(Index candidate, double* nu) const = 0;
-  // Covariance of the innovations of two candidates of different observations, or of one with itself, its noise
-  // included. rows x rows, column-major, row by `a`.
+  // Covariance between the innovations of candidates `a` and `b` of different observations; for a = b the covariance of
+  // the innovation, noise included. rows x rows, column-major; the row index belongs to `a`.
   virtual void covariance(Index a, Index b, double* block) const = 0;
-  // Chi-square bound of so many rows.
+  // Chi-square bound for this number of rows.
   virtual double threshold(Index rows) const = 0;
 };
 
@@ -38,51 +38,51 @@ class Association {
   static constexpr Index kMostRows = 3;
 
   struct Capacity {
-    Index observations, candidates, landmarks;  // landmarks: one more than the largest number of one
+    Index observations, candidates, landmarks;  // landmarks: the largest landmark number plus 1
   };
   Association(Arena& arena, const Capacity& capacity);
 
-  // Candidates by ascending distance, each taken where its observation and its landmark are both still free.
-  // O(c log c) for c candidates.
+  // Nearest neighbour: takes candidates by ascending distance if both their observation and their landmark are still
+  // unmatched. O(c log c) for c candidates.
   void nearest_neighbour(const PairCandidate* candidates, Index count, Index observations);
 
-  // The largest set of pairs whose innovations fit together, of several such the one with the least joint distance. A
-  // set fits where the joint squared distance of its first pairs, in the order of the search, is below the bound of
-  // their rows for every number of them. `nodes` bounds the joint tests, of O(p^2) for p pairs each; the first descent,
-  // which takes the best fitting candidate at each observation, is finished whatever the bound is, and what is found is
-  // a set that fits whether the bound is met or not.
+  // The largest set of jointly compatible pairs; of several such sets the one with the smallest joint distance. A set
+  // is jointly compatible if, for every n, the joint squared distance of its first n pairs in search order is below the
+  // bound for their rows. `nodes` limits the number of joint tests; one test of p pairs costs O(p^2). The first
+  // descent, which takes the best candidate of each observation, is always finished. The result is jointly compatible
+  // even if the limit stopped the search.
   void joint_compatibility(const PairCandidate* candidates, Index count, Index observations,
                            const Innovations& innovations, Index nodes);
 
-  // Pairs that could be chance, by doubtful(observation, candidate), are taken together or not at all: at the first
-  // sight of a known place one of them fits easily, and would bend the map; several fit by chance together hardly ever.
-  // Those of the last call are given up where they are fewer than `support`.
+  // Drops the doubtful pairs of the last call if they are fewer than `support`. doubtful(observation, candidate) is
+  // true for a pair that may fit by chance. When a known place is seen again, one wrong pair fits easily and would bend
+  // the map; several pairs hardly ever fit together by chance.
   template <class Doubtful>
   void demand_support(Index support, Doubtful&& doubtful) {
     Index count = 0;
     for (Index o = 0; o < all_observations_; ++o) {
-      now_[o] = best_[o] != kUnpaired && doubtful(o, best_[o]) ? 1 : 0;
-      count += now_[o];
+      current_[o] = best_[o] != kUnpaired && doubtful(o, best_[o]) ? 1 : 0;
+      count += current_[o];
     }
     if (count >= support) return;
     for (Index o = 0; o < all_observations_; ++o)
-      if (now_[o] != 0) {
+      if (current_[o] != 0) {
         best_[o] = kUnpaired;
         --best_pairs_;
       }
   }
 
-  // --- of the last call ---
+  // --- result of the last call ---
   Index chosen(Index observation) const { return best_[observation]; }  // number of a candidate, or kUnpaired
   Index pairs() const { return best_pairs_; }
-  double distance() const { return best_distance_; }  // jointly; nearest neighbour: the sum of single ones
-  Index nodes() const { return nodes_; }              // joint tests; nearest neighbour: 0
-  bool exhausted() const { return exhausted_; }       // the bound was met: there may be a better set
+  double distance() const { return best_distance_; }  // joint distance; nearest neighbour: sum of individual distances
+  Index nodes() const { return nodes_; }              // number of joint tests; nearest neighbour: 0
+  bool exhausted() const { return exhausted_; }       // the limit stopped the search: there may be a better set
 
  private:
   void begin(const PairCandidate* candidates, Index count, Index observations);
   void search(Index depth, Index pairs, double distance);
-  double border(Index candidate, Index pairs);
+  double extend(Index candidate, Index pairs);
   bool better(Index pairs, double distance) const {
     return pairs > best_pairs_ || (pairs == best_pairs_ && distance < best_distance_);
   }
@@ -91,14 +91,14 @@ class Association {
   const Innovations* innovations_ = nullptr;
   Index observations_ = 0, all_observations_ = 0, rows_ = 0, budget_ = 0;
 
-  Index* first_;      // by observation: its first candidate; one more at the end
-  Index* order_;      // by depth of the search: observation
-  Index* queue_;      // candidates, those of one depth together, or all by distance
-  double* joint_;     // by queue: joint distance with the candidate
-  char* taken_;       // by landmark
-  Index* now_;        // by depth: candidate of the set at hand
-  Index* best_;       // by observation
-  double* factor_;    // L of the joint covariance, by rows, packed; see border()
+  Index* first_;      // by observation: its first candidate, and one more entry at the end
+  Index* order_;      // by search depth: observation
+  Index* queue_;      // candidates: those of each observation together, or all of them by distance
+  double* joint_;     // by candidate: joint distance of the current set with the candidate
+  char* taken_;       // by landmark: 1 if it is matched
+  Index* current_;    // pairs of the current set: candidates
+  Index* best_;       // by observation: candidate of the best set
+  double* factor_;    // L of the joint covariance, packed by rows; see extend()
   double* whitened_;  // L^-1 nu
   Index best_pairs_ = 0, nodes_ = 0;
   double best_distance_ = 0.0;

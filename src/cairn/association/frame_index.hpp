@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The observations of a frame, sorted by one of their values: those that can be of an image are found without a look at
-// the others.
+// The observations of a frame, sorted by one of their values. The observations near a predicted value are found without
+// a pass over all observations.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ class FrameIndex {
  public:
   FrameIndex(Arena& arena, Index capacity) : entries_(arena.take<Entry>(static_cast<std::size_t>(capacity))) {}
 
-  // By value(observation), which is finite. O(m log m) for m observations.
+  // Sorts by value(observation), which must be finite. O(m log m) for m observations.
   template <class Value>
   void build(Index count, Value&& value) {
     count_ = count;
@@ -22,8 +22,8 @@ class FrameIndex {
     std::sort(entries_, entries_ + count, [](const Entry& a, const Entry& b) { return a.value < b.value; });
   }
 
-  // Visits those whose value lies in [centre - reach, centre + reach]; all of them where the reach is infinite.
-  // O(log m) and what is visited.
+  // Visits the observations whose value lies in [centre - reach, centre + reach]; all of them if the reach is infinite.
+  // O(log m) plus the number of visited observations.
   template <class Visit>
   void near(double centre, double reach, Visit&& visit) const {
     const Entry *const begin = entries_, *const end = begin + count_;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Messages, checks and conversions of the C boundary.
 #include "capi/boundary.hpp"
 
 #include <cmath>
@@ -93,7 +94,8 @@ SO3 read_quaternion(const double* quaternion, const char* name) {
   check_finite(quaternion, 4, name);
   double largest = 0.0;
   for (int i = 0; i < 4; ++i) largest = std::max(largest, std::abs(quaternion[i]));
-  if (!(largest > 1e-100)) throw Error(ErrorCode::argument, "%s is zero; a rotation's quaternion has length 1", name);
+  if (!(largest > 1e-100))
+    throw Error(ErrorCode::argument, "%s is zero; the quaternion of a rotation has length 1", name);
   return SO3::from_quaternion(quaternion[0] / largest, quaternion[1] / largest, quaternion[2] / largest,
                               quaternion[3] / largest);
 }
@@ -119,19 +121,18 @@ void write_pose(const SE3& pose, cairn_pose* out) {
 
 void check_struct_size(std::size_t size, const char* name) {
   if (size < kSmallestStruct || size > kLargestStruct)
-    throw Error(ErrorCode::argument, "%s: a struct_size of %zu is no size of this struct; set it to sizeof it", name,
-                size);
+    throw Error(ErrorCode::argument, "%s: struct_size is %zu; set it to the sizeof of the struct", name, size);
 }
 
 bool check_room(const void* buffer, std::size_t capacity, std::size_t count, std::size_t* needed, const char* name) {
   check_pointer(needed, "needed");
   if (buffer == nullptr && capacity > 0)
-    throw Error(ErrorCode::argument, "%s is NULL, and its capacity %zu; pass NULL with 0 to ask for the size", name,
-                capacity);
+    throw Error(ErrorCode::argument,
+                "%s is NULL and its capacity is %zu; pass NULL with capacity 0 to ask for the size", name, capacity);
   *needed = count;
   if (buffer == nullptr) return false;
   if (capacity < count)
-    throw Error(ErrorCode::buffer, "%s has room for %zu, and %zu are needed", name, capacity, count);
+    throw Error(ErrorCode::buffer, "%s has room for %zu values, and %zu are needed", name, capacity, count);
   return true;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C boundary that every library of the project has: each call runs inside guard(), every argument passes a check
-// that names it. It knows no handle.
+// The C boundary, which all libraries of the project share: each call runs inside guard(), and a check refuses a bad
+// argument by name. It does not depend on the handles.
 #pragma once
 
 #include <cairn/pose.h>
@@ -29,18 +29,18 @@ cairn_status guard(Function&& function) noexcept {
     set_message(error.what());
     return status_of(error.code());
   } catch (const std::bad_alloc&) {
-    set_message("memory could not be had; create with smaller capacities");
+    set_message("out of memory; create the handle with smaller capacities");
     return CAIRN_ERROR_MEMORY;
   } catch (const std::exception& error) {
     set_message(error.what());
     return CAIRN_ERROR_INTERNAL;
   } catch (...) {
-    set_message("a defect of the library: an exception of no known type");
+    set_message("an exception of unknown type: this is a defect of the library");
     return CAIRN_ERROR_INTERNAL;
   }
 }
 
-// --- checks --- each throws an Error that names the argument.
+// --- checks --- Each throws an Error that names the argument.
 void check_pointer(const void* pointer, const char* name);
 bool all_finite(const double* values, std::size_t count);
 void check_finite(double value, const char* name);
@@ -49,10 +49,10 @@ void check_positive(double value, const char* name);
 void check_positive(const double* values, std::size_t count, const char* name);
 void check_not_negative(double value, const char* name);
 void check_not_negative(const double* values, std::size_t count, const char* name);
-void check_range(double value, double lower, double upper, const char* name);  // closed
+void check_range(double value, double lower, double upper, const char* name);  // [lower, upper]
 void check_probability(double value, const char* name);                        // (0, 1]
 
-// --- conversions --- with their checks
+// --- conversions --- Reading checks the values.
 SO3 read_quaternion(const double* quaternion, const char* name);
 SE3 read_pose(const cairn_pose* pose, const char* name);
 void write_pose(const SE3& pose, cairn_pose* out);
@@ -62,11 +62,11 @@ void write_square(const Eigen::Matrix<double, n, n>& symmetric, double* out) {
   std::copy_n(symmetric.data(), n * n, out);
 }
 
-// --- options --- of callers older and newer than the library
+// --- options --- The caller's struct may be older or newer than the struct of the library.
 constexpr std::size_t kSmallestStruct = 8, kLargestStruct = 1 << 16;
 void check_struct_size(std::size_t size, const char* name);
 
-// Fills in defaults, at most struct_size bytes; what a newer caller has beyond them is zeroed.
+// Writes the defaults, at most struct_size bytes. Bytes that only a newer caller has are set to zero.
 template <class Options>
 void init_options(Options* options, std::size_t struct_size, const Options& defaults, const char* name) {
   check_pointer(options, name);
@@ -76,7 +76,7 @@ void init_options(Options* options, std::size_t struct_size, const Options& defa
   options->struct_size = static_cast<std::uint32_t>(struct_size);
 }
 
-// The caller's options over the defaults, the smaller of both sizes of them.
+// The caller's options over the defaults. The smaller of both struct sizes is copied.
 template <class Options>
 Options read_options(const Options* options, const Options& defaults, const char* name) {
   check_pointer(options, name);
@@ -88,7 +88,7 @@ Options read_options(const Options* options, const Options& defaults, const char
   return merged;
 }
 
-// A report: the smaller of both sizes; what a newer caller has beyond ours stays.
+// Writes a report: the smaller of both struct sizes is copied. Bytes that only a newer caller has stay unchanged.
 template <class Report>
 void write_report(Report& from, Report* to) {
   check_pointer(to, "report");
@@ -99,7 +99,8 @@ void write_report(Report& from, Report* to) {
   std::memcpy(static_cast<void*>(to), &from, std::min<std::size_t>(size, sizeof from));
 }
 
-// --- arrays --- the rule of short buffers; true where there is room to fill in.
+// --- arrays --- Sets `needed` to `count`. Returns true if the buffer has room, false if the caller asks for the size
+// only. A buffer that is too short is an error.
 bool check_room(const void* buffer, std::size_t capacity, std::size_t count, std::size_t* needed, const char* name);
 
 }  // namespace capi

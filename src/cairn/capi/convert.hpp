@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the descriptions that cross the C boundary to those of the core, every field checked.
+// Conversion of C structs to structs of the core. Every field is checked.
 #pragma once
 
 #include <cairn/cairn.h>
@@ -22,7 +22,7 @@ template <class Pose>
 CustomSensor<Pose> read_custom(const cairn_custom* user);
 std::variant<FilterOptions<SE3>, FilterOptions<SE2>> read_filter_options(const cairn_filter_options* user);
 
-// A pose of the plane: z = 0, turned about z alone.
+// Reads a pose. For a planar Pose it must have z = 0 and a rotation about z only.
 template <class Pose>
 Pose read_pose_of(const cairn_pose* pose, const char* name);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the files behind cairn/filter.h share.
+// Helpers that the files behind cairn/filter.h share.
 #pragma once
 
 #include <type_traits>
@@ -11,7 +11,7 @@
 namespace cairn {
 namespace capi {
 
-// function(filter), whichever kind it is; PoseOf tells which.
+// Calls function(filter) for a filter of either kind; PoseOf<decltype(filter)> tells which kind it is.
 template <class Handle, class Function>
 void with_filter(Handle* filter, Function&& function) {
   check_pointer(filter, "filter");
@@ -20,7 +20,7 @@ void with_filter(Handle* filter, Function&& function) {
 template <class AnyFilter>
 using PoseOf = typename std::decay_t<AnyFilter>::PoseType;
 
-// What callers say of space, for a vehicle of either kind: the plane takes what it has of it.
+// Callers speak of space for a vehicle of either kind. A vehicle in the plane takes the part that lies in the plane.
 template <class Pose>
 typename AbsoluteFix<Pose>::PointSquare read_point_covariance(const double* covariance, const char* name) {
   check_pointer(covariance, name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Observations that a filter takes in.
+// Updates of a filter: observations, absolute fixes, and rows that the caller linearised.
 #include "capi/filter_handle.hpp"
 #include "capi/read_observation.hpp"
 #include "core/chi_square.hpp"
@@ -44,7 +44,7 @@ namespace {
 template <class AnyFilter>
 void write_matches(const AnyFilter& filter, std::size_t count, cairn_match* matches) {
   if (matches == nullptr) return;
-  for (std::size_t i = 0; i < count; ++i) write_match(filter.decisions()[i], matches + i);
+  for (std::size_t i = 0; i < count; ++i) write_match(filter.matches()[i], matches + i);
 }
 
 }  // namespace
@@ -52,8 +52,8 @@ void write_matches(const AnyFilter& filter, std::size_t count, cairn_match* matc
 void read_observation(const cairn_observation& from, const char* array, std::size_t number, std::size_t rows,
                       bool named, Observation& to) {
   if (named && from.id == CAIRN_ID_NONE)
-    throw Error(ErrorCode::argument, "%s[%zu].id is CAIRN_ID_NONE, which none has", array, number);
-  // Names are written where they are needed: that takes longer than the checks.
+    throw Error(ErrorCode::argument, "%s[%zu].id is CAIRN_ID_NONE, which no landmark or vehicle has", array, number);
+  // The name of a field is written only for an error, because that takes longer than the checks.
   char name[64];
   if (!all_finite(from.z, rows)) {
     std::snprintf(name, sizeof name, "%s[%zu].z", array, number);
@@ -88,8 +88,8 @@ cairn_status cairn_filter_update(cairn_filter* filter, int32_t sensor, const cai
         throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu", count, most);
       const bool named = f.options().association == AssociationKind::known;
       for (std::size_t i = 0; i < count; ++i)
-        read_observation(observations[i], "observations", i, rows, named, f.staging()[i]);
-      f.update(sensor, static_cast<Index>(count));
+        read_observation(observations[i], "observations", i, rows, named, filter->observations[i]);
+      f.update(sensor, filter->observations, static_cast<Index>(count));
       write_matches(f, count, matches);
     });
   });

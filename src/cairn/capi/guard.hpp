@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the files behind the library's headers share: its handles, and the boundary that every call passes.
+// The handles of maps and filters, which the files of the C boundary share.
 #pragma once
 
 #include <cairn/cairn.h>
@@ -14,7 +14,7 @@
 namespace cairn {
 namespace capi {
 
-std::uint64_t next_filter_number() noexcept;  // from 1
+std::uint64_t next_filter_number() noexcept;  // 1, 2, 3, ...
 
 }  // namespace capi
 }  // namespace cairn
@@ -22,21 +22,29 @@ std::uint64_t next_filter_number() noexcept;  // from 1
 struct cairn_map {
   const cairn::Landmarks* landmarks;
   std::uint64_t filter = 0;                // number of the filter that owns the map
-  std::unique_ptr<cairn::OwnedMap> owned;  // null: a filter's
+  std::unique_ptr<cairn::OwnedMap> owned;  // null if a filter owns the map
 };
 
-// Of a vehicle in space or in the plane.
+// The filter of a vehicle in space or in the plane.
 struct cairn_filter {
   template <class Pose>
-  cairn_filter(std::size_t arena_bytes, const cairn::FilterOptions<Pose>& options)
-      : arena(arena_bytes),
+  explicit cairn_filter(const cairn::FilterOptions<Pose>& options)
+      : arena(cairn::Filter<Pose>::arena_bytes(options) + buffer_bytes(options.max_observations)),
         filter(std::in_place_type<cairn::Filter<Pose>>, arena, options),
+        observations(arena.take<cairn::Observation>(static_cast<std::size_t>(options.max_observations))),
         number(cairn::capi::next_filter_number()),
         map{&std::get<cairn::Filter<Pose>>(filter).landmarks(), number, nullptr},
-        local_map{&std::get<cairn::Filter<Pose>>(filter), number, nullptr} {}
+        local_map{&std::get<cairn::Filter<Pose>>(filter).local_landmarks(), number, nullptr} {}
+  static std::size_t buffer_bytes(cairn::Index max_observations) {  // of `observations`
+    cairn::Arena measure;
+    measure.take<cairn::Observation>(static_cast<std::size_t>(max_observations));
+    return measure.used();
+  }
+
   cairn::Arena arena;
   std::variant<cairn::Filter<cairn::SE3>, cairn::Filter<cairn::SE2>> filter;
-  std::uint64_t number;  // so that maps know what they have in common
+  cairn::Observation* observations;  // buffer for the observations of one frame: max_observations
+  std::uint64_t number;              // identifies this filter in maps, so that no information is merged twice
   cairn_map map;
   cairn_map local_map;
 };
@@ -44,8 +52,8 @@ struct cairn_filter {
 namespace cairn {
 namespace capi {
 
-// Finite, symmetric, positive definite (`semi`: semidefinite); `size` on a side, row-major. Beyond 6 it takes a
-// workspace of size^2 + cholesky_workspace(size) doubles.
+// Checks that a row-major matrix of size x size is finite, symmetric and positive definite (`semi`: semidefinite). For
+// a size above 6 it needs a workspace of size^2 + cholesky_workspace(size) doubles.
 void check_covariance(const double* matrix, std::size_t size, bool semi, const char* name, double* workspace = nullptr);
 
 }  // namespace capi

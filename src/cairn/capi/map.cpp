@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The C functions of cairn/map.h: size, landmarks, queries, joint covariance.
 #include <set>
 
 #include "capi/guard.hpp"
@@ -20,18 +21,19 @@ namespace {
 
 std::vector<std::size_t> read_ids(const Landmarks& map, const std::uint64_t* ids, std::size_t count) {
   if (count > 0) check_pointer(ids, "ids");
-  // More ids than landmarks hold an unknown one or one twice: found without the room that they would take.
+  // More ids than landmarks contain an unknown id or a repeated one. This is found before memory is allocated for them.
   const std::size_t most = map.size();
   std::size_t index = 0;
   for (std::size_t i = 0; count > most && i <= most; ++i)
     if (!map.find(ids[i], index)) throw_unknown_id(ids, i);
-  if (count > most) throw Error(ErrorCode::argument, "ids: %zu of them, and the map holds %zu landmarks", count, most);
+  if (count > most)
+    throw Error(ErrorCode::argument, "ids: %zu ids were given, and the map holds only %zu landmarks", count, most);
   std::vector<std::size_t> indices(count);
   std::set<std::uint64_t> seen;
   for (std::size_t i = 0; i < count; ++i) {
     if (!map.find(ids[i], indices[i])) throw_unknown_id(ids, i);
     if (!seen.insert(ids[i]).second)
-      throw Error(ErrorCode::argument, "ids[%zu]: landmark %llu comes twice", i,
+      throw Error(ErrorCode::argument, "ids[%zu]: landmark %llu is named twice; name each landmark once", i,
                   static_cast<unsigned long long>(ids[i]));
   }
   return indices;
@@ -124,7 +126,7 @@ cairn_status cairn_map_in_box(const cairn_map* map, const double lower[3], const
     check_finite(upper, 3, "upper");
     for (int i = 0; i < 3; ++i)
       if (lower[i] > upper[i])
-        throw Error(ErrorCode::argument, "lower[%d] = %g lies above upper[%d] = %g", i, lower[i], i, upper[i]);
+        throw Error(ErrorCode::argument, "lower[%d] = %g must not exceed upper[%d] = %g", i, lower[i], i, upper[i]);
     write_landmarks(source, in_box(source, Vector3(lower), Vector3(upper)), landmarks, capacity, needed);
   });
 }

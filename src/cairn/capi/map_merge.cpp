@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps as handles of their own: copies and merges.
+// The C functions of cairn/map.h for maps that the caller owns: copies and merges.
 #include <atomic>
 
 #include "capi/guard.hpp"
+#include "geometry/angle.hpp"
 
 using namespace cairn;
 using namespace cairn::capi;
@@ -16,8 +17,6 @@ std::uint64_t next_filter_number() noexcept {
 }
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 const cairn_map& read_handle(const cairn_map* map, const char* name) {
   check_pointer(map, name);
@@ -44,8 +43,7 @@ MergeOptions read_merge_options(const cairn_merge_options* given) {
       given != nullptr ? read_options(given, default_options(), "options") : default_options();
   MergeOptions options;
   if (o.association != CAIRN_MERGE_BY_ID && o.association != CAIRN_MERGE_BY_GEOMETRY)
-    throw Error(ErrorCode::argument,
-                "options.association = %d is none of CAIRN_MERGE_BY_ID and CAIRN_MERGE_BY_GEOMETRY",
+    throw Error(ErrorCode::argument, "options.association = %d must be CAIRN_MERGE_BY_ID or CAIRN_MERGE_BY_GEOMETRY",
                 static_cast<int>(o.association));
   options.by_geometry = o.association == CAIRN_MERGE_BY_GEOMETRY;
   check_probability(o.gate_probability, "options.gate_probability");
@@ -119,10 +117,10 @@ cairn_status cairn_map_merge(cairn_map* map, const cairn_map* other, const cairn
     MergeReport found;
     cairn_merge_report out = report_of(found, checked);
     if (report != nullptr) write_report(out, report);
-    if (map == other) throw Error(ErrorCode::argument, "other is the map itself");
+    if (map == other) throw Error(ErrorCode::argument, "other is the same map as map; merge two different maps");
     if (target.owned == nullptr)
-      throw Error(ErrorCode::state, "map: a filter owns it; merge into a copy of it (cairn_map_copy)");
-    const auto tell = [&] {
+      throw Error(ErrorCode::state, "map belongs to a filter; merge into a copy of the map (cairn_map_copy)");
+    const auto write_found = [&] {
       if (report == nullptr) return;
       out = report_of(found, checked);
       write_report(out, report);
@@ -131,10 +129,10 @@ cairn_status cairn_map_merge(cairn_map* map, const cairn_map* other, const cairn
     try {
       merged = std::make_unique<OwnedMap>(*target.owned, *source.landmarks, origins_of(source), checked, found);
     } catch (const Error&) {
-      tell();
+      write_found();
       throw;
     }
-    tell();
+    write_found();
     map->landmarks = merged->landmarks.get();
     map->owned = std::move(merged);
   });

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The C structs of cairn/motion.h: defaults and checks of wheels and twist noise.
 #include "motion/motion.hpp"
 
 #include "capi/convert.hpp"
@@ -38,7 +39,8 @@ cairn_twist_noise default_twist_noise() {
 Wheels read_wheels(const cairn_wheels* user) {
   const cairn_wheels w = read_options(user, default_wheels(), "wheels");
   if (w.yaw_sign != CAIRN_YAW_RIGHT_MINUS_LEFT && w.yaw_sign != CAIRN_YAW_LEFT_MINUS_RIGHT)
-    throw Error(ErrorCode::argument, "wheels.yaw_sign is %d, none of the CAIRN_YAW_ constants", w.yaw_sign);
+    throw Error(ErrorCode::argument, "wheels.yaw_sign = %d is none of the CAIRN_YAW_ constants; use one of them",
+                w.yaw_sign);
   check_positive(w.radius, "wheels.radius");
   check_positive(w.track, "wheels.track");
   check_not_negative(w.rate_sigma, "wheels.rate_sigma");

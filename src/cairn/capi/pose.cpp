@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The C functions of cairn/pose.h.
 #include "capi/guard.hpp"
 #include "geometry/euler.hpp"
 

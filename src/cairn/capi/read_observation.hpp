@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Observations and decisions as they cross the boundary.
+// Conversion of observations and matches at the C boundary.
 #pragma once
 
 #include "capi/guard.hpp"
@@ -7,7 +7,7 @@
 namespace cairn {
 namespace capi {
 
-// Every field checked; `named`: its id counts.
+// Reads observation `number` of `array` and checks every field. The id is read only if `named`.
 void read_observation(const cairn_observation& from, const char* array, std::size_t number, std::size_t rows,
                       bool named, Observation& to);
 void write_match(const Match& match, cairn_match* out);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The C structs of cairn/sensor.h: defaults and checks of all sensors, and cairn_custom_check.
 #include <cstddef>
 
 #include "capi/convert.hpp"
@@ -78,7 +79,8 @@ cairn_custom default_custom() {
 StereoHead read_stereo_head(const cairn_stereo_head* user) {
   const cairn_stereo_head h = read_options(user, default_stereo_head(), "head");
   if (h.encoder_mode != CAIRN_ENCODER_PER_OBSERVATION && h.encoder_mode != CAIRN_ENCODER_PER_FRAME)
-    throw Error(ErrorCode::argument, "head.encoder_mode is %d, none of the CAIRN_ENCODER_ constants", h.encoder_mode);
+    throw Error(ErrorCode::argument, "head.encoder_mode = %d is none of the CAIRN_ENCODER_ constants; use one of them",
+                h.encoder_mode);
   check_finite(h.platform, 3, "head.platform");
   check_finite(h.stick, 3, "head.stick");
   check_positive(h.range_sigma, "head.range_sigma");
@@ -149,7 +151,7 @@ Cartesian<Pose> read_cartesian(const cairn_cartesian* user) {
 template Cartesian<SE2> read_cartesian<SE2>(const cairn_cartesian*);
 template Cartesian<SE3> read_cartesian<SE3>(const cairn_cartesian*);
 
-// The core hands the caller's functions a pose as seven doubles: a cairn_pose, to the byte.
+// The core passes a pose to the caller's functions as seven doubles with the memory layout of cairn_pose.
 static_assert(sizeof(cairn_pose) == 7 * sizeof(double) && offsetof(cairn_pose, quaternion) == 3 * sizeof(double),
               "position, then quaternion w x y z");
 
@@ -161,9 +163,10 @@ CustomSensor<Pose> read_custom(const cairn_custom* user) {
     throw Error(ErrorCode::argument, "custom.rows must lie in [1, %u], and is %u", kDim, c.rows);
   if (c.predict == nullptr) throw Error(ErrorCode::argument, "custom.predict is NULL; a sensor must predict");
   if (c.angle_mask >> c.rows != 0)
-    throw Error(ErrorCode::argument, "custom.angle_mask names values beyond custom.rows = %u", c.rows);
+    throw Error(ErrorCode::argument, "custom.angle_mask = %u has bits beyond custom.rows = %u", c.angle_mask, c.rows);
   if (c.place != nullptr && c.rows < kDim)
-    throw Error(ErrorCode::argument, "custom.place is set, and %u values place no landmark; leave it NULL", c.rows);
+    throw Error(ErrorCode::argument, "custom.place is set, but %u values cannot place a landmark; leave it NULL",
+                c.rows);
   if (c.relative > 1) throw Error(ErrorCode::argument, "custom.relative must be 0 or 1, and is %u", c.relative);
   check_positive(c.sigma, c.rows, "custom.sigma");
   CustomParameters parameters;
@@ -217,7 +220,9 @@ cairn_status cairn_custom_check(const cairn_custom* custom, const cairn_pose* po
     check_pointer(worst, "worst");
     double found = 0.0;
     if (!check_custom(sensor, T, Vector3(landmark), found))
-      throw Error(ErrorCode::argument, "landmark: the sensor refuses it, or a point beside it, from this pose");
+      throw Error(
+          ErrorCode::argument,
+          "landmark: the sensor refuses this point, or a point next to it, at this pose; choose a point that it sees");
     *worst = found;
   });
 }

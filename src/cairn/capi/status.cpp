@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The C functions of cairn/status.h, and the check of covariances.
 #include <cmath>
 
 #include "capi/guard.hpp"

@@ -1,96 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Teams.
-#include "team/team.hpp"
-
 #include "capi/convert.hpp"
 #include "capi/filter_handle.hpp"
 #include "capi/read_observation.hpp"
+#include "capi/team_handle.hpp"
 
 using namespace cairn;
 using namespace cairn::capi;
-
-struct cairn_team {
-  explicit cairn_team(const TeamOptions& options)
-      : team(options), number(next_filter_number()), map{&team.filter().landmarks(), number, nullptr} {}
-  Team team;
-  std::uint64_t number;
-  cairn_map map;
-};
 
 namespace cairn {
 namespace capi {
 namespace {
 
-Team& read_team(cairn_team* team) {
+cairn_team& read_handle(cairn_team* team) {
   check_pointer(team, "team");
-  return team->team;
+  return *team;
+}
+Team& read_team(cairn_team* team) {
+  return read_handle(team).team;
 }
 const Team& read_team(const cairn_team* team) {
   check_pointer(team, "team");
   return team->team;
-}
-
-cairn_team_options default_options() {
-  const TeamOptions d;
-  cairn_team_options options = {};
-  options.struct_size = sizeof options;
-  options.mode = CAIRN_TEAM_JOINT;
-  options.max_vehicles = static_cast<std::uint32_t>(d.max_vehicles);
-  options.max_lag = d.max_lag;
-  options.time_tolerance = d.time_tolerance;
-  options.max_waiting = static_cast<std::uint32_t>(d.max_waiting);
-  options.history = static_cast<std::uint32_t>(d.history);
-  return options;
-}
-
-TeamMode read_mode(std::int32_t mode) {
-  switch (mode) {
-    case CAIRN_TEAM_MONO:
-      return TeamMode::mono;
-    case CAIRN_TEAM_EO_DIAGONAL:
-      return TeamMode::eo_diagonal;
-    case CAIRN_TEAM_EO_FULL:
-      return TeamMode::eo_full;
-    case CAIRN_TEAM_JOINT:
-      return TeamMode::joint;
-    case CAIRN_TEAM_SUBMAPS:
-      return TeamMode::submaps;
-    default:
-      throw Error(ErrorCode::argument, "options.mode is %d, none of the CAIRN_TEAM_ constants", mode);
-  }
-}
-
-TeamOptions read_team_options(const cairn_team_options* user, const cairn_filter_options* filter,
-                              const cairn_range_bearing* radar) {
-  const cairn_team_options o = read_options(user, default_options(), "options");
-  TeamOptions options;
-  options.mode = read_mode(o.mode);
-  if (o.vehicle == CAIRN_ID_NONE) throw Error(ErrorCode::argument, "options.vehicle is CAIRN_ID_NONE");
-  if (o.baseline > 1) throw Error(ErrorCode::argument, "options.baseline must be 0 or 1, and is %u", o.baseline);
-  check_range(o.max_vehicles, 1, 256, "options.max_vehicles");
-  check_positive(o.max_lag, "options.max_lag");
-  check_not_negative(o.time_tolerance, "options.time_tolerance");
-  check_range(o.max_waiting, 1, 1000000, "options.max_waiting");
-  check_range(o.history, 1, 1000000, "options.history");
-  options.vehicle = o.vehicle;
-  options.max_vehicles = o.max_vehicles;
-  options.baseline = o.baseline != 0;
-  options.max_lag = o.max_lag;
-  options.time_tolerance = o.time_tolerance;
-  options.max_waiting = o.max_waiting;
-  options.history = o.history;
-  const auto filter_options = read_filter_options(filter);
-  const auto* planar = std::get_if<FilterOptions<SE2>>(&filter_options);
-  if (planar == nullptr)
-    throw Error(ErrorCode::argument, "filter: its vehicle is spatial; a team's is CAIRN_VEHICLE_PLANAR");
-  options.filter = *planar;
-  options.filter.max_sensors = 2;
-  options.radar = read_range_bearing(radar);
-  const bool extended = options.mode == TeamMode::eo_diagonal || options.mode == TeamMode::eo_full;
-  const SE2& mount = options.radar.T_body_sensor;
-  if (extended && (!mount.translation().isZero(0.0) || mount.rotation().angle() != 0.0))
-    throw Error(ErrorCode::argument, "radar.T_body_sensor: extended observations want the radar at the body's origin");
-  return options;
 }
 
 std::vector<Observation> read_observations(const cairn_observation* observations, std::size_t count, bool named,
@@ -105,6 +36,12 @@ std::vector<Observation> read_observations(const cairn_observation* observations
     if (!named) out[i].id = kNoId;  // nobody is told
   }
   return out;
+}
+
+// The comparison filter makes every motion that the team took.
+void propagate(cairn_team& handle, const Increment<SE2>& increment) {
+  handle.team.propagate(increment);
+  if (handle.baseline) handle.baseline->propagate(increment);
 }
 
 std::int32_t result_of(Arrival arrival, PacketFault fault) {
@@ -154,16 +91,13 @@ std::int32_t result_of(Arrival arrival, PacketFault fault) {
 
 extern "C" {
 
-cairn_status cairn_team_options_init(cairn_team_options* options, size_t struct_size) {
-  return guard([&] { init_options(options, struct_size, capi::default_options(), "options"); });
-}
-
 cairn_status cairn_team_create(const cairn_team_options* options, const cairn_filter_options* filter,
                                const cairn_range_bearing* radar, cairn_team** team) {
   return guard([&] {
-    const TeamOptions checked = read_team_options(options, filter, radar);
+    const cairn_team_options own = read_team_options(options);
+    const TeamOptions checked = team_options(own, filter, radar);
     check_pointer(team, "team");
-    *team = new cairn_team(checked);
+    *team = new cairn_team(checked, own.baseline != 0);
   });
 }
 
@@ -196,46 +130,50 @@ cairn_status cairn_team_members(const cairn_team* team, uint64_t* vehicles, size
 cairn_status cairn_team_predict_increment(cairn_team* team, const cairn_pose* T_before_after,
                                           const double covariance[36]) {
   return guard([&] {
-    Team& t = read_team(team);
+    cairn_team& handle = read_handle(team);
     const SE2 pose = read_pose_of<SE2>(T_before_after, "T_before_after");
-    t.propagate({pose, read_pose_covariance<SE2>(covariance, "covariance")});
+    propagate(handle, {pose, read_pose_covariance<SE2>(covariance, "covariance")});
   });
 }
 
 cairn_status cairn_team_predict_twist(cairn_team* team, double dt, const double velocity[3], const double rate[3],
                                       const cairn_twist_noise* noise) {
   return guard([&] {
-    Team& t = read_team(team);
+    cairn_team& handle = read_handle(team);
     check_positive(dt, "dt");
     check_pointer(velocity, "velocity");
     check_finite(velocity, 3, "velocity");
     check_pointer(rate, "rate");
     check_finite(rate, 3, "rate");
     const TwistNoise sigma = noise != nullptr ? read_twist_noise(noise) : TwistNoise();
-    t.propagate(integrate_twist<SE2>(Vector3(velocity), Vector3(rate), dt, sigma));
+    propagate(handle, integrate_twist<SE2>(Vector3(velocity), Vector3(rate), dt, sigma));
   });
 }
 
 cairn_status cairn_team_observe(cairn_team* team, double time, const cairn_observation* landmarks,
                                 size_t landmark_count, const cairn_observation* vehicles, size_t vehicle_count) {
   return guard([&] {
-    Team& t = read_team(team);
+    cairn_team& handle = read_handle(team);
+    Team& t = handle.team;
     check_finite(time, "time");
     const bool named = t.options().filter.association == AssociationKind::known;
     const std::size_t most = static_cast<std::size_t>(t.options().filter.max_observations);
     if (landmark_count > most || vehicle_count > most - landmark_count)
       throw Error(ErrorCode::capacity, "count: %zu and %zu observations, and max_observations is %zu", landmark_count,
                   vehicle_count, most);
-    t.observe(time, read_observations(landmarks, landmark_count, named, "landmarks"),
-              read_observations(vehicles, vehicle_count, true, "vehicles"));
+    const std::vector<Observation> scan = read_observations(landmarks, landmark_count, named, "landmarks");
+    const std::optional<Error> refusal =
+        t.observe(time, scan, read_observations(vehicles, vehicle_count, true, "vehicles"));
+    if (handle.baseline) handle.baseline->observe(scan);
+    if (refusal) throw Error(*refusal);
   });
 }
 
 cairn_status cairn_team_decisions(const cairn_team* team, cairn_match* matches, size_t capacity, size_t* needed) {
   return guard([&] {
-    const std::vector<Match>& decisions = read_team(team).decisions();
-    if (!check_room(matches, capacity, decisions.size(), needed, "matches")) return;
-    for (std::size_t i = 0; i < decisions.size(); ++i) write_match(decisions[i], matches + i);
+    const std::vector<Match>& own = read_team(team).matches();
+    if (!check_room(matches, capacity, own.size(), needed, "matches")) return;
+    for (std::size_t i = 0; i < own.size(); ++i) write_match(own[i], matches + i);
   });
 }
 
@@ -270,8 +208,20 @@ cairn_status cairn_team_receive(cairn_team* team, const uint8_t* packet, size_t 
 cairn_status cairn_team_pose(const cairn_team* team, uint64_t vehicle, cairn_pose* pose, double covariance[36]) {
   return guard([&] {
     const Team& t = read_team(team);
-    const Team::Estimate now = t.estimate(vehicle);
+    const VehicleEstimate now = t.estimate(vehicle);
     write_estimate(now.pose, now.covariance, pose, covariance);
+  });
+}
+
+cairn_status cairn_team_pose_nees(const cairn_team* team, const cairn_pose* truth, double* nees) {
+  return guard([&] {
+    const Team& t = read_team(team);
+    const SE2 pose = read_pose_of<SE2>(truth, "truth");
+    check_pointer(nees, "nees");
+    const double value = t.pose_nees(pose);
+    if (!(value >= 0.0))
+      throw Error(ErrorCode::numerical, "pose covariance is singular: part of the pose is known exactly");
+    *nees = value;
   });
 }
 
@@ -281,50 +231,53 @@ const cairn_map* cairn_team_map(const cairn_team* team) {
 
 cairn_status cairn_team_score(cairn_team* team, const cairn_pose* truth) {
   return guard([&] {
-    Team& t = read_team(team);
-    t.score(read_pose_of<SE2>(truth, "truth"));
+    cairn_team& handle = read_handle(team);
+    const SE2 pose = read_pose_of<SE2>(truth, "truth");
+    handle.score.add(handle.team, handle.baseline ? &*handle.baseline : nullptr, pose);
   });
 }
 
 cairn_status cairn_team_last_report(const cairn_team* team, cairn_team_report* report) {
   return guard([&] {
     const Team& t = read_team(team);
-    const TeamCounts& c = t.counts();
-    const auto faulty = [&](PacketFault fault) { return c.faulty[static_cast<int>(fault)]; };
+    const MailCounts& mail = t.mail_counts();
+    const ScanCounts& scans = t.scan_counts();
+    const Score& score = team->score;
+    const auto faulty = [&](PacketFault fault) { return mail.faulty[static_cast<int>(fault)]; };
     cairn_team_report out = {};
     out.unsettled = static_cast<std::uint32_t>(t.unsettled());
-    out.sent = c.sent;
-    out.resent = c.resent;
-    out.requested = c.requested;
-    out.received = c.received;
-    out.taken = c.taken;
-    out.reordered = c.reordered;
-    out.repeated = c.repeated;
-    out.own = c.own;
-    out.ignored = c.ignored;
-    out.unknown = c.unknown;
-    out.past = c.past;
-    out.conflict = c.conflict;
-    out.full = c.full;
+    out.sent = mail.sent;
+    out.resent = mail.resent;
+    out.requested = mail.requested;
+    out.received = mail.received;
+    out.taken = mail.taken;
+    out.reordered = mail.reordered;
+    out.repeated = mail.repeated;
+    out.own = mail.own;
+    out.ignored = mail.ignored;
+    out.unknown = mail.unknown;
+    out.past = mail.past;
+    out.conflict = mail.conflict;
+    out.full = mail.full;
     out.foreign = faulty(PacketFault::foreign);
     out.version = faulty(PacketFault::version);
     out.cut = faulty(PacketFault::short_cut);
     out.corrupt = faulty(PacketFault::checksum);
     out.nonsense = faulty(PacketFault::content);
-    out.lost = c.lost;
-    out.matched = c.matched;
-    out.placed = c.placed;
-    out.rejected = c.rejected;
-    out.sightings_used = c.sightings_used;
-    out.sightings_refused = c.sightings_refused;
-    out.vehicles_found = c.vehicles_found;
-    out.failed = c.failed;
-    out.scored = t.scores().steps;
-    out.scored_nees = t.scores().nees_steps;
-    out.position_rmse = t.scores().position_rmse();
-    out.anees_per_dof = t.scores().anees_per_dof();
-    out.claimed_improvement = t.scores().claimed_improvement();
-    out.true_improvement = t.scores().true_improvement();
+    out.lost = mail.lost;
+    out.matched = scans.matched;
+    out.placed = scans.placed;
+    out.rejected = scans.rejected;
+    out.sightings_used = scans.sightings_used;
+    out.sightings_refused = scans.sightings_refused;
+    out.vehicles_found = scans.vehicles_found;
+    out.failed = scans.failed;
+    out.scored = score.steps();
+    out.scored_nees = score.nees_steps();
+    out.position_rmse = score.position_rmse();
+    out.anees_per_dof = score.anees_per_dof();
+    out.claimed_improvement = score.claimed_improvement();
+    out.true_improvement = score.true_improvement();
     write_report(out, report);
   });
 }

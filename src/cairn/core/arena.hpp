@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One block of memory, handed out piece by piece at creation. Run over a null base it only measures, so that what a
-// handle will take is known beforehand by the very code that takes it.
+// One block of memory that is handed out piece by piece when a handle is created. An arena without a block only
+// measures: the code that takes the memory also computes beforehand how much it needs.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class Arena {
   Arena() = default;
 
   explicit Arena(std::size_t bytes) : bytes_(bytes) {
-    // calloc: large blocks come as pages that are not committed before they are touched.
+    // The pages of a large calloc block are not committed before they are used.
     block_ = std::calloc(bytes + kAlignment, 1);
     if (block_ == nullptr) throw std::bad_alloc();
     const auto address = reinterpret_cast<std::uintptr_t>(block_);
@@ -28,7 +28,7 @@ class Arena {
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
-  // `count` objects of a trivial type, all bits zero; null while measuring.
+  // `count` objects of a trivial type with all bits zero. Null while measuring.
   template <class T>
   T* take(std::size_t count) {
     const std::size_t start = used_;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Chi-square distribution by the incomplete gamma function.
 #include "core/chi_square.hpp"
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// std::lgamma writes the global `signgam`, which is a data race; Stirling's series with a shift is as exact here.
+// Stirling's series with a shift (Abramowitz and Stegun 6.1.41, 6.1.15). std::lgamma writes the global `signgam`, which
+// is a data race.
 double log_gamma(double a) {
   double shift = 0.0;
   while (a < 12.0) shift -= std::log(a), a += 1.0;
@@ -25,8 +27,8 @@ double gamma_factor(double a, double x) {
   return std::exp(a * std::log(x) - x - log_gamma(a));
 }
 
-// Regularised lower incomplete gamma function P(a, x) by its power series (Abramowitz and Stegun 6.5.29), for x < a
-// + 1.
+// Regularised lower incomplete gamma function P(a, x) for x < a + 1, by its power series (Abramowitz and
+// Stegun 6.5.29).
 double gamma_series(double a, double x) {
   double term = 1.0 / a;
   double sum = term;
@@ -37,7 +39,8 @@ double gamma_series(double a, double x) {
   return sum * gamma_factor(a, x);
 }
 
-// Its complement Q(a, x) by the continued fraction (Abramowitz and Stegun 6.5.31), modified Lentz, for x >= a + 1.
+// Regularised upper incomplete gamma function Q(a, x) = 1 - P(a, x) for x >= a + 1, by its continued fraction
+// (Abramowitz and Stegun 6.5.31) with the modified Lentz method.
 double gamma_fraction(double a, double x) {
   constexpr double kTiny = 1e-300;
   double b = x + 1.0 - a;
@@ -59,7 +62,7 @@ double gamma_fraction(double a, double x) {
   return h * gamma_factor(a, x);
 }
 
-// P(X <= x) - probability, from whichever tail is the smaller: no digits are lost near 1.
+// P(X <= x) - probability, computed from the smaller tail, so that no digits are lost near 1.
 double excess(double dof, double x, double probability) {
   const double a = 0.5 * dof;
   const double half = 0.5 * x;
@@ -79,7 +82,7 @@ double chi_square_quantile(double dof, double probability) {
   double lower = 0.0;
   double upper = dof + 10.0;
   while (excess(dof, upper, probability) < 0.0) lower = upper, upper *= 2.0;
-  // Newton's steps, kept inside a bracket that bisection halves wherever they would leave it.
+  // Newton's method in a bracket. A step that would leave the bracket is replaced by bisection.
   double x = 0.5 * (lower + upper);
   for (int i = 0; i < 200; ++i) {
     const double off = excess(dof, x, probability);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The chi-square distribution.
 #pragma once
 
 namespace cairn {
 
-// P(X <= x) of a chi-square variable with `dof` > 0 degrees of freedom.
+// P(X <= x) of a chi-square variable X with `dof` > 0 degrees of freedom.
 double chi_square_cdf(double dof, double x);
 
-// The x with P(X <= x) = probability, in [0, 1]; infinity at 1.
+// The x with P(X <= x) = `probability`, which lies in [0, 1]. Infinity at 1.
 double chi_square_quantile(double dof, double probability);
 
 }  // namespace cairn

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one exception type of the library. It names the argument or the variable, the cause and the remedy in one line.
+// The only exception type of the library. Its text names the argument or variable, the cause and the remedy in one
+// line.
 #pragma once
 
 #include <cstdarg>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From landmark ids to slots: open addressing with linear probing over a fixed block, so that nothing allocates and
-// nothing rehashes. Deterministic: the same ids in the same order give the same table.
+// Hash table from landmark ids to slots: open addressing with linear probing in a fixed block. It never allocates and
+// never rehashes after construction. The same operations in the same order give the same table.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class IdTable {
     return kAbsent;
   }
 
-  // Inserts an id or moves one to another slot.
+  // Inserts an id, or changes the slot of an id.
   void set(std::uint64_t id, std::int32_t slot) {
     std::size_t i = home(id);
     while (slots_[i] != kAbsent && ids_[i] != id) i = (i + 1) & mask_;
@@ -44,7 +44,7 @@ class IdTable {
     std::size_t hole = home(id);
     while (slots_[hole] != kAbsent && ids_[hole] != id) hole = (hole + 1) & mask_;
     if (slots_[hole] == kAbsent) return;
-    // Close the gap: an entry moves back unless its home lies behind the hole.
+    // Close the gap: an entry moves into the hole unless its home lies behind the hole.
     for (std::size_t i = (hole + 1) & mask_; slots_[i] != kAbsent; i = (i + 1) & mask_) {
       if (((i - home(ids_[i])) & mask_) < ((i - hole) & mask_)) continue;
       ids_[hole] = ids_[i];
@@ -56,7 +56,7 @@ class IdTable {
 
  private:
   std::size_t home(std::uint64_t id) const {
-    id ^= id >> 33;  // finaliser of MurmurHash3: neighbouring ids spread over the table
+    id ^= id >> 33;  // finaliser of MurmurHash3 spreads neighbouring ids over the table
     id *= 0xff51afd7ed558ccdULL;
     id ^= id >> 33;
     id *= 0xc4ceb9fe1a85ec53ULL;

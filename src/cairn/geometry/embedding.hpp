@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plane z = 0 in space, turned about z alone: callers speak of space, planar vehicles count in the plane.
+// The plane z = 0 in space, with rotations about z only. The C interface is spatial; planar filters compute in the
+// plane.
 #pragma once
 
 #include <cmath>
@@ -9,7 +10,8 @@
 
 namespace cairn {
 
-// up() is exact; down() leaves out what the plane does not have. A pose's error is [dp; dtheta] in both.
+// up() goes from the plane to space and is exact. down() goes from space to the plane and drops the other components.
+// The error of a pose is [dp; dtheta] in both. A spatial pose needs no conversion.
 template <class Pose>
 struct Embedding;
 
@@ -24,15 +26,15 @@ struct Embedding<SE3> {
   static const Vector6& down(const Vector6& error) { return error; }
   static const Matrix3& down(const Matrix3& C) { return C; }
   static const Matrix6& down(const Matrix6& C) { return C; }
-  static constexpr int axis(int error) { return error; }  // of space's [dp; dtheta], of one of the pose's
-  // A Jacobian of up to three values by the pose's error, by a point; of a point by any.
+  static constexpr int axis(int error) { return error; }  // index in the spatial [dp; dtheta] of a component of Pose's
+  // Columns of a spatial Jacobian that Pose has: by the error of a pose, by a point.
   static const Matrix36& by_pose(const Matrix36& J) { return J; }
   static const Matrix3& by_point(const Matrix3& J) { return J; }
 };
 
 template <>
 struct Embedding<SE2> {
-  static constexpr int kAxes[3] = {0, 1, 5};  // of [dp; dtheta]
+  static constexpr int kAxes[3] = {0, 1, 5};  // x, y and yaw in the spatial [dp; dtheta]
   static constexpr int axis(int error) { return kAxes[error]; }
 
   static SE3 up(const SE2& T) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Roll, pitch and yaw at the border of the library; no state holds them.
+// Conversion from and to roll, pitch and yaw, for callers. No state of the library holds Euler angles.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,8 @@ inline SO3 from_euler(const Euler& angles) {
          SO3::exp(Vector3(angles.roll, 0, 0));
 }
 
-// Pitch lies in [-pi/2, pi/2]. At +-pi/2 roll and yaw turn about one axis and only their sum or difference is known:
-// roll is 0 there.
+// Pitch lies in [-pi/2, pi/2]. At +-pi/2 roll and yaw turn about the same axis, and only their sum or difference is
+// known: roll is set to 0 there.
 inline Euler to_euler(const SO3& rotation) {
   constexpr double kLocked = 1e-12;  // cos(pitch) below this is rounding
   const Matrix3 R = rotation.matrix();
@@ -27,8 +27,8 @@ inline Euler to_euler(const SO3& rotation) {
   Euler angles;
   angles.pitch = std::atan2(-R(2, 0), cos_pitch);
   angles.roll = cos_pitch < kLocked ? 0 : std::atan2(R(2, 1), R(2, 2));
-  // Yaw from R Rx(-roll) = Rz Ry, whose second column is (-sin, cos, 0): as accurate near the lock as anywhere, for it
-  // takes up what roll is off.
+  // Yaw follows from R Rx(-roll) = Rz Ry, whose second column is (-sin(yaw), cos(yaw), 0). This is accurate near
+  // +-pi/2 too, because yaw compensates the error of roll.
   const double c = std::cos(angles.roll), s = std::sin(angles.roll);
   angles.yaw = std::atan2(s * R(0, 2) - c * R(0, 1), c * R(1, 1) - s * R(1, 2));
   return angles;

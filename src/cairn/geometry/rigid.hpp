@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Poses of the plane and of space: one template over the group of rotations.
+// Poses in the plane and in space: one template over the rotation group.
 #pragma once
 
 #include "geometry/types.hpp"
 
 namespace cairn {
 
-// A pose T_a_b takes points from frame b to frame a: p_a = R p_b + t. Tangents are [rho; theta], translation first.
-// As members of the group: the ordinary error [dp; dtheta] of a pose is not the tangent of these functions; they agree
-// but for dp = xi_p + turn(t) xi_R.
+// A pose T_a_b takes points from frame b to frame a: p_a = R p_b + t. Tangents of the group are [rho; theta],
+// translation first. The ordinary error [dp; dtheta] of a pose is not such a tangent xi: dp = xi_p + turn(t) xi_R and
+// dtheta = xi_R to first order (docs/notation.md).
 template <class RotationGroup>
 class Rigid {
  public:
@@ -85,7 +85,7 @@ Rigid<Rotation> retract(const Rigid<Rotation>& pose, const typename Rigid<Rotati
   return Pose(Rotation::exp(dtheta) * pose.rotation(), pose.translation() + error.template head<Pose::kDim>());
 }
 
-// The ordinary error of an estimate: retract(estimate, pose_error(truth, estimate)) is the truth.
+// The ordinary error of `estimate`: retract(estimate, pose_error(truth, estimate)) is `truth`.
 template <class Rotation>
 typename Rigid<Rotation>::Tangent pose_error(const Rigid<Rotation>& truth, const Rigid<Rotation>& estimate) {
   typename Rigid<Rotation>::Tangent error;
@@ -103,7 +103,7 @@ struct ProductJacobians {
     by_b.template topLeftCorner<Pose::kDim, Pose::kDim>() = T_a.rotation().matrix();
     by_b.template bottomRightCorner<Pose::kTurn, Pose::kTurn>() = T_a.rotation().adjoint();
   }
-  // Of two errors that share nothing.
+  // Covariance of the product's error if the errors of the two factors are independent.
   typename Pose::Square covariance(const typename Pose::Square& P_a, const typename Pose::Square& P_b) const {
     const typename Pose::Square own = by_b * P_b * by_b.transpose();
     const typename Pose::Square lower = by_a * P_a * by_a.transpose() + own;

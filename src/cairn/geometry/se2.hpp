@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Poses in the plane.
 #pragma once
 
 #include "geometry/rigid.hpp"

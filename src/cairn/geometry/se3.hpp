@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Poses in space.
 #pragma once
 
 #include "geometry/rigid.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rotations of the plane, in the shape of SO3 so that one template serves both.
+// Rotations in the plane, with the interface of SO3, so that one template serves both.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace cairn {
 
-// A rotation, held as the unit vector (cos, sin). Its tangent is the angle, anticlockwise positive.
+// A rotation, stored as the unit vector (cos, sin). Its tangent is the angle, anticlockwise positive.
 class SO2 {
  public:
   static constexpr int kDim = 2, kTurn = 1;
@@ -22,7 +22,7 @@ class SO2 {
   SO2() : u_(1, 0) {}
 
   static SO2 from_angle(double angle) { return SO2(Vector2(std::cos(angle), std::sin(angle))); }
-  // Held as it is: of length 1.
+  // `u` must have length 1 and is stored unchanged.
   static SO2 from_unit(const Vector2& u) { return SO2(u); }
   static SO2 from_matrix(const Matrix2& R) { return SO2(R.col(0).normalized()); }
   static SO2 exp(const Vector1& theta) { return from_angle(theta[0]); }
@@ -37,7 +37,7 @@ class SO2 {
     return R;
   }
   SO2 inverse() const { return SO2(Vector2(u_.x(), -u_.y())); }
-  // Renormalises, so that a product of any length stays a rotation.
+  // Renormalises, so that a long product stays a rotation.
   SO2 operator*(const SO2& other) const { return SO2((*this * other.u_).normalized()); }
   Vector2 operator*(const Vector2& x) const {
     return Vector2(u_.x() * x.x() - u_.y() * x.y(), u_.y() * x.x() + u_.x() * x.y());
@@ -46,7 +46,7 @@ class SO2 {
   Vector1 adjoint(const Vector1& theta) const { return theta; }    // adjoint() theta
   double chord() const { return (u_ - Vector2::UnitX()).norm(); }  // 2 sin(angle / 2)
 
-  // Turns about one axis commute.
+  // Rotations about one axis commute.
   static Vector1 left_jacobian(const Vector1&) { return Vector1(1.0); }
   static Vector1 left_jacobian_inverse(const Vector1&) { return Vector1(1.0); }
 

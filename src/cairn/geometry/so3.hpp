@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rotations of space.
+// Rotations in space.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ inline Matrix3 hat(const Vector3& a) {
   return A;
 }
 
-// A rotation, held as a unit quaternion (Hamilton). Its tangent is the rotation vector, axis times angle.
+// A rotation, stored as a unit quaternion (Hamilton). Its tangent is the rotation vector, axis times angle.
 class SO3 {
  public:
   static constexpr int kDim = 3, kTurn = 3;
@@ -40,16 +40,17 @@ class SO3 {
 
   static SO3 exp(const Vector3& theta) {
     const double x = theta.squaredNorm();
-    // sin(theta / 2) / theta; below the bound the next term of the series, theta^4 / 3840, is under one rounding of 1/2
+    // s = sin(theta / 2) / theta. Below the bound the next term of the series, theta^4 / 3840, is less than the
+    // rounding of 1/2.
     const double angle = std::sqrt(x);
     const double s = x < 1e-8 ? 0.5 - x / 48 : std::sin(0.5 * angle) / angle;
     return SO3(Eigen::Quaterniond(std::cos(0.5 * angle), s * theta.x(), s * theta.y(), s * theta.z()));
   }
 
-  // Of length at most pi. From the quaternion, so that half turns need no case of their own.
+  // Rotation vector of length at most pi. It is computed from the quaternion, so that half turns need no special case.
   Vector3 log() const {
     const double sine = q_.vec().norm(), cosine = q_.w();
-    // q and -q are one rotation: take the shorter way round.
+    // q and -q are the same rotation: take the one with the smaller angle.
     const double sign = cosine < 0 ? -1 : 1;
     if (sine < 1e-10) return (2 * sign) * q_.vec();
     return (2 * sign * std::atan2(sine, std::abs(cosine)) / sine) * q_.vec();
@@ -58,7 +59,7 @@ class SO3 {
   Matrix3 matrix() const { return q_.toRotationMatrix(); }
   const Eigen::Quaterniond& quaternion() const { return q_; }
   SO3 inverse() const { return SO3(q_.conjugate()); }
-  // Renormalises, so that a product of any length stays a rotation.
+  // Renormalises, so that a long product stays a rotation.
   SO3 operator*(const SO3& other) const { return SO3((q_ * other.q_).normalized()); }
   Vector3 operator*(const Vector3& x) const { return q_ * x; }
   Matrix3 adjoint() const { return matrix(); }

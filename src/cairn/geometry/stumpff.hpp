@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The functions of an angle that every exponential, logarithm and Jacobian of a rotation is made of.
+// Functions of an angle from which the exponential, the logarithm and the Jacobians of rotations are computed.
 #pragma once
 
 #include <cmath>
 
 namespace cairn {
 
-// Stumpff functions c_k(x) = sum_j (-x)^j / (2j + k)! of x = theta^2: smooth in x, no division by the angle is left to
-// the caller. c0 = cos, c1 = sin / theta, c2 = (1 - cos) / theta^2, c3 = (theta - sin) / theta^3, and so on, by
-// c_k = 1/k! - x c_{k+2}. The trigonometric form loses digits by cancellation for small x, the series doesn't.
+// Stumpff functions c_k(x) = sum_j (-x)^j / (2j + k)! of x = theta^2. They are smooth in x, so the caller never divides
+// by the angle. c0 = cos, c1 = sin / theta, c2 = (1 - cos) / theta^2, c3 = (theta - sin) / theta^3, and in general c_k
+// = 1/k! - x c_{k+2}. For small x the trigonometric form loses digits by cancellation, and the series is used.
 struct Stumpff {
   double c0, c1, c2, c3, c4, c5;
 
   explicit Stumpff(double x) {
     if (x < 1.0) {
-      // Horner, eight terms: the first one left out is below 1e-18 of the sum at x = 1.
+      // Eight terms by Horner's rule. At x = 1 the first omitted term is below 1e-18 of the sum.
       c4 = (1 - x / 30 * (1 - x / 56 * (1 - x / 90 * (1 - x / 132 * (1 - x / 182 * (1 - x / 240 * (1 - x / 306))))))) /
            24;
       c5 = (1 - x / 42 * (1 - x / 72 * (1 - x / 110 * (1 - x / 156 * (1 - x / 210 * (1 - x / 272 * (1 - x / 342))))))) /

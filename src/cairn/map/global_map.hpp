@@ -45,8 +45,8 @@ struct MapOptions {
   typename Pose::Square initial_covariance = Pose::Square::Zero();  // ordinary
 };
 
-// One change of a map, all or nothing: a transaction that is destroyed without commit() leaves the map as it was. So
-// does one whose call threw; it takes no further call. A map has one transaction at a time, and changes by it only.
+// One change of a map, all or nothing: a transaction that is destroyed without commit() leaves the map as it was. After
+// a call that throws, it can only be destroyed. A map has one transaction at a time, and answers queries only after it.
 template <class Pose>
 class MapTransaction {
  public:
@@ -66,7 +66,7 @@ class GlobalMap : public Landmarks {
   bool planar() const final { return Pose::kDim == 2; }
 
   virtual std::unique_ptr<MapTransaction<Pose>> begin() = 0;
-  // Transactions of one call.
+  // A transaction with one step.
   JoinReport join(const Submap<Pose>& submap) {
     const auto transaction = begin();
     transaction->join(submap);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every map can tell of its landmarks, whoever holds them; and the queries that follow from it.
+// The interface of everything that holds landmarks: filters and maps; and the queries that need nothing else.
 #pragma once
 
 #include <cstddef>
@@ -29,19 +29,19 @@ class Landmarks {
   virtual bool find(std::uint64_t id, std::size_t& index) const = 0;
   // Joint covariance of `count` positions, 3 count x 3 count.
   virtual void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const = 0;
-  // The covariances of these will be asked for: computed together where that is cheaper.
+  // Announces that the covariances of these will be asked for: a map computes them together where that is cheaper.
   virtual void prepare_covariances(const std::vector<std::size_t>&) const {}
-  // Where the landmarks are, by index; null: small enough to look at all.
+  // An index of the positions, by landmark index. Null where queries look at all landmarks.
   virtual const SpatialIndex* spatial_index() const { return nullptr; }
-  // All of them stand at z = 0 and know nothing else.
+  // Whether all landmarks are points of the plane: z = 0, with no covariance in z.
   virtual bool planar() const { return false; }
   virtual MapKind kind() const { return MapKind::dense; }
   // A map of its own with these landmarks: the same map where it can be copied whole (SparseMap), else DenseLandmarks.
   virtual std::unique_ptr<Landmarks> copy() const;
 };
 
-// Of a joint covariance with a pose before `count` landmarks, kDof + kDim count on a side: the same in space, 6 + 3
-// count on a side; and the landmarks' part of that.
+// Convert a joint covariance of a pose and `count` landmarks, kDof + kDim count on a side: to that in space, 6 + 3
+// count on a side; and to the landmarks' part of that.
 template <class Pose>
 void with_pose(const double* joint, std::size_t count, double* matrix);
 template <class Pose>

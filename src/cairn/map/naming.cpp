@@ -87,7 +87,7 @@ class Naming final : public Innovations {
     Prediction<Pose> prediction;  // as a point seen from the base
   };
 
-  // Of up to three values, as doubts want them: in the plane the last one is nothing.
+  // Three values, as class Doubt takes them: in the plane the last one is zero.
   Vector3 seen(std::size_t i) const { return Space::up(submap_.landmarks[i]); }
   Vector3 residual(const PairCandidate& pair) const {
     return seen(static_cast<std::size_t>(pair.observation)) - known_[pair.landmark].prediction.z;
@@ -100,8 +100,8 @@ class Naming final : public Innovations {
     return image_covariance(P_, known_[k].prediction, k, known_[l].prediction, l);
   }
 
-  // Landmarks of the map that those of the submap may be, and their joint covariance with the base. What the map knew
-  // before the base is known no worse than the base as a rule: the base's uncertainty counts for both.
+  // Finds the map's landmarks that those of the submap may be, and their joint covariance with the base. As a rule the
+  // map's landmarks are no less certain than the base: the search radius counts the base's uncertainty for both.
   void find_known() {
     const Pose T = map_.base();
     const typename Pose::Square P = map_.base_covariance();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of the map's landmarks those of a submap are, where observations bring no names (docs/association.md).
+// Association of a submap's landmarks with the map's, where observations bring no ids (docs/association.md).
 #pragma once
 
 #include "map/global_map.hpp"
@@ -9,7 +9,7 @@ namespace cairn {
 struct NamingOptions {
   bool joint = true;  // or nearest neighbour
   Index nodes = 2000;
-  Index support = 3;  // doubtful pairs that are taken together
+  Index support = 3;  // fewer doubtful pairs than this are dropped together
   double gate_probability = 0.99, joint_gate_probability = 0.9999, new_probability = 0.9999;
 };
 
@@ -19,9 +19,9 @@ struct NamingReport {
   bool exhausted = false;
 };
 
-// Landmarks of the submap that the map knows get its ids for them; those that are near one of the map's and found no
-// pair are taken out of the submap; all others keep theirs, which the map may not have. The submap began at the map's
-// base.
+// A landmark of the submap that is paired with one of the map's gets its id. One without a pair that is near a landmark
+// of the map is ambiguous, and is removed from the submap. All others keep their ids, which the map must not hold. The
+// submap began at the map's base.
 template <class Pose>
 NamingReport name_landmarks(const GlobalMap<Pose>& map, const NamingOptions& options, Submap<Pose>& submap);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map that belongs to no filter: dense or sparse, and whose data it holds.
+// A map that belongs to no filter: dense or sparse, and the filters whose landmarks it holds.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@
 namespace cairn {
 
 struct OwnedMap {
-  // A copy of whatever holds the landmarks; `origins` are the filters that made them.
+  // Copies the landmarks; `origins` are the filters that made them.
   OwnedMap(const Landmarks& source, std::vector<std::uint64_t> origins_of_source);
-  // Both as one, in the frame of `map`. Throws where they do not merge, as maps of the plane never do; `report` then
-  // tells how far it got.
+  // Merges two maps, in the frame of `map`. Throws where they do not merge, which maps of the plane never do; `report`
+  // then tells how far it got.
   OwnedMap(const OwnedMap& map, const Landmarks& other, const std::vector<std::uint64_t>& origins_of_other,
            const MergeOptions& options, MergeReport& report);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Motion by a measured twist and by wheel rates.
 #include "motion/motion.hpp"
 
 #include "geometry/embedding.hpp"
@@ -17,7 +18,7 @@ Increment<Pose> integrate_twist(const Vector3& v, const Vector3& w, double dt, c
 template <class Pose>
 Increment<Pose> drive_wheels(const Wheels& wheels, double left, double right, double dt) {
   using Matrix62 = Eigen::Matrix<double, 6, 2>;
-  // (Mars paper, eq. 1), with the sign of the yaw rate made explicit
+  // (Mars paper, eq. 1) with an explicit sign of the yaw rate
   const double yaw = (wheels.yaw_left_minus_right ? -1 : 1) * wheels.radius / wheels.track;
   Matrix62 J_twist_rates = Matrix62::Zero();
   J_twist_rates.row(0).setConstant(0.5 * wheels.radius);
@@ -26,7 +27,7 @@ Increment<Pose> drive_wheels(const Wheels& wheels, double left, double right, do
   const Vector2 rates(left, right);
   const Vector2 rate_variance = Vector2::Constant(wheels.rate_sigma * wheels.rate_sigma) +
                                 wheels.slip_sigma * wheels.slip_sigma * rates.cwiseAbs2();
-  // Wheels measure the forward velocity and the yaw rate; the other axes are known to be about zero.
+  // Wheels measure the forward velocity and the yaw rate. The other components are about zero.
   Vector6 sigma;
   sigma << 0, wheels.lateral_sigma, wheels.vertical_sigma, wheels.roll_rate_sigma, wheels.pitch_rate_sigma, 0;
   Matrix6 noise = sigma.cwiseAbs2().asDiagonal();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motion models: how far a vehicle has come in one step, in its own frame, and how uncertain that is.
+// Motion models: the motion of a vehicle in one step, in the vehicle's own frame, and its covariance.
 #pragma once
 
 #include "geometry/se2.hpp"
@@ -8,8 +8,9 @@
 
 namespace cairn {
 
-// Motion from the body before a step to the body after it. `covariance` is that of its ordinary error [dp; dtheta]:
-// true p = d + dp, true R = Exp(dtheta) R, both in the axes of the body before.
+// Motion from the body frame before a step to the body frame after it. `covariance` is the covariance of its ordinary
+// error [dp; dtheta]: the true position is p + dp and the true rotation
+// Exp(dtheta) R, both in the axes of the body before the step.
 template <class Pose>
 struct Increment {
   Pose T_before_after;
@@ -17,14 +18,14 @@ struct Increment {
 };
 
 // Constant twist [v; w] in body axes for dt seconds, integrated on the group: Exp([v; w] dt) (Mars paper, eq. 2,
-// without its Euler angles). `noise` is the covariance of the measured twist, a white sample per step.
+// without its Euler angles). `noise` is the covariance of the measured twist: one white sample for each step.
 template <class Pose>
 Increment<Pose> integrate_twist(const typename Pose::Tangent& twist, double dt, const typename Pose::Square& noise) {
   const typename Pose::Tangent tau = twist * dt;
   Increment<Pose> step;
   step.T_before_after = Pose::exp(tau);
-  // Exp(tau + n dt) = Exp(xi) Exp(tau) with xi = J_l(tau) n dt; of the ordinary error dtheta = xi_R and
-  // dp = xi_p + xi_R x d.
+  // Exp(tau + n dt) = Exp(xi) Exp(tau) with xi = J_l(tau) n dt. The ordinary error is dtheta = xi_R and
+  // dp = xi_p + xi_R x p (docs/notation.md).
   typename Pose::Square J_error_twist = Pose::left_jacobian(tau) * dt;
   J_error_twist.template topRows<Pose::kDim>() +=
       Pose::Rotation::turn(step.T_before_after.translation()) * J_error_twist.template bottomRows<Pose::kTurn>();
@@ -33,30 +34,30 @@ Increment<Pose> integrate_twist(const typename Pose::Tangent& twist, double dt, 
   return step;
 }
 
-// Noise of a measured body velocity and body rate, standard deviations per sample and axis.
+// Noise of a measured body velocity and body rate: standard deviations of each sample and axis.
 struct TwistNoise {
   Vector3 velocity_sigma = Vector3::Constant(0.05);  // m/s
   Vector3 rate_sigma = Vector3::Constant(0.005);     // rad/s
 };
 
-// v in m/s, w in rad/s, body axes. In the plane v_x, v_y and w_z count.
+// v in m/s, w in rad/s, body axes. In the plane only v_x, v_y and w_z are used.
 template <class Pose>
 Increment<Pose> integrate_twist(const Vector3& v, const Vector3& w, double dt, const TwistNoise& noise);
 
-// Four-wheel differential drive, the wheels of a side turning at one rate.
+// Four-wheel differential drive. Both wheels of a side turn at the same rate.
 struct Wheels {
-  bool yaw_left_minus_right = false;  // z down, as the Mars paper prints eq. 1; otherwise z up
+  bool yaw_left_minus_right = false;  // yaw rate of a z axis that points down, as in the Mars paper, eq. 1
   double radius = 0.3;                // m
-  double track = 1.0;                 // distance of left and right wheels, m
-  double rate_sigma = 0.01;           // of each side's rate, rad/s
-  double slip_sigma = 0.02;           // of each side's rate, in proportion to it
+  double track = 1.0;                 // distance between left and right wheels, m
+  double rate_sigma = 0.01;           // noise of the rate of each side, rad/s
+  double slip_sigma = 0.02;           // noise of the rate of each side, in proportion to the rate
   double lateral_sigma = 0.01;        // m/s
   double vertical_sigma = 0.01;       // m/s
   double roll_rate_sigma = 0.05;      // rad/s
   double pitch_rate_sigma = 0.05;     // rad/s
 };
 
-// Wheel rates in rad/s, forward positive. In the plane a vehicle that sits on two wheels (a unicycle) is one of these.
+// Wheel rates in rad/s, forward positive. A planar vehicle with two driven wheels (a unicycle) has the same model.
 template <class Pose>
 Increment<Pose> drive_wheels(const Wheels& wheels, double left, double right, double dt);
 

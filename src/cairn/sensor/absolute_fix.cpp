@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Residuals and Jacobians of absolute measurements (docs/sensors.md).
 #include "sensor/absolute_fix.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What tells where the body is in the map, or how it is turned there: GNSS, a star tracker, a compass.
+// Absolute measurements of the body's pose in the map: position (GNSS), attitude (star tracker), heading (compass).
 #pragma once
 
 #include "geometry/se2.hpp"
@@ -18,17 +18,18 @@ class AbsoluteFix {
 
   // z = p + R lever_arm
   static AbsoluteFix position(const Point& position, const PointSquare& covariance, const Point& lever_arm);
-  // `covariance` is that of dtheta in the map's axes: true R = Exp(dtheta) measured R.
+  // `covariance` is the covariance of dtheta in the axes of the map: true R = Exp(dtheta) measured R.
   static AbsoluteFix attitude(const Rotation& attitude, const typename Rotation::Jacobian& covariance);
   // Yaw of the body's x axis in the map.
   static AbsoluteFix heading(double heading, double sigma);
 
   int rows() const { return kind_ == Kind::heading ? 1 : kind_ == Kind::attitude ? Pose::kTurn : Pose::kDim; }
-  // Upper left rows() x rows() block.
+  // Only the upper left rows() x rows() block is used.
   const Matrix3& covariance() const { return covariance_; }
-  // False where the pose has no such value: a heading where the x axis stands within 5 degrees of the vertical.
+  // False if the measured value is not defined at this pose: a heading if the x axis of the body is within 5 degrees of
+  // the vertical.
   bool defined(const Pose& T_map_body) const;
-  // z - h and dh/[dp; dtheta]; the first rows() rows count.
+  // z - h and dh/d[dp; dtheta]. Only the first rows() rows are used.
   Vector3 residual(const Pose& T_map_body) const;
   ByPose jacobian(const Pose& T_map_body) const;
 

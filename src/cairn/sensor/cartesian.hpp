@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A sensor that measures points.
 #pragma once
 
 #include "sensor/sensor.hpp"
@@ -11,7 +12,7 @@ struct CartesianParameters {
   typename Pose::Point sigma = Pose::Point::Constant(0.1);  // m
 };
 
-// Any sensor that gives a point: z = (x, y, z), in the plane (x, y), of the landmark in the sensor's frame, m.
+// Any sensor that measures points: z = (x, y, z) of the landmark in the sensor's frame, m; in the plane (x, y).
 template <class Pose>
 class Cartesian final : public Sensor<Pose> {
  public:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Calls of the functions of a custom sensor, and the check of its Jacobians.
 #include "sensor/custom.hpp"
 
 #include <algorithm>
@@ -35,7 +36,8 @@ bool CustomSensor<Pose>::predict(const Pose& T_map_body, const Point& p_map, con
   const int n = rows();
   const std::array<double, 7> pose = pack(Embedding<Pose>::up(T_map_body));
   const Vector3 landmark = Embedding<Pose>::up(p_map);
-  // A value that the callback forgets is refused; of a Jacobian it may leave out the zeros.
+  // The callback must set every value of z (an unset value is NaN and is refused). It may leave out zeros of a
+  // Jacobian.
   double z[3] = {kUnset, kUnset, kUnset}, J_pose[18] = {}, J_landmark[9] = {};
   if (parameters_.predict(parameters_.user, pose.data(), landmark.data(), z, J_pose, J_landmark) != 0) return false;
   out = Prediction<Pose>();
@@ -85,7 +87,7 @@ template class CustomSensor<SE3>;
 
 namespace {
 
-// About the cube root of the rounding unit, where a central difference is most accurate.
+// Step of the central differences: about the cube root of the rounding unit, where they are most accurate.
 constexpr double kStep = 1e-5;
 
 // Largest difference of one column, relative to max(1, |numerical value|).
@@ -93,8 +95,8 @@ double difference(const Vector3& analytic, const Vector3& numerical) {
   return ((analytic - numerical).array().abs() / numerical.array().abs().max(1.0)).maxCoeff();
 }
 
-// Steps one coordinate up and down. Returns the distance that rounding leaves between the two, which is not quite twice
-// the step where the coordinate is large.
+// Moves one coordinate up and down by one step. Returns the distance between the two values. For a large coordinate
+// rounding makes it differ from two steps.
 template <class Vector>
 double step(const Vector& x, int i, Vector& above, Vector& below) {
   above = below = x;
@@ -103,7 +105,7 @@ double step(const Vector& x, int i, Vector& above, Vector& below) {
   return above[i] - below[i];
 }
 
-// The poses an error of one coordinate away on both sides, likewise.
+// The same for one component of the error of a pose.
 double step_pose(const SE3& T, int i, SE3& above, SE3& below) {
   const Vector6 error = kStep * Vector6::Unit(i);
   above = retract(T, error);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A sensor that the caller defines by functions.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +8,9 @@
 
 namespace cairn {
 
-// The caller's functions. `pose` is seven doubles: position (m), then the quaternion w x y z. Jacobians are row-major,
-// packed: rows x 6 and rows x 3 of the prediction, 3 x 6 and 3 x rows of the placement. 0 is success, anything else a
-// refusal.
+// The functions of the caller. `pose` is seven doubles: position (m), then the quaternion w x y z. Jacobians are packed
+// and row-major: rows x 6 and rows x 3 for a prediction, 3 x 6 and 3 x rows for a placement. A function returns 0 on
+// success and any other value if it refuses.
 using CustomPredict = std::int32_t (*)(void* user, const double* pose, const double* landmark, double* z,
                                        double* jacobian_pose, double* jacobian_landmark);
 using CustomPlace = std::int32_t (*)(void* user, const double* pose, const double* z, double* landmark,
@@ -18,15 +19,15 @@ using CustomPlace = std::int32_t (*)(void* user, const double* pose, const doubl
 struct CustomParameters {
   int rows = 3;                     // values of an observation, 1 to 3
   CustomPredict predict = nullptr;  // required
-  CustomPlace place = nullptr;      // none: the sensor places no landmarks
+  CustomPlace place = nullptr;      // null: the sensor places no landmarks
   void* user = nullptr;
   std::uint32_t angle_mask = 0;     // bit i: value i is an angle
-  bool relative = false;            // pose and landmark enter as R^T (l - p) alone
+  bool relative = false;            // z depends on pose and landmark only through R^T (l - p)
   Vector3 sigma = Vector3::Ones();  // of each value
 };
 
-// A sensor of the caller's own. What it returns is refused where it isn't finite. In the plane it speaks of space all
-// the same: of its Jacobians the columns of x, y and yaw count.
+// A sensor that the caller defines by functions. Results that are not finite are refused. The functions are spatial in
+// the plane too: a planar filter uses the columns x, y and yaw of their Jacobians.
 template <class Pose>
 class CustomSensor final : public Sensor<Pose> {
  public:
@@ -52,10 +53,10 @@ class CustomSensor final : public Sensor<Pose> {
 extern template class CustomSensor<SE2>;
 extern template class CustomSensor<SE3>;
 
-// Compares the sensor's Jacobians with central differences on the manifold at one pose and landmark, and, where the
-// sensor places landmarks, those of the placement at the predicted observation, and that placing leads back: to the
-// landmark, or, where fewer than three values can't tell where it lies, to the observation. `worst` is the largest
-// difference, relative to max(1, |numerical value|). False where the sensor refuses one of the points it is asked for.
+// Compares the Jacobians of the sensor with central differences on the manifold at one pose and landmark. If the sensor
+// places landmarks, the Jacobians of the placement are compared at the predicted observation, and placing must invert
+// predicting: it must give the landmark back, or, with fewer than three values, the observation. `worst` is the largest
+// difference, relative to max(1, |numerical value|). Returns false if the sensor refuses one of the points.
 bool check_custom(const CustomSensor<SE3>& sensor, const SE3& T_map_body, const Vector3& p_map, double& worst);
 
 }  // namespace cairn

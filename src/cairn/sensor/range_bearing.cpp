@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Range and bearing, and extended observations (docs/sensors.md, docs/team.md).
 #include "sensor/range_bearing.hpp"
 
 #include <cmath>
@@ -11,22 +12,22 @@ namespace {
 using ByPoint = Prediction<SE2>::ByLandmark;
 using ByObservation = Placement<SE2>::ByObservation;
 
-// u(alpha)
+// Unit vector u(bearing).
 Vector2 direction(double bearing) {
   return Vector2(std::cos(bearing), std::sin(bearing));
 }
 
-// Range and bearing of a point of the sensor's frame, and their Jacobian. False where it is too near.
+// Range and bearing of a point in the sensor's frame, and their Jacobian. Returns false if the point is too near.
 bool to_polar(const Vector2& y, double near_range, Vector3& z, ByPoint& J_z_y) {
   const double range = y.norm();
-  if (!(range >= near_range && std::isfinite(range))) return false;  // a NaN fails it
+  if (!(range >= near_range && std::isfinite(range))) return false;  // also refuses NaN
   z << range, std::atan2(y.y(), y.x()), 0.0;
   const Vector2 u = y / range;
   J_z_y << u.transpose(), SO2::turn(u).transpose() / range, Eigen::RowVector2d::Zero();
   return true;
 }
 
-// The point of the sensor's frame that gives z, and its Jacobian. False where it is too near.
+// The point in the sensor's frame that gives z, and its Jacobian. Returns false if the point is too near.
 bool from_polar(const Vector3& z, double near_range, Vector2& y, ByObservation& J_y_z) {
   if (!z.head<2>().allFinite() || z[0] < near_range) return false;
   const Vector2 u = direction(z[1]);
@@ -43,8 +44,8 @@ Matrix3 polar_noise(const RangeBearingParameters& parameters) {
   return Vector3(parameters.range_sigma, parameters.bearing_sigma, 1.0).cwiseAbs2().asDiagonal();
 }
 
-// How a point that stands `arm` from the teammate (in the own body's axes) moves with the sighting's errors: B_j of the
-// extended observation.
+// Jacobian of a point, fixed to the teammate at `arm` (in the own body axes), by the errors of the sighting: B_j of the
+// extended observation (docs/team.md).
 Eigen::Matrix<double, 2, 3> point_by_sighting(const MutualSighting& sighting, const Vector3& error,
                                               const Vector2& arm) {
   const Matrix3 J = mate_jacobian(sighting, error);
@@ -98,14 +99,15 @@ ExtendedObservation::ExtendedObservation(const RangeBearingParameters& radar, co
 
 bool ExtendedObservation::predict(const SE2& T_map_body, const Vector2& p_map, const Vector3& mount,
                                   Prediction<SE2>& out) const {
-  const SE2 T_body_mate = mate_in_body(sighting_, mount);
-  const Matrix2 R_mate_body = T_body_mate.rotation().inverse().matrix();
-  const Vector2 y = T_body_mate.inverse() * (T_map_body.inverse() * p_map);
+  const SE2 T_body_teammate = mate_in_body(sighting_, mount);
+  const Matrix2 R_teammate_body = T_body_teammate.rotation().inverse().matrix();
+  const Vector2 y = T_body_teammate.inverse() * (T_map_body.inverse() * p_map);
   ByPoint J_z_y;
   if (!to_polar(y, radar_.near_range, out.z, J_z_y)) return false;
-  map_jacobians(T_map_body, p_map, (J_z_y * R_mate_body).eval(), out);
-  // y = R(delta)^T (y_body - p_mate) falls behind by as much as a point fixed to the teammate goes ahead.
-  out.J_z_mount = -J_z_y * R_mate_body * point_by_sighting(sighting_, mount, T_body_mate.rotation() * y);
+  map_jacobians(T_map_body, p_map, (J_z_y * R_teammate_body).eval(), out);
+  // y = R(delta)^T (y_body - p_teammate) is the landmark in the teammate's frame. It moves against a point that is
+  // fixed to the teammate.
+  out.J_z_mount = -J_z_y * R_teammate_body * point_by_sighting(sighting_, mount, T_body_teammate.rotation() * y);
   return true;
 }
 
@@ -114,11 +116,11 @@ bool ExtendedObservation::place(const SE2& T_map_body, const Vector3& z, const V
   Vector2 y;
   ByObservation J_y_z;
   if (!from_polar(z, radar_.near_range, y, J_y_z)) return false;
-  const SE2 T_body_mate = mate_in_body(sighting_, mount);
-  const ByObservation J_body_z = T_body_mate.rotation().matrix() * J_y_z;
-  place_body_point(T_map_body, Vector2(T_body_mate * y), J_body_z, out);
+  const SE2 T_body_teammate = mate_in_body(sighting_, mount);
+  const ByObservation J_body_z = T_body_teammate.rotation().matrix() * J_y_z;
+  place_body_point(T_map_body, Vector2(T_body_teammate * y), J_body_z, out);
   out.J_landmark_mount =
-      T_map_body.rotation().matrix() * point_by_sighting(sighting_, mount, T_body_mate.rotation() * y);
+      T_map_body.rotation().matrix() * point_by_sighting(sighting_, mount, T_body_teammate.rotation() * y);
   return out.landmark.allFinite();
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Range and bearing in the plane, and extended observations through a teammate.
 #pragma once
 
 #include "sensor/sensor.hpp"
@@ -9,10 +10,10 @@ struct RangeBearingParameters {
   SE2 T_body_sensor;
   double range_sigma = 0.1;     // m
   double bearing_sigma = 0.01;  // rad
-  double near_range = 0.01;     // m, > 0: nearer there is hardly a bearing
+  double near_range = 0.01;     // m, > 0: a nearer point has no usable bearing
 };
 
-// Radar, lidar, sonar in the plane: z = (range, bearing) of the landmark in the sensor's frame, left positive.
+// Radar, lidar or sonar in the plane: z = (range, bearing) of the landmark in the sensor's frame, left positive.
 class RangeBearing final : public Sensor<SE2> {
  public:
   explicit RangeBearing(const RangeBearingParameters& parameters = {});
@@ -27,7 +28,7 @@ class RangeBearing final : public Sensor<SE2> {
   Matrix3 noise_;
 };
 
-// What the vehicles of a mutual sighting measured of each other.
+// A mutual sighting: two vehicles measured each other at the same time (cooperative paper, section 2.2).
 struct MutualSighting {
   double range = 0.0;    // r_0: from the own vehicle to the teammate, m
   double bearing = 0.0;  // theta_0: of the teammate as the own vehicle sees it, rad
@@ -35,16 +36,16 @@ struct MutualSighting {
   Matrix3 covariance = Matrix3::Zero();
 };
 
-// The teammate in the own body's frame, the sighting's values being off by `error` (zero, but for an iterate): it
-// stands at r_0 u(theta_0) and is turned by delta = theta_0 - theta_0' + pi.
+// Pose of the teammate in the own body frame: position r_0 u(theta_0), orientation delta = theta_0 - theta_0' + pi.
+// `error` is added to the values of the sighting; it is zero except while an update iterates.
 SE2 mate_in_body(const MutualSighting& sighting, const Vector3& error = Vector3::Zero());
-// Of its [dp; dtheta], in the own body's axes, by (r_0, theta_0, theta_0').
+// Jacobian of the teammate's [dp; dtheta] in the own body axes by (r_0, theta_0, theta_0').
 Matrix3 mate_jacobian(const MutualSighting& sighting, const Vector3& error = Vector3::Zero());
 
-// Extended observation: what a teammate's radar sees of the landmarks, told to the own vehicle through the sighting of
-// both (cooperative paper, section 2.2; docs/team.md). The teammate is the sensor's mount, and what the sighting has of
-// errors all observations of the frame have in common. With `shared` unset they count as each observation's own, which
-// is what the paper's diagonal R^e does.
+// Extended observation: the radar of a teammate observes landmarks for the own vehicle; the mutual sighting connects
+// both (cooperative paper, section 2.2; docs/team.md). The teammate is the mount of the sensor, and all observations of
+// the frame share the errors of the sighting. With `shared` = false every observation has its own independent errors,
+// which corresponds to the diagonal R^e of the paper.
 class ExtendedObservation final : public Sensor<SE2> {
  public:
   ExtendedObservation(const RangeBearingParameters& radar, const MutualSighting& sighting, bool shared);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the filter asks of a sensor that sees landmarks, in space or in the plane. A sensor has no state but its
-// calibration: value and Jacobians.
+// Interface between the filter and a sensor that observes landmarks, in space or in the plane. A sensor gives values
+// and Jacobians. It has no state except its calibration.
 #pragma once
 
 #include "geometry/se2.hpp"
@@ -9,12 +9,12 @@
 
 namespace cairn {
 
-// An observation has up to so many values, in space and in the plane: vectors and Jacobians have room for them, of
-// which the first rows() count.
+// The largest number of values of an observation, in space and in the plane. Vectors and Jacobians have room for all of
+// them; only the first rows() are used.
 constexpr int kMostRows = 3;
 
-// Errors of the mount that a frame's observations may have in common: a head's two angles; of a mount in the plane, how
-// far and whereto it stands, and how it is turned.
+// Number of errors of a sensor's mount, which the observations of a frame may share. In space: the two angles of a
+// stereo head. In the plane: range, bearing and orientation of the mount.
 template <class Pose>
 constexpr int kMountErrors = Pose::kDim == 3 ? 2 : 3;
 
@@ -23,8 +23,8 @@ using MountError = Eigen::Matrix<double, kMountErrors<Pose>, 1>;
 template <class Pose>
 using MountSquare = Eigen::Matrix<double, kMountErrors<Pose>, kMountErrors<Pose>>;
 
-// A sensor's prediction of one landmark. Pose columns are those of the ordinary error [dp; dtheta] in the map's axes
-// (docs/notation.md); mount columns those of the mount's error.
+// The predicted observation of one landmark. J_z_pose is the Jacobian by the ordinary error [dp; dtheta] in the axes of
+// the map (docs/notation.md), J_z_mount the Jacobian by the error of the mount.
 template <class Pose>
 struct Prediction {
   using ByPose = Eigen::Matrix<double, kMostRows, Pose::kDof>;
@@ -36,7 +36,7 @@ struct Prediction {
   ByMount J_z_mount = ByMount::Zero();
 };
 
-// The landmark that one observation places, and what it depends on.
+// The landmark that one observation places, and its Jacobians.
 template <class Pose>
 struct Placement {
   using ByPose = Eigen::Matrix<double, Pose::kDim, Pose::kDof>;
@@ -48,7 +48,7 @@ struct Placement {
   ByMount J_landmark_mount = ByMount::Zero();
 };
 
-// How the noise of the mount enters.
+// Whether the mount has noise, and whether its error is the same for all observations of a frame.
 enum class MountNoise { none, per_observation, per_frame };
 
 template <class Pose>
@@ -60,27 +60,29 @@ class Sensor {
   virtual ~Sensor() = default;
 
   virtual int rows() const { return Pose::kDim; }
-  // Pose and landmark enter as the body point y = R^T (l - p) alone.
+  // True if the observation depends on pose and landmark only through the point y = R^T (l - p) in the body frame.
   virtual bool relative() const { return true; }
-  // A value of which residual() is the plain difference; negative where there is none. Association sorts by it.
+  // Number of a value whose residual() is a plain difference, not a wrapped angle; negative if there is none.
+  // Association sorts observations by this value.
   virtual int plain_row() const { return 0; }
-  // Default noise of an observation; the upper left rows() x rows() block counts.
+  // Default noise of an observation. Only the upper left rows() x rows() block is used.
   virtual const Matrix3& noise() const = 0;
   virtual MountNoise mount_noise_mode() const { return MountNoise::none; }
   virtual MountSquare<Pose> mount_noise() const { return MountSquare<Pose>::Zero(); }
 
-  // False where the landmark gives no observation from there: behind the lens, too near, too steep.
-  // `mount` is the assumed error of the mount (zero but for an iterate of a per-frame mount).
+  // Returns false if the landmark cannot be observed from this pose: behind the lens, too near, too steep.
+  // `mount` is the assumed error of the mount. It is zero except while an update iterates over a per-frame mount error.
   virtual bool predict(const Pose& T_map_body, const Point& p_map, const Mount& mount, Prediction<Pose>& out) const = 0;
 
-  // False where the observation places no landmark.
+  // Returns false if the observation cannot place a landmark.
   virtual bool place(const Pose& T_map_body, const Vector3& z, const Mount& mount, Placement<Pose>& out) const = 0;
 
   // z - predicted, angles wrapped to (-pi, pi].
   virtual Vector3 residual(const Vector3& z, const Vector3& predicted) const { return z - predicted; }
 };
 
-// J_p P J_q^T for the images of two landmarks, number k and l in the joint covariance P of [pose; landmarks].
+// J_p P J_q^T: covariance between the predicted observations of two landmarks, which are number k and l in the joint
+// covariance P of [pose; landmarks].
 template <class Pose>
 Matrix3 image_covariance(const Eigen::Ref<const Eigen::MatrixXd>& P, const Prediction<Pose>& p, Eigen::Index k,
                          const Prediction<Pose>& q, Eigen::Index l) {
@@ -93,7 +95,7 @@ Matrix3 image_covariance(const Eigen::Ref<const Eigen::MatrixXd>& P, const Predi
   return by_pose * q.J_z_pose.transpose() + by_landmark * q.J_z_landmark.transpose();
 }
 
-// Chain rule for a sensor that sees the point y = R^T (l - p) of the body frame, given J_z_y at y.
+// Chain rule for a sensor that observes the point y = R^T (l - p) in the body frame, given J_z_y at y.
 template <class Pose>
 void map_jacobians(const Pose& T_map_body, const typename Pose::Point& p_map,
                    const typename Prediction<Pose>::ByLandmark& J_z_y, Prediction<Pose>& out) {
@@ -104,7 +106,7 @@ void map_jacobians(const Pose& T_map_body, const typename Pose::Point& p_map,
   out.J_z_pose.template rightCols<Pose::kTurn>() = -J_z_l * Pose::Rotation::turn(p_map - T_map_body.translation());
 }
 
-// The landmark l = p + R y of a body point y, given J_y_z.
+// The landmark l = p + R y of a point y in the body frame, given J_y_z.
 template <class Pose>
 void place_body_point(const Pose& T_map_body, const typename Pose::Point& y,
                       const typename Placement<Pose>::ByObservation& J_y_z, Placement<Pose>& out) {

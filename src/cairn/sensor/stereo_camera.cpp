@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Projection, triangulation and Jacobians of a rectified stereo camera (docs/sensors.md).
 #include "sensor/stereo_camera.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ bool StereoCamera::predict(const SE3& T_map_body, const Vector3& p_map, const Ve
   const Vector3 p_body = T_map_body.rotation().inverse() * (p_map - T_map_body.translation());
   const Vector3 p_camera = R_body_camera_.transpose() * (p_body - c.T_body_camera.translation());
   const double x = p_camera.x(), y = p_camera.y(), depth = p_camera.z();
-  if (!(depth >= c.near_depth)) return false;  // a NaN fails it too
+  if (!(depth >= c.near_depth)) return false;  // also refuses NaN
   const double ku = c.fu / depth, kv = c.fv / depth;
   out.z << ku * x + c.cu, ku * (x - c.baseline) + c.cu, kv * y + c.cv;
 
@@ -28,7 +29,7 @@ bool StereoCamera::predict(const SE3& T_map_body, const Vector3& p_map, const Ve
   J_z_camera.row(2) << 0, kv, -kv * y / depth;
   map_jacobians(T_map_body, p_map, J_z_camera * R_body_camera_.transpose(), out);
   out.J_z_mount.setZero();
-  return out.z.allFinite() && out.J_z_pose.allFinite();  // a far point far off the axis overflows
+  return out.z.allFinite() && out.J_z_pose.allFinite();  // a far point far off the axis can overflow
 }
 
 bool StereoCamera::place(const SE3& T_map_body, const Vector3& z, const Vector2&, Placement<SE3>& out) const {
@@ -36,10 +37,10 @@ bool StereoCamera::place(const SE3& T_map_body, const Vector3& z, const Vector2&
   const double disparity = z[0] - z[1];
   if (!z.allFinite() || disparity < least_disparity_) return false;
   const double depth = c.fu * c.baseline / disparity;
-  if (depth < c.near_depth) return false;  // a landmark there would have no image
+  if (depth < c.near_depth) return false;  // a landmark at this depth would have no image
   const Vector3 p_camera((z[0] - c.cu) * depth / c.fu, (z[2] - c.cv) * depth / c.fv, depth);
 
-  // The point scales with depth, and depth with 1 / disparity.
+  // The point is proportional to the depth, and the depth to 1 / disparity.
   Matrix3 J_camera_z;
   J_camera_z.col(0) = -p_camera / disparity;
   J_camera_z.col(1) = p_camera / disparity;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Kinematics and Jacobians of the stereo head (docs/stereo_head.md).
 #include "sensor/stereo_head.hpp"
 
 #include <cmath>
@@ -48,7 +49,7 @@ bool StereoHead::predict(const SE3& T_map_body, const Vector3& p_map, const Vect
   const SO3 R_camera_stick = parameters_.R_stick_camera.inverse();
   const Vector3 m_c = R_camera_stick * (m_stick - parameters_.stick);
 
-  // Comparisons that a NaN fails.
+  // These comparisons also refuse NaN.
   const double range = m_c.norm();
   if (!(range >= parameters_.near_range && std::isfinite(range))) return false;
   const double horizontal = m_c.head<2>().norm();
@@ -64,7 +65,7 @@ bool StereoHead::predict(const SE3& T_map_body, const Vector3& p_map, const Vect
   J_z_c.row(2) << -se * ca / range, -se * sa / range, ce / range;
   map_jacobians(T_map_body, p_map, J_z_c * axes.R_body_camera.transpose(), out);
 
-  // Rz(pan)^T turns a fixed point by -e_z x (.), Ry(stick)^T by -e_y x (.).
+  // The derivative of Rz(pan)^T is -e_z x (.), that of Ry(stick)^T is -e_y x (.).
   const Vector3 by_pan = axes.R_platform_stick.transpose() * Vector3(m_platform.y(), -m_platform.x(), 0);
   const Vector3 by_stick(-m_stick.z(), 0, m_stick.x());
   out.J_z_mount.col(0) = J_z_c * (R_camera_stick * by_pan);

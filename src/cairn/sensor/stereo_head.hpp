@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A stereo head on a pan and tilt mount.
 #pragma once
 
 #include "sensor/sensor.hpp"
@@ -7,26 +8,26 @@ namespace cairn {
 
 struct StereoHeadParameters {
   Vector3 platform = Vector3::Zero();           // d: pan axis in the body frame, m
-  Vector3 stick = Vector3::Zero();              // s: camera on the stick, in the turned platform's frame, m
+  Vector3 stick = Vector3::Zero();              // s: camera on the stick, in the frame of the turned platform, m
   SO3 R_stick_camera;                           // q: camera axes (x out of the lens, y left, z up) in the stick's frame
   double range_sigma = 1.0;                     // m
   double azimuth_sigma = 0.052359877559829887;  // rad, 3 degrees (Mars paper, Table 1)
   double elevation_sigma = 0.052359877559829887;  // rad, 3 degrees
   double pan_sigma = 0;                           // encoder noise, rad
   double stick_sigma = 0;                         // encoder noise, rad
-  bool encoder_per_frame = false;                 // one encoder error for all observations of a frame
+  bool encoder_per_frame = false;                 // all observations of a frame share one encoder error
   double near_range = 0.1;                        // m, > 0
   double max_elevation = 1.4835298641951802;      // rad, below pi/2: 85 degrees
 };
 
-// Stereo head on a pan and tilt mount (Mars paper, Figures 2 and 3, eq. 4), observing range, azimuth and elevation:
+// Stereo head on a pan and tilt mount (Mars paper, Figures 2 and 3, eq. 4) that observes range, azimuth and elevation:
 //   m_b = d + Rz(pan) Ry(stick) (s + R_stick_camera m_c).
-// True mount angles are the encoders' plus the mount error (pan, stick).
+// The true mount angles are the encoder readings plus the mount error (pan, stick).
 class StereoHead final : public Sensor<SE3> {
  public:
   explicit StereoHead(const StereoHeadParameters& parameters = {});
 
-  // Sets the encoders' readings, rad.
+  // Sets the encoder readings, rad.
   void point(double pan, double stick);
   double pan() const { return pan_; }
   double stick() const { return stick_; }
@@ -39,7 +40,7 @@ class StereoHead final : public Sensor<SE3> {
   Vector3 residual(const Vector3& z, const Vector3& predicted) const override;
 
  private:
-  // The axes of the mount at one pair of angles.
+  // Rotations of the mount at one pair of angles.
   struct Axes {
     Matrix3 R_body_platform, R_platform_stick, R_body_camera;
   };
@@ -47,7 +48,7 @@ class StereoHead final : public Sensor<SE3> {
 
   StereoHeadParameters parameters_;
   double pan_ = 0, stick_ = 0;
-  Axes axes_;  // at the encoders' readings: an update needs no trigonometry of the mount
+  Axes axes_;  // at the encoder readings, so that an update needs no trigonometry of the mount
   Matrix3 noise_;
 };
 

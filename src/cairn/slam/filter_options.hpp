@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a filter is created with.
+// The options that a filter is created with.
 #pragma once
 
 #include <cstdint>
@@ -11,41 +11,57 @@ namespace cairn {
 enum class JoinKind { automatic, dense, sparse };
 enum class AssociationKind { known, nearest, joint };
 
+// The defaults of all numbers that callers can set, from the one table of them.
+struct FilterDefaults {
+#define FILTER_WHOLE(field, initial, lower, upper, flag) static constexpr Index field = initial;
+#define FILTER_REAL(field, initial, bounds, flag) static constexpr double field = initial;
+#include "options/filter_options.def"
+};
+
 template <class Pose>
 struct FilterOptions {
   using PoseType = Pose;
   ErrorKind error = ErrorKind::invariant;
-  Index max_landmarks = 1000;
-  Index max_observations = 64;
-  Index max_sensors = 8;
-  Index max_companions = 0;  // other vehicles of a single map
-  int iterations = 3;
-  double iteration_tolerance = 0.1;
-  double gate_probability = 0.99;
-  double batch_gate_probability = 0.9999;
-  double error_persistence = 1.0;  // so many sightings of a landmark in a row have one error between them: updates take
-                                   // noise times it, association and placing as it is
   Pose initial_pose;
   typename Pose::Square initial_covariance = Pose::Square::Zero();
-  Index submap_landmarks = 0;  // 0: a single map
+
+  // Capacities.
+  Index max_landmarks = FilterDefaults::max_landmarks;
+  Index max_observations = FilterDefaults::max_observations;
+  Index max_sensors = FilterDefaults::max_sensors;
+  Index max_companions = 0;  // poses of other vehicles in the state of a single map
+
+  // An update: linearisations, chi-square gates, and the number of consecutive observations of a landmark whose errors
+  // are fully correlated. Updates multiply the noise by this number; association and the placing of landmarks do not.
+  int iterations = FilterDefaults::iterations;
+  double iteration_tolerance = FilterDefaults::iteration_tolerance;
+  double gate_probability = FilterDefaults::gate_probability;
+  double batch_gate_probability = FilterDefaults::batch_gate_probability;
+  double error_persistence = FilterDefaults::error_persistence;
+
+  // Submaps: the limits at which one is closed (0: no limit), and how it joins the map.
+  Index submap_landmarks = FilterDefaults::submap_landmarks;  // 0: a single map
+  double submap_distance = FilterDefaults::submap_distance;
+  double submap_extent = FilterDefaults::submap_extent;
+  double submap_sigma = FilterDefaults::submap_sigma;
   JoinKind join = JoinKind::automatic;
-  double submap_distance = 0.0, submap_extent = 0.0, submap_sigma = 0.0;  // 0: no matter
-
-  AssociationKind association = AssociationKind::known;  // otherwise observations' ids are not looked at
-  Index association_nodes = 2000;
-  Index association_support = 3;    // pairs of a frame that could be chance are taken where there are so many
-  double new_probability = 0.9999;  // what is nearer than that to a landmark places none
-  bool by_likelihood = false;       // nearest neighbour: least d^2 + log det S, instead of least d^2
-
-  Index deferred_sightings = 1;  // a landmark counts once it was observed so often
-  Index deferred_frames = 20;    // and goes if it does not within so many frames
-  Index missed_frames = 0;       // one that was in view and not seen so many times in a row goes; 0: never
-
   double step_tolerance = 1e-2;  // of the sparse joining, see MapOptions
+
+  // Association; with any but `known` the filter does not read the ids of observations.
+  AssociationKind association = AssociationKind::known;
+  Index association_nodes = FilterDefaults::association_nodes;  // joint tests of one frame, at most
+  Index association_support = 3;  // doubtful pairs of a frame are accepted if there are at least this many
+  double new_probability = FilterDefaults::new_probability;  // a new landmark is farther than this from all others
+  bool by_likelihood = false;  // nearest neighbour: compare d^2 + log det S instead of d^2
+
+  // The life of a landmark.
+  Index deferred_sightings = FilterDefaults::deferred_sightings;  // it counts after this many observations
+  Index deferred_frames = FilterDefaults::deferred_frames;        // it is removed if it does not count by then
+  Index missed_frames = FilterDefaults::missed_frames;  // it is removed if in view and not seen this often; 0: never
 
   bool single_map() const { return submap_landmarks == 0; }
   bool sparse() const;
-  // Landmarks of the filter's own covariance: a frame may exceed what closes a submap.
+  // Landmarks of the filter's own covariance: a frame may exceed the limit at which a submap is closed.
   Index local_landmarks() const { return single_map() ? max_landmarks : submap_landmarks + max_observations; }
   Index slots() const { return max_companions + local_landmarks(); }
 };

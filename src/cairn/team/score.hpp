@@ -1,25 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a team is worth to a vehicle: what its covariance claims, and what the truth says.
+// What a team is worth to a vehicle: what its covariance claims, and what the truth says. The comparison is with a
+// filter of the own vehicle only, which runs beside the team.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
-#include "ekf/ekf.hpp"
+#include "team/team.hpp"
 
 namespace cairn {
 
-struct Score {
-  std::uint64_t steps = 0, nees_steps = 0;
-  double claimed = 0.0, claimed_alone = 0.0;        // sums of ||C_qq||, Frobenius
-  double squared_error = 0.0, squared_alone = 0.0;  // sums of squared position errors, m^2
-  double nees = 0.0;
+// A filter of the own vehicle only. Errors of this comparison filter are ignored.
+class Baseline {
+ public:
+  explicit Baseline(const TeamOptions& options);
+  void propagate(const Increment<SE2>& increment);
+  void observe(const std::vector<Observation>& landmarks);
+  const Filter<SE2>& filter() const { return own_.filter(); }
 
+ private:
+  VehicleFilter own_;
+};
+
+class Score {
+ public:
+  // The team's estimate as of now against the truth; `baseline` is null where there is no comparison filter.
+  void add(const Team& team, const Baseline* baseline, const SE2& truth);
+
+  std::uint64_t steps() const { return steps_; }
+  std::uint64_t nees_steps() const { return nees_steps_; }  // with a covariance that is not singular
+  double position_rmse() const;
+  double anees_per_dof() const;
   // IR = (||C_qq||_mono - ||C_qq||) / ||C_qq||_mono (cooperative paper, section 3), by the means over all steps.
-  double claimed_improvement() const { return claimed_alone > 0.0 ? 1.0 - claimed / claimed_alone : 0.0; }
-  double true_improvement() const { return squared_alone > 0.0 ? 1.0 - squared_error / squared_alone : 0.0; }
-  double anees_per_dof() const { return nees_steps > 0 ? nees / (3.0 * static_cast<double>(nees_steps)) : 0.0; }
-  double position_rmse() const { return steps > 0 ? std::sqrt(squared_error / static_cast<double>(steps)) : 0.0; }
+  double claimed_improvement() const;
+  double true_improvement() const;
+
+ private:
+  std::uint64_t steps_ = 0, nees_steps_ = 0;
+  double claimed_ = 0.0, baseline_claimed_ = 0.0;              // sums of ||C_qq||, Frobenius
+  double squared_error_ = 0.0, baseline_squared_error_ = 0.0;  // sums of squared position errors, m^2
+  double nees_ = 0.0;
 };
 
 }  // namespace cairn

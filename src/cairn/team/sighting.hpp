@@ -1,14 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two vehicles that see each other know of one another (docs/team.md).
+// Sightings of vehicles by each other, and the pose of a teammate that follows from a mutual one (docs/team.md).
 #pragma once
+
+#include <algorithm>
+#include <vector>
 
 #include "sensor/range_bearing.hpp"
 #include "slam/filter.hpp"
 
 namespace cairn {
 
-// Both saw each other at one time: together the two sightings tell where the other stands and whereto it heads. Of both
-// ranges the mean, weighted by their variances, or the own one alone.
+// The sighting of a vehicle in a list; null where there is none.
+inline const Observation* find_sighting(const std::vector<Observation>& sightings, std::uint64_t vehicle) {
+  for (const Observation& o : sightings)
+    if (o.id == vehicle) return &o;
+  return nullptr;
+}
+
+inline void remove_sighting(std::vector<Observation>& sightings, std::uint64_t vehicle) {
+  sightings.erase(
+      std::remove_if(sightings.begin(), sightings.end(), [&](const Observation& o) { return o.id == vehicle; }),
+      sightings.end());
+}
+
+// Noise of a sighting: its own, or the radar's.
+inline Matrix2 sighting_noise(const Observation& o, const RangeBearingParameters& radar) {
+  const Matrix2 given = Eigen::Map<const Matrix2>(o.covariance);
+  if (!given.isZero(0.0)) return given;
+  return Vector2(radar.range_sigma, radar.bearing_sigma).cwiseAbs2().asDiagonal();
+}
+
+// Two vehicles saw each other at one time: `there` is the own sighting, `back` that of the teammate. Together they tell
+// the teammate's position and heading. The range is the mean of both, weighted by their variances, or only the own one.
 inline MutualSighting mutual_sighting(const Observation& there, const Matrix2& noise, const Observation& back,
                                       const Matrix2& noise_back, bool both_ranges) {
   MutualSighting sighting;
@@ -23,12 +46,12 @@ inline MutualSighting mutual_sighting(const Observation& there, const Matrix2& n
   return sighting;
 }
 
-// A vehicle that the one looked from saw so becomes one of the filter's.
+// Adds a vehicle to the filter, placed by the mutual sighting with the vehicle that the filter looks from.
 inline void add_by_sighting(Filter<SE2>& filter, std::uint64_t id, const MutualSighting& seen) {
-  const SE2 T = filter.pose(), T_body_mate = mate_in_body(seen);
-  const ProductJacobians J(T, T_body_mate);
+  const SE2 T = filter.pose(), T_body_teammate = mate_in_body(seen);
+  const ProductJacobians J(T, T_body_teammate);
   const Matrix3 by_seen = mate_jacobian(seen);
-  filter.add_vehicle(id, T * T_body_mate, J.by_a,
+  filter.add_vehicle(id, T * T_body_teammate, J.by_a,
                      J.by_b * (by_seen * seen.covariance * by_seen.transpose()) * J.by_b.transpose());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A recorded run, whatever file it came from: how the vehicle moved, what it saw, and the truth where it is known.
+// A recorded run, independent of its file format: the motions, the observations, and the truth where it is known.
 #pragma once
 
 #include <cairn/cairn.h>
@@ -34,8 +34,8 @@ struct Twist {
 };
 
 struct Step {
-  std::uint64_t number = 0;                                // the log's own count
-  double time = std::numeric_limits<double>::quiet_NaN();  // s; NaN where the log does not tell
+  std::uint64_t number = 0;                                // as counted in the log
+  double time = std::numeric_limits<double>::quiet_NaN();  // s; NaN if the log has none
   std::optional<Increment> increment;                      // motion that leads to this step: one of these two,
   std::optional<Twist> twist;                              // none at the first step
   std::vector<cairn_observation> observations;
@@ -55,14 +55,14 @@ struct Log {
   std::map<std::uint64_t, std::array<double, 3>> landmarks;  // true positions, m
 };
 
-// Noise that the caller wants instead of the file's, as standard deviations.
+// Noise that replaces the file's, as standard deviations.
 struct NoiseOverride {
   std::optional<double> pixel;     // u_left and u_right; v, a mean of two rows, gets it over sqrt(2)
   std::optional<double> velocity;  // m/s, each axis
   std::optional<double> rate;      // rad/s, each axis
 };
 
-// Reads a log, whose kind its content tells. Throws LogError.
+// Reads a log; its content decides its kind. Throws LogError.
 Log read_log(const std::string& path, const NoiseOverride& noise);
 
 // The two kinds. `text` is the file's whole content.

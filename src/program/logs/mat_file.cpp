@@ -26,8 +26,8 @@ std::uint32_t read_word(const std::string& content, std::size_t offset, bool lit
   return word;
 }
 
-// The file is a chain of elements, each with its type and size in front: walk it to the end. libmatio reads a file
-// that was cut short without a word, as far as it goes.
+// The file is a chain of elements, each with its type and size in front. Walk it to the end, because libmatio reads a
+// file that was cut short without an error, as far as it goes.
 void check_chain(const std::string& path, const std::string& content) {
   if (content.size() < kHeaderBytes) throw LogError(path + ": the MATLAB file is cut short within its header");
   const std::string order = content.substr(126, 2);  // how the writer's machine stores the letters MI
@@ -51,7 +51,7 @@ void check_chain(const std::string& path, const std::string& content) {
   }
 }
 
-void drop_message(int, char*) {}  // libmatio would print it; ours says what went wrong
+void drop_message(int, char*) {}  // libmatio would print it; the reader has a message of its own
 
 template <typename Number>
 bool copy_values(const matvar_t& variable, std::vector<double>& values) {
@@ -94,7 +94,7 @@ MatFile::MatFile(const std::string& path, const std::string& content) : path_(pa
   check_chain(path, content);
   Mat_LogInitFunc("cairn", &drop_message);
   file_ = Mat_Open(path.c_str(), MAT_ACC_RDONLY);
-  if (file_ == nullptr) throw LogError(path + ": libmatio can't open the MATLAB file");
+  if (file_ == nullptr) throw LogError(path + ": libmatio cannot open the MATLAB file");
 }
 
 MatFile::~MatFile() {
@@ -113,7 +113,7 @@ std::optional<MatArray> MatFile::find(const char* name) const {
   array.dimensions.assign(info->dims, info->dims + info->rank);
   const std::size_t size = checked_size(name, array.dimensions, info->compression != MAT_COMPRESSION_NONE);
   const std::unique_ptr<matvar_t, void (*)(matvar_t*)> variable(Mat_VarRead(file_, name), &Mat_VarFree);
-  if (!variable) fail(name, "its data can't be read");
+  if (!variable) fail(name, "its data cannot be read");
   array.values.resize(size);
   if (size > 0 && (variable->data == nullptr || !copy_numbers(*variable, array.values))) {
     fail(name, "not a full array of real numbers");
@@ -121,8 +121,7 @@ std::optional<MatArray> MatFile::find(const char* name) const {
   return array;
 }
 
-// libmatio takes the memory that the dimensions ask for before it looks for the data: a forged size must not come so
-// far.
+// libmatio allocates by the dimensions before it looks for the data. Refuse a forged size before that.
 std::size_t MatFile::checked_size(const char* name, const std::vector<std::size_t>& dimensions, bool compressed) const {
   const std::size_t most = compressed ? content_size_ * kMostDeflated : content_size_;
   std::size_t size = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numeric arrays out of a MATLAB v5 file.
+// Reads numeric arrays from a MATLAB v5 file.
 #pragma once
 
 #include <cstddef>
@@ -11,30 +11,30 @@ struct _mat_t;
 
 namespace cairn::program::logs {
 
-// A real array of numbers, column by column as the file has it.
+// A real array of numbers, column by column.
 struct MatArray {
   std::vector<std::size_t> dimensions;  // two or more
   std::vector<double> values;
 
   std::size_t rows() const { return dimensions[0]; }
-  // Columns of what is left when the first dimension is taken off.
+  // The product of all dimensions but the first.
   std::size_t columns() const { return rows() == 0 ? 0 : values.size() / rows(); }
   const double* column(std::size_t index) const { return values.data() + index * rows(); }
 };
 
 class MatFile {
  public:
-  // `content` is the whole file, to see that its pieces fit before libmatio reads it. Throws LogError.
+  // `content` is the whole file; its structure is checked before libmatio reads it. Throws LogError.
   MatFile(const std::string& path, const std::string& content);
   ~MatFile();
   MatFile(const MatFile&) = delete;
   MatFile& operator=(const MatFile&) = delete;
 
-  // Nothing where the file has no such variable. Throws LogError where it is no real array of numbers.
+  // Empty if the file has no such variable. Throws LogError if it is not a real array of numbers.
   std::optional<MatArray> find(const char* name) const;
-  // The same, for one that has to be there.
+  // The same for a variable that must exist.
   MatArray require(const char* name) const;
-  // With its first dimension `rows`.
+  // The same for a variable that must exist and have `rows` rows.
   MatArray require(const char* name, std::size_t rows) const;
   std::optional<MatArray> find(const char* name, std::size_t rows) const;
   double require_scalar(const char* name) const;

@@ -55,7 +55,7 @@ class Reader {
     return "Robot" + std::to_string(robot.id) + ending;
   }
 
-  // Those that one of the three files is there of.
+  // Robots that have one of the three files.
   std::set<std::uint64_t> find_robots() const {
     const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir(folder_.c_str()), &closedir);
     if (!folder) throw LogError(folder_ + ": " + std::strerror(errno));
@@ -171,7 +171,7 @@ bool truth_at(const MrclamLog::Robot& robot, double time, MrclamLog::Truth& pose
   if (truth.empty() || !(time >= truth.front().time && time <= truth.back().time)) return false;
   const auto after = std::upper_bound(truth.begin(), truth.end(), time,
                                       [](double t, const MrclamLog::Truth& record) { return t < record.time; });
-  // Of several records at this time the last counts; before it stands one, for the first is not later.
+  // The last record of this time counts. A record stands before it, because the first record is not later.
   const MrclamLog::Truth& a = *(after - 1);
   const MrclamLog::Truth& b = after == truth.end() ? a : *after;
   const double share = b.time > a.time ? (time - a.time) / (b.time - a.time) : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A recording of several robots in the plane: a folder of the UTIAS multi-robot set (MRCLAM). Its files are plain text,
-// one record a line, fields separated by blanks; lines that begin with # are passed over.
+// one record a line, fields separated by blanks; lines that begin with # are skipped.
 //   Barcodes.dat               subject, barcode: what each robot and each landmark carries
 //   Landmark_Groundtruth.dat   subject, x, y, standard deviations of x and y (m)
 //   RobotN_Odometry.dat        time (s), forward speed (m/s), rate of turn (rad/s)
@@ -35,7 +35,7 @@ struct MrclamLog {
   };
   struct Robot {
     std::uint64_t id;
-    std::vector<Odometry> odometry;  // each of the three in order of time, equal times allowed; this one never empty
+    std::vector<Odometry> odometry;  // these three are in order of time, equal times allowed; never empty
     std::vector<Measurement> measurements;
     std::vector<Truth> truth;  // never empty
   };
@@ -49,12 +49,12 @@ struct MrclamLog {
 // Whether `path` is a folder that holds a Barcodes.dat.
 bool is_mrclam(const std::string& path);
 
-// Reads such a folder: every robot that any file is there of. Measurements that name no other robot and no landmark are
-// left out, and the notes count them. Throws LogError.
+// Reads such a folder, with every robot that has a file. Measurements of an unknown subject are left out, and the notes
+// count them. Throws LogError.
 MrclamLog read_mrclam(const std::string& path);
 
-// A robot's true pose at a time, between two records on the straight line and by the shorter turn, its heading in
-// (-pi, pi]. False before the first record and after the last. O(log records).
+// A robot's true pose at a time, interpolated between two records along the straight line and the shorter turn; heading
+// in (-pi, pi]. False before the first record and after the last one. O(log records).
 bool truth_at(const MrclamLog::Robot& robot, double time, MrclamLog::Truth& pose);
 
 }  // namespace cairn::program::logs

@@ -4,7 +4,7 @@
 //   O k dx dy dz droll dpitch dyaw      measured increment from step k-1 to k, in the body frame
 //   Z k id range azimuth elevation      observation of a landmark, in the body frame
 //   L id x y z                          true landmark
-// Empty lines and lines that begin with # are passed over.
+// Empty lines and lines that begin with # are skipped.
 #include <cmath>
 #include <limits>
 #include <unordered_set>
@@ -21,7 +21,7 @@ constexpr double kIncrementAngleSigma = 0.1 * kDegree;  // each of roll, pitch, 
 constexpr double kRangeSigma = 0.1;                     // m
 constexpr double kDirectionSigma = 0.5 * kDegree;       // azimuth and elevation
 
-// The noise is additive on roll, pitch and yaw; the filter wants it as dtheta in the axes of the body before:
+// The noise is additive on roll, pitch and yaw; the filter takes it as dtheta in the axes of the body before:
 // dtheta = ez dyaw + Rz ey dpitch + Rz Ry ex droll, the Euler-rate Jacobian of R = Rz Ry Rx.
 Increment make_increment(const double* v) {
   Increment increment{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens a log and tells its kind by its content, never by its name.
+// Opens a log. Its content decides its kind, never its name.
 #include <sys/stat.h>
 
 #include "program/logs/log.hpp"
@@ -8,7 +8,7 @@
 namespace cairn::program::logs {
 namespace {
 
-// MATLAB's binary files begin with a text that says so; whether the rest of the header is whole, the reader finds out.
+// MATLAB's binary files begin with a text that says so. The reader checks the rest of the header.
 bool is_mat_file(const std::string& content) {
   return content.compare(0, 7, "MATLAB ") == 0;
 }

@@ -112,7 +112,7 @@ class Reader {
     return determinant > 0;
   }
 
-  // The filter's v is the mean of both images' rows, and its variance a quarter of their sum.
+  // The filter's v is the mean of both images' rows: its variance is a quarter of the sum of theirs.
   void read_pixel_noise() {
     double* sigma = log_.camera.sigma;
     const double pixel = noise_.pixel.value_or(kPixelSigma);
@@ -153,7 +153,7 @@ class Reader {
     file_.fail(name, "column " + std::to_string(column + 1) + ": " + cause);
   }
 
-  // A 3xN array with a column for every frame at least.
+  // A 3xN array with at least one column for each frame.
   MatArray read_columns(const char* name) {
     MatArray array = file_.require(name, 3);
     const std::size_t steps = log_.steps.size();

@@ -14,7 +14,7 @@
 namespace cairn::program::logs {
 namespace {
 
-// The whole field, or nothing of it.
+// Reads the whole field; false if part of it is no number.
 template <class Number>
 bool parse(std::string_view field, Number& value) {
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
@@ -55,7 +55,7 @@ bool TextLines::next() {
 
 double TextLines::number(std::size_t index, const char* name) const {
   std::string_view field = fields_[index];
-  if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);  // from_chars takes no plus
+  if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);  // from_chars refuses a plus
   double value = 0;
   if (!parse(field, value) || !std::isfinite(value)) refuse(index, name, "is not a finite number");
   return value;

@@ -15,7 +15,7 @@ class TextLines {
  public:
   TextLines(std::string path, std::string text) : path_(std::move(path)), text_(std::move(text)) {}
 
-  // To the next record; false where there is none. Empty lines and lines that begin with # are passed over.
+  // Goes to the next record; false if there is none. Skips empty lines and lines that begin with #.
   bool next();
 
   // --- of this record ---
@@ -26,11 +26,11 @@ class TextLines {
   std::uint64_t whole(std::size_t index, const char* name) const;
   std::uint64_t identity(std::size_t index, const char* name) const;  // whole, and not CAIRN_ID_NONE
 
-  // Throw, of the line that was read last.
+  // Throw a LogError that names the line that was read last.
   [[noreturn]] void fail(const std::string& cause) const;
   [[noreturn]] void refuse(std::size_t index, const char* name, const char* why) const;
 
-  // What a file of another kind contains must not reach the terminal as it is.
+  // For messages: a file of another kind may contain bytes that must not reach a terminal.
   static std::string quoted(std::string_view field);
 
  private:

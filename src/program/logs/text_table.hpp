@@ -14,7 +14,7 @@ class TextTable {
   TextTable(const std::string& path, std::vector<const char*> columns)
       : lines_(path, read_file(path)), columns_(std::move(columns)) {}
 
-  // To the next record; false where there is none.
+  // Goes to the next record; false if there is none.
   bool next();
 
   // Fields of this record.
@@ -22,10 +22,10 @@ class TextTable {
   double positive(std::size_t column) const;
   std::uint64_t whole(std::size_t column) const { return lines_.whole(column, columns_[column]); }
   std::uint64_t identity(std::size_t column) const { return lines_.identity(column, columns_[column]); }
-  // The first one, which may not be less than that of the record before.
+  // The first field, which must not be less than that of the record before.
   double time();
 
-  // Throws, of the line that was read last.
+  // Throws a LogError that names the line that was read last.
   [[noreturn]] void fail(const std::string& cause) const { lines_.fail(cause); }
 
  private:

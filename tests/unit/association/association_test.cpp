@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Association against exhaustive search, with joint distances from a dense factor of the whole covariance.
+// Association compared with exhaustive search, with joint distances from a dense factor of the whole covariance.
 #include "association/association.hpp"
 
 #include <doctest/doctest.h>
@@ -21,7 +21,7 @@ using cairn::test::Random;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// Observations z of predictions h with joint covariance P, and independent noise R.
+// Observations z of predictions h with joint covariance P and independent noise R.
 class Scene final : public Innovations {
  public:
   Index k = 1;  // rows
@@ -49,7 +49,7 @@ class Scene final : public Innovations {
     if (a.observation == b.observation) S += R;
     return S;
   }
-  // All pairs that pass the gate of one, in the order of their numbers.
+  // All pairs that pass the individual gate, in the order of their numbers.
   void gate() {
     candidates.clear();
     for (Index o = 0; o < observations(); ++o)
@@ -130,7 +130,7 @@ struct Exhaustive {
   }
 };
 
-// Landmarks crowded together, seen by a vehicle whose own error is common to all.
+// Landmarks close together. The error of the vehicle is common to all of them.
 Scene crowd(unsigned seed, Index rows, Index observations, Index landmarks, double spread, double common) {
   Random random(seed);
   Scene scene;
@@ -150,7 +150,7 @@ Scene crowd(unsigned seed, Index rows, Index observations, Index landmarks, doub
   const Vector truth = scene.h + root * normals(n + rows);
   scene.z.resize(rows * observations);
   for (Index o = 0; o < observations; ++o) {
-    const bool known = o < landmarks && o % 4 != 3;  // others are new
+    const bool known = o < landmarks && o % 4 != 3;  // the others are new
     scene.z.segment(rows * o, rows) =
         (known ? Vector(truth.segment(rows * o, rows)) : Vector(spread * normals(rows))) + 0.1 * normals(rows);
   }
@@ -162,7 +162,7 @@ constexpr Index kPlenty = 1000000;
 
 }  // namespace
 
-TEST_CASE("association: what passes alone but cannot be true together is paired once") {
+TEST_CASE("association: pairs that pass alone but contradict each other are not both accepted") {
   Scene scene;
   scene.h = Eigen::Vector2d(0, 100);
   scene.P = (Matrix(2, 2) << 1, 0.99, 0.99, 1).finished();
@@ -205,8 +205,9 @@ TEST_CASE("association: joint compatibility finds what exhaustive search finds")
   CHECK(left_out > 20);
 }
 
-TEST_CASE("association: nearest neighbour gives a landmark once, to the nearest") {
-  // Observations 0 and 1 are both nearest to landmark 0, which goes to 1; 0 takes its second, 2 gets none.
+TEST_CASE("association: nearest neighbour matches a landmark at most once, with the nearest observation") {
+  // Observations 0 and 1 are both nearest to landmark 0. Observation 1 gets it, 0 gets its second candidate, 2 gets
+  // none.
   const std::vector<PairCandidate> candidates{{0, 0, 2.0}, {0, 1, 3.0}, {1, 0, 1.0}, {2, 1, 3.0}};
   Scene scene;
   scene.z = Vector::Zero(3);
@@ -222,7 +223,7 @@ TEST_CASE("association: nearest neighbour gives a landmark once, to the nearest"
   CHECK(solver.association.nodes() == 0);
 }
 
-TEST_CASE("association: a bound of nodes leaves a set that fits, and says so") {
+TEST_CASE("association: a search that hits the limit reports it and returns a compatible set") {
   std::size_t exhausted = 0, worse = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
@@ -270,7 +271,7 @@ TEST_CASE("association: nothing to pair, and innovations without a covariance") 
   none.association.nearest_neighbour(nullptr, 0, 0);
   CHECK(none.association.pairs() == 0);
 
-  scene.P = Matrix::Ones(2, 2);  // the second adds nothing: its pivot is zero
+  scene.P = Matrix::Ones(2, 2);  // the second one adds no information: its pivot is zero
   scene.R = Matrix::Zero(1, 1);
   scene.candidates = {{0, 0, 0.0}, {1, 1, 0.0}};
   Solver singular(scene);
@@ -282,7 +283,7 @@ TEST_CASE("association: nothing to pair, and innovations without a covariance") 
   CHECK(singular.association.chosen(0) == kUnpaired);
 }
 
-TEST_CASE("association: the index of a frame finds what a look at all of them finds") {
+TEST_CASE("association: the frame index finds the same observations as a scan") {
   Random random(11);
   Arena measure;
   const FrameIndex unused(measure, 40);
@@ -291,7 +292,7 @@ TEST_CASE("association: the index of a frame finds what a look at all of them fi
   for (Index count : {0, 1, 2, 7, 40})
     for (int repeat = 0; repeat < 50; ++repeat) {
       std::vector<double> values;
-      for (Index i = 0; i < count; ++i) values.push_back(std::floor(random.uniform(0, 20)));  // many of a kind
+      for (Index i = 0; i < count; ++i) values.push_back(std::floor(random.uniform(0, 20)));  // many equal values
       index.build(count, [&](Index i) { return values[static_cast<std::size_t>(i)]; });
       const double centre = std::floor(random.uniform(-2, 22));
       for (double reach : {0.0, 1.0, 3.5, std::numeric_limits<double>::infinity()}) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Chi-square probabilities and quantiles.
 #include "core/chi_square.hpp"
 
 #include <doctest/doctest.h>
@@ -11,7 +12,7 @@ using namespace cairn;
 
 namespace {
 
-// Every number of degrees up to where nothing new happens, then ever sparser ones.
+// All small degrees of freedom, then ever sparser ones.
 int next_dof(int dof) {
   return dof < 60 ? dof + 1 : dof + dof / 7;
 }
@@ -67,8 +68,8 @@ TEST_CASE("chi-square: distribution against its closed forms") {
     }
 }
 
-// The logarithm of the density's factors grows as dof, and so does its rounding.
-TEST_CASE("chi-square: the quantile undoes the distribution") {
+// The logarithms of the factors of the density grow with dof, and so does their rounding.
+TEST_CASE("chi-square: the quantile inverts the distribution") {
   for (int dof = 1; dof <= 10000; dof = next_dof(dof))
     for (double p : {1e-6, 0.001, 0.025, 0.05, 0.3, 0.5, 0.8, 0.95, 0.975, 0.99, 0.9999, 1 - 1e-9}) {
       CAPTURE(dof);
@@ -78,17 +79,17 @@ TEST_CASE("chi-square: the quantile undoes the distribution") {
     }
 }
 
-TEST_CASE("chi-square: both grow, and medians lie where the series for many degrees has them") {
+TEST_CASE("chi-square: both are increasing, and medians follow their series for many degrees") {
   for (int dof = 1; dof <= 10000; dof = next_dof(dof)) {
     CHECK(chi_square_quantile(dof, 0.95) < chi_square_quantile(dof + 1, 0.95));
     CHECK(chi_square_quantile(dof, 0.95) < chi_square_quantile(dof, 0.951));
-    // Choi 1994, On the medians of gamma distributions; the next term falls with the cube.
+    // Choi 1994, On the medians of gamma distributions. The next term decreases with the cube.
     const double k = dof, median = k - 2.0 / 3 + 32 / (405 * k) + 1472 / (25515 * k * k);
     CHECK(std::abs(chi_square_quantile(dof, 0.5) - median) < 0.02 / (k * k * k) + 4e-15 * k * std::sqrt(k));
   }
 }
 
-TEST_CASE("chi-square: the ends") {
+TEST_CASE("chi-square: limits of the range") {
   CHECK(chi_square_cdf(3, 0) == 0);
   CHECK(chi_square_cdf(3, -1) == 0);
   CHECK(chi_square_cdf(3, 1e4) == 1);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The hash table from ids to slots.
 #include "core/id_table.hpp"
 
 #include <doctest/doctest.h>
@@ -32,7 +33,7 @@ bool same(const IdTable& table, const std::unordered_map<std::uint64_t, std::int
   return true;
 }
 
-// Random insertions, moves and erasures among `ids`, never more than `capacity` at once.
+// Random insertions, changes and removals of `ids`, never more than `capacity` ids at once.
 void live(std::size_t capacity, const std::vector<std::uint64_t>& ids, int operations, unsigned seed) {
   CAPTURE(capacity);
   Table owner(capacity);
@@ -48,7 +49,7 @@ void live(std::size_t capacity, const std::vector<std::uint64_t>& ids, int opera
       table.set(id, slot);
       expected[id] = slot;
     } else {
-      table.erase(id);  // of one that is absent, too
+      table.erase(id);  // also of an id that is absent
       expected.erase(id);
     }
     fullest = std::max(fullest, expected.size());
@@ -62,13 +63,13 @@ void live(std::size_t capacity, const std::vector<std::uint64_t>& ids, int opera
 
 }  // namespace
 
-TEST_CASE("id table: does what std::unordered_map does") {
+TEST_CASE("id table: equals std::unordered_map") {
   const std::uint64_t largest = UINT64_MAX;
   for (std::size_t capacity : {1, 2, 3, 7, 8, 50, 512}) {
     std::vector<std::uint64_t> small, wild;
     std::mt19937_64 random(5);
     for (std::size_t i = 0; i < capacity + capacity / 2 + 1; ++i) {
-      small.push_back(i);  // neighbours, 0 among them
+      small.push_back(i);  // neighbouring ids, 0 among them
       wild.push_back(i == 0 ? largest : random());
     }
     live(capacity, small, 4000, 1);
@@ -76,12 +77,12 @@ TEST_CASE("id table: does what std::unordered_map does") {
   }
 }
 
-TEST_CASE("id table: a full one of ids that all want one place") {
-  // Of many ids those whose entry a table of one id puts where it put the first one's: clusters run round the end.
+TEST_CASE("id table: full of ids that hash to one place") {
+  // Picks ids that a table with one id puts at the same place as the first id, so that clusters run around the end.
   for (unsigned seed : {1, 2, 3, 4}) {
     std::mt19937_64 random(seed);
     const std::uint64_t first = random();
-    const auto home = [](std::uint64_t id) {  // of a table of 16: MurmurHash3's finaliser, as published
+    const auto home = [](std::uint64_t id) {  // for a table of 16 entries: the finaliser of MurmurHash3, as published
       id = (id ^ (id >> 33)) * 0xff51afd7ed558ccdULL;
       id = (id ^ (id >> 33)) * 0xc4ceb9fe1a85ec53ULL;
       return (id ^ (id >> 33)) % 16;
@@ -95,7 +96,7 @@ TEST_CASE("id table: a full one of ids that all want one place") {
   }
 }
 
-TEST_CASE("id table: erasing keeps what stands behind") {
+TEST_CASE("id table: erasing keeps the entries behind") {
   Table owner(4);
   for (std::uint64_t id = 0; id < 4; ++id) owner.table.set(id, static_cast<std::int32_t>(10 + id));
   owner.table.erase(2);

@@ -21,15 +21,13 @@ struct Run {
   }
 
   void take(const std::vector<Seen>& frame) {
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-      Observation& o = filter.staging()[i];
-      o = {frame[i].id, {frame[i].z[0], frame[i].z[1], frame[i].z[2]}, {}};
-    }
-    filter.update(0, static_cast<Index>(frame.size()));
+    std::vector<Observation> observations;
+    for (const Seen& seen : frame) observations.push_back({seen.id, {seen.z[0], seen.z[1], seen.z[2]}, {}});
+    filter.update(0, observations.data(), static_cast<Index>(frame.size()));
   }
   // Of pose and all landmarks, ordinary.
   Dynamic covariance() const {
-    std::vector<std::size_t> all(filter.size());
+    std::vector<std::size_t> all(filter.landmarks().size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
     Dynamic P(6 + 3 * all.size(), 6 + 3 * all.size());
     filter.pose_joint_covariance(all.data(), all.size(), P.data());
@@ -37,14 +35,14 @@ struct Run {
   }
   // How the ordinary errors change where everything is shifted by t and turned by phi about the map's origin.
   Dynamic gauge() const {
-    Dynamic N = Dynamic::Zero(6 + 3 * static_cast<Index>(filter.size()), 6);
+    Dynamic N = Dynamic::Zero(6 + 3 * static_cast<Index>(filter.landmarks().size()), 6);
     N.block<3, 3>(3, 3).setIdentity();
     const auto fill = [&](Index row, const Vector3& x) {
       N.block<3, 3>(row, 0).setIdentity();
       N.block<3, 3>(row, 3) = -hat(x);
     };
     fill(0, filter.pose().translation());
-    for (std::size_t i = 0; i < filter.size(); ++i) fill(6 + 3 * static_cast<Index>(i), filter.position(i));
+    for (std::size_t i = 0; i < filter.landmarks().size(); ++i) fill(6 + 3 * static_cast<Index>(i), filter.landmarks().position(i));
     return N;
   }
   // Fisher information that the filter claims to have on the gauge.
@@ -124,17 +122,17 @@ TEST_CASE("ekf: turning and shifting the start turns and shifts everything, and 
         CHECK(moved.filter.report().iterations == run.filter.report().iterations);
         CHECK(moved.filter.report().nis == doctest::Approx(run.filter.report().nis).epsilon(1e-9));
         CHECK(pose_error(moved.filter.pose(), G * run.filter.pose()).norm() < 1e-10);
-        REQUIRE(moved.filter.size() == run.filter.size());
-        Dynamic axes = Dynamic::Zero(6 + 3 * run.filter.size(), 6 + 3 * run.filter.size());
+        REQUIRE(moved.filter.landmarks().size() == run.filter.landmarks().size());
+        Dynamic axes = Dynamic::Zero(6 + 3 * run.filter.landmarks().size(), 6 + 3 * run.filter.landmarks().size());
         axes.topLeftCorner<6, 6>() = turn;
-        for (std::size_t i = 0; i < run.filter.size(); ++i) {
+        for (std::size_t i = 0; i < run.filter.landmarks().size(); ++i) {
           axes.block<3, 3>(6 + 3 * static_cast<Index>(i), 6 + 3 * static_cast<Index>(i)) = R;
-          CHECK((moved.filter.position(i) - G * run.filter.position(i)).norm() < 1e-10);
+          CHECK((moved.filter.landmarks().position(i) - G * run.filter.landmarks().position(i)).norm() < 1e-10);
         }
         const Dynamic P = run.covariance();
         CHECK((moved.covariance() - axes * P * axes.transpose()).norm() < 1e-10 * P.norm());
       }
-      CHECK(run.filter.size() > 5);
+      CHECK(run.filter.landmarks().size() > 5);
     }
   }
 }

@@ -85,22 +85,23 @@ TEST_CASE("ekf: equals least squares over the whole drive where the problem is l
         squares.add(-1, k + 1, z, covariance);
       }
       if (k % 3 == 1) continue;  // two steps before the next frame
-      Index count = 0;
+      std::vector<Observation> frame;
       for (Eigen::Index i = 0; i < kLandmarks; ++i) {
         if (random.uniform(0, 1) < 0.5) continue;
         const Matrix3 noise = random_covariance_of_points(random, 0.3);
         const Vector3 z = R.inverse() * (landmarks[static_cast<std::size_t>(i)] - truth) +
                           noise.llt().matrixL() * random.normal_vector<3>();
-        Observation& o = filter.staging()[count++];
+        Observation o{};
         o.id = static_cast<std::uint64_t>(i);
         Eigen::Map<Vector3>(o.z) = z;
         Eigen::Map<Matrix3>(o.covariance) = noise;
+        frame.push_back(o);
         squares.add(k + 1, kSteps + 1 + i, R * z, R.matrix() * noise * R.matrix().transpose());
       }
-      filter.update(sensor, count);
+      filter.update(sensor, frame.data(), static_cast<Index>(frame.size()));
       CHECK(filter.report().rejected == 0);
     }
-    REQUIRE(filter.size() == static_cast<std::size_t>(kLandmarks));
+    REQUIRE(filter.landmarks().size() == static_cast<std::size_t>(kLandmarks));
 
     const Eigen::LLT<Dynamic> factor(squares.information);
     REQUIRE(factor.info() == Eigen::Success);
@@ -113,9 +114,9 @@ TEST_CASE("ekf: equals least squares over the whole drive where the problem is l
     CHECK((filter.pose().rotation() * R.inverse()).log().norm() < 1e-14);
     std::vector<std::size_t> indices(static_cast<std::size_t>(kLandmarks));
     for (std::size_t i = 0; i < indices.size(); ++i) {
-      REQUIRE(filter.find(i, indices[i]));
+      REQUIRE(filter.landmarks().find(i, indices[i]));
       const Vector3 x = best.segment<3>(kLast + 3 + 3 * static_cast<Eigen::Index>(i));
-      CHECK((filter.position(indices[i]) - x).norm() < 1e-10 * best.norm());
+      CHECK((filter.landmarks().position(indices[i]) - x).norm() < 1e-10 * best.norm());
     }
     Dynamic joint(6 + 3 * kLandmarks, 6 + 3 * kLandmarks);
     filter.pose_joint_covariance(indices.data(), indices.size(), joint.data());
@@ -145,20 +146,20 @@ TEST_CASE("ekf: the covariance stays positive definite over a long drive") {
         const Vector3 measured = v + 0.05 * random.normal_vector<3>();
         filter.predict_twist(0.2, measured, w + 0.005 * random.normal_vector<3>());
       }
-      Index count = 0;
-      for (std::uint64_t id = 0; id < 20 && count < 8; ++id) {
+      std::vector<Observation> frame;
+      for (std::uint64_t id = 0; id < 20 && frame.size() < 8; ++id) {
         const double azimuth = 0.314 * static_cast<double>(id);
         const Vector3 l = options.initial_pose * Vector3(12 * std::cos(azimuth), 4 + 12 * std::sin(azimuth), 1);
         Prediction<SE3> seen;
         if ((truth.rotation().inverse() * (l - truth.translation())).x() < 3) continue;
         REQUIRE(head.predict(truth, l, Vector2::Zero(), seen));
         seen.z += head.noise().diagonal().cwiseSqrt().cwiseProduct(random.normal_vector<3>());
-        filter.staging()[count++] = {id, {seen.z[0], seen.z[1], seen.z[2]}, {}};
+        frame.push_back({id, {seen.z[0], seen.z[1], seen.z[2]}, {}});
       }
-      filter.update(number, count);
+      filter.update(number, frame.data(), static_cast<Index>(frame.size()));
       if (step % 100 == 99) CHECK(filter.smallest_pivot() > 1e-9);
     }
-    CHECK(filter.size() == 20);
+    CHECK(filter.landmarks().size() == 20);
     CHECK(filter.pose_nees(truth) < 30);  // chi-square of 6: 4e-5
   }
 }

@@ -37,13 +37,13 @@ void drive_with(const Sensor<SE3>& sensor, ErrorKind error, unsigned seed, doubl
     const Vector2 angles = mount.diagonal().cwiseSqrt().cwiseProduct(drive.random().normal_vector<2>());
     CHECK(pair.update(number, drive.look(sensor, 6, noise_scale, angles)));
     check(pair);
-    if (step % 3 == 2 && pair.filter().size() > 2) {
+    if (step % 3 == 2 && pair.filter().landmarks().size() > 2) {
       if (step == 5) drive.move(pair);  // a removal before the motion's noise has been taken in
       pair.remove(pair.reference().ids()[static_cast<std::size_t>(step) % pair.reference().ids().size()]);
       check(pair);
     }
   }
-  CHECK(pair.filter().size() > 3);
+  CHECK(pair.filter().landmarks().size() > 3);
 }
 
 }  // namespace

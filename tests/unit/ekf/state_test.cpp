@@ -236,15 +236,15 @@ TEST_CASE("ekf: an update that would lose positive definiteness leaves everythin
     const auto bits = [](Pair& each) {
       std::vector<double> all(4096, 0.0);
       const Filter<SE3>& f = each.filter();
-      std::vector<std::size_t> indices(f.size());
-      for (std::size_t i = 0; i < f.size(); ++i) indices[i] = i;
+      std::vector<std::size_t> indices(f.landmarks().size());
+      for (std::size_t i = 0; i < f.landmarks().size(); ++i) indices[i] = i;
       double* at = all.data() + 3600;
       f.pose_joint_covariance(indices.data(), indices.size(), all.data());
       std::memcpy(at, f.pose().translation().data(), 24);
       std::memcpy(at + 3, f.pose().rotation().quaternion().coeffs().data(), 32);
-      for (std::size_t i = 0; i < f.size(); ++i) {
-        std::memcpy(at + 7 + 3 * i, f.position(i).data(), 24);
-        at[100 + i] = static_cast<double>(f.observations(i));
+      for (std::size_t i = 0; i < f.landmarks().size(); ++i) {
+        std::memcpy(at + 7 + 3 * i, f.landmarks().position(i).data(), 24);
+        at[100 + i] = static_cast<double>(f.landmarks().observations(i));
       }
       at[99] = f.report().nis;
       return all;
@@ -258,8 +258,8 @@ TEST_CASE("ekf: an update that would lose positive definiteness leaves everythin
     // S that is negative itself, and a step to infinity.
     const std::uint64_t id = pair.reference().ids()[1];
     std::size_t index = 0;
-    REQUIRE(pair.filter().find(id, index));
-    const Matrix3 P = pair.filter().covariance(index), half = -0.5 * P, twice = -2 * P, usual = 0.01 * P;
+    REQUIRE(pair.filter().landmarks().find(id, index));
+    const Matrix3 P = pair.filter().landmarks().covariance(index), half = -0.5 * P, twice = -2 * P, usual = 0.01 * P;
     const double J[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, residual[3] = {0.1, 0, 0.2}, far[3] = {1e153, 0, 0};
     CHECK_THROWS_AS(pair.filter().update_linear({residual, 3, half.data(), nullptr, &id, 1, J}), Error);
     CHECK(equal());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Rotations and poses: group laws, exponentials, Jacobians, Euler angles.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -13,9 +14,9 @@ using namespace cairn;
 
 namespace {
 
-// A few roundings of numbers of order one, or ten.
+// A few roundings of numbers of order one, or of order ten.
 constexpr double kRounding = 1e-14;
-// What the five-point differences of numerical.hpp leave of functions of order one to ten.
+// Error of the five-point differences of numerical.hpp for functions of order one to ten.
 constexpr double kDifference = 1e-10;
 
 template <class Pose>
@@ -35,7 +36,7 @@ double distance(const Pose& a, const Pose& b) {
   return (a.translation() - b.translation()).norm() + (a.rotation().matrix() - b.rotation().matrix()).norm();
 }
 
-// Matrix exponential by its series after halving, which knows nothing of angles.
+// Matrix exponential by its series after repeated halving. It does not use angles.
 template <int N>
 Eigen::Matrix<double, N, N> series_exp(const Eigen::Matrix<double, N, N>& A) {
   Eigen::Matrix<double, N, N> small = A / 1024, term = Eigen::Matrix<double, N, N>::Identity(), sum = term;
@@ -48,17 +49,17 @@ Eigen::Matrix<double, N, N> series_exp(const Eigen::Matrix<double, N, N>& A) {
 
 TEST_CASE("SO3: exp is the matrix exponential") {
   for (const Vector3& theta : test::awkward_turns<3>(1)) {
-    // Ten squarings of the series multiply its rounding by a thousand.
+    // Ten squarings of the series multiply its rounding error by a thousand.
     CHECK((SO3::exp(theta).matrix() - series_exp<3>(hat(theta))).norm() < 1e-12);
   }
   CHECK((SO3::exp(Vector3(0, 0, kPi / 2)) * Vector3(1, 0, 0) - Vector3(0, 1, 0)).norm() < kRounding);
 }
 
-TEST_CASE("SO3: log undoes exp, at most pi long") {
+TEST_CASE("SO3: log inverts exp, with length at most pi") {
   for (const Vector3& theta : test::awkward_turns<3>(2)) {
     const Vector3 back = SO3::exp(theta).log();
     CHECK(back.norm() <= kPi * (1 + 4e-16));  // the norm rounds
-    // A half turn is the same about both ends of its axis.
+    // A half turn is the same rotation about both directions of its axis.
     const double difference = std::min((back - theta).norm(), theta.norm() > 3.14159265 ? (back + theta).norm() : 10.0);
     CHECK(difference <= kRounding * theta.norm());
   }

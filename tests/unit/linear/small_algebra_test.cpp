@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Against Eigen, with what may not be read or written filled with what shows it.
+// Compares the small algebra with Eigen. Memory that must not be read or written holds values that reveal an access.
 #include "linear/small_algebra.hpp"
 
 #include <doctest/doctest.h>
@@ -18,7 +18,8 @@ namespace {
 using Dynamic = Eigen::MatrixXd;
 using DynamicVector = Eigen::VectorXd;
 constexpr double kPoison = std::numeric_limits<double>::quiet_NaN();
-// One panel of the factorisation and less, several, and none of them a multiple of a vector's width but by chance.
+// One panel of the factorisation and less, and several panels. None is a multiple of a vector register except by
+// chance.
 constexpr Index kSizes[] = {1, 2, 3, 4, 5, 7, 12, 15, 16, 17, 33, 47, 48, 49, 64, 96, 97, 131, 150};
 
 Dynamic random_matrix(Random& random, Index rows, Index columns) {
@@ -33,7 +34,7 @@ Dynamic random_definite(Random& random, Index m) {
   return A * A.transpose() + 0.1 * Dynamic::Identity(m, m);
 }
 
-// The lower triangle of S with leading dimension ld, poison everywhere else.
+// The lower triangle of S with leading dimension ld, and poison everywhere else.
 std::vector<double> lower_of(const Dynamic& S, Index ld) {
   std::vector<double> values(static_cast<std::size_t>(ld * S.cols()), kPoison);
   for (Index c = 0; c < S.cols(); ++c)
@@ -45,7 +46,7 @@ std::vector<double> workspace_of(std::size_t size) {
   return std::vector<double>(size + 1, kPoison);
 }
 
-// The factor and what stands around it; false where something around it changed.
+// The factor and the memory around it. False if the memory around it changed.
 bool factor(const Dynamic& S, Index ld, Dynamic& L) {
   const Index m = S.rows();
   std::vector<double> values = lower_of(S, ld), workspace = workspace_of(cholesky_workspace(m));
@@ -152,7 +153,8 @@ TEST_CASE("small algebra: the inner product, whatever the length") {
   Random random(6);
   for (Index n = 0; n < 40; ++n) {
     CAPTURE(n);
-    const DynamicVector x = random_matrix(random, n + 1, 1), y = random_matrix(random, n + 1, 1);  // the last is beyond
+    const DynamicVector x = random_matrix(random, n + 1, 1),
+                        y = random_matrix(random, n + 1, 1);  // the last one is beyond the bound
     CHECK(std::abs(dot(x.data(), y.data(), n) - x.head(n).dot(y.head(n))) <= 1e-14 * x.norm() * y.norm());
   }
 }

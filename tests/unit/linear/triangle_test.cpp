@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Packed triangles.
 #include "linear/triangle.hpp"
 
 #include <doctest/doctest.h>
@@ -15,9 +16,9 @@ namespace {
 
 using Index = std::ptrdiff_t;
 
-// What the update may not touch is filled with this.
+// Fills memory that the update must not write.
 constexpr double kUntouched = -7.25;
-// What it may not read: any use of it spoils a result for good.
+// Fills memory that the update must not read: any use of it makes the result NaN.
 const double kPoison = std::numeric_limits<double>::quiet_NaN();
 
 struct Case {
@@ -35,7 +36,7 @@ std::vector<double> random_matrix(std::mt19937& engine, Index n, Index k, Index 
   return matrix;
 }
 
-// Runs one case against a triple loop; false where any entry is off or was touched without need.
+// Compares one case with a triple loop. False if an entry is wrong or was written without need.
 bool agrees(const Case& c, unsigned seed) {
   std::mt19937 engine(seed);
   const Index ldc = c.n + c.extra_c, lda = c.n + c.extra_a, ldb = c.n + c.extra_b;
@@ -59,7 +60,7 @@ bool agrees(const Case& c, unsigned seed) {
   update_triangle(C.data(), ldc, c.n, A.data(), lda, B.data(), ldb, c.k, workspace.data());
   if (workspace[size] != kUntouched) return false;
 
-  const double tolerance = 1e-15 * static_cast<double>(c.k + 1);  // a rounding of order one a term
+  const double tolerance = 1e-15 * static_cast<double>(c.k + 1);  // one rounding of order one for each term
   for (Index j = 0; j < c.n; ++j) {
     for (Index i = 0; i < ldc; ++i) {
       const double value = C[i + j * ldc];
@@ -88,7 +89,7 @@ TEST_CASE("triangle: ranks and sizes beyond one slice and one block") {
   CHECK(agrees({37, 191, 1, 0, 2}, 1));
   CHECK(agrees({37, 192, 0, 3, 0}, 2));
   CHECK(agrees({38, 193, 2, 1, 1}, 3));
-  CHECK(agrees({261, 192, 0, 0, 0}, 4));  // more than one block of rows, each 120 high
+  CHECK(agrees({261, 192, 0, 0, 0}, 4));  // more than one block of 120 rows
   CHECK(agrees({247, 401, 1, 2, 3}, 5));
   CHECK(agrees({701, 39, 3, 0, 1}, 6));
 }

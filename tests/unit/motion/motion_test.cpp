@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Motion models: values and covariances.
 #include "motion/motion.hpp"
 
 #include <doctest/doctest.h>
@@ -12,7 +13,7 @@ using namespace cairn;
 
 namespace {
 
-// Twists from standstill to a turn of pi in the step.
+// Twists from rest to a rotation of pi in the step.
 std::vector<Vector6> twists(double dt) {
   test::Random random(21);
   std::vector<Vector6> all;
@@ -30,7 +31,7 @@ TEST_CASE("twist: many small steps add up to one") {
   const double dt = 0.5;
   for (const Vector6& twist : twists(dt)) {
     const Increment<SE3> step = integrate_twist<SE3>(twist.head<3>(), twist.tail<3>(), dt, TwistNoise());
-    // Midpoint rule: its error is (turn / steps)^2 / 24 of the way, 1e-9 of 3 m.
+    // Midpoint rule: its error is (turn / steps)^2 / 24 of the distance, 1e-9 of 3 m.
     constexpr int kSteps = 20000;
     const SO3 whole = SO3::exp(twist.tail<3>() * (dt / kSteps)), half = SO3::exp(twist.tail<3>() * (dt / kSteps / 2));
     SO3 R;
@@ -44,7 +45,7 @@ TEST_CASE("twist: many small steps add up to one") {
   }
 }
 
-TEST_CASE("twist: covariance is that of the ordinary error") {
+TEST_CASE("twist: covariance of the ordinary error") {
   const double dt = 0.5;
   TwistNoise noise;
   noise.velocity_sigma << 0.1, 0.2, 0.3;
@@ -79,7 +80,8 @@ TEST_CASE("twist: sampled errors have the covariance") {
     const Vector6 error = pose_error(SE3::exp(sample * dt), step.T_before_after);
     sum += error.dot(information * error);
   }
-  // Chi-square of 6 degrees a sample: the mean is 6 with deviation sqrt(12 / samples); four of them.
+  // Chi-square with 6 degrees of freedom for each sample: mean 6, standard deviation of the mean sqrt(12 / samples).
+  // The bound is four of them.
   CHECK(std::abs(sum / kSamples - 6) < 4 * std::sqrt(12.0 / kSamples));
 }
 
@@ -109,7 +111,7 @@ TEST_CASE("wheels: sign of the yaw rate") {
   Wheels wheels;
   wheels.radius = 0.25;
   wheels.track = 0.5;
-  // z up: the right side runs faster, the vehicle turns left. On the spot: 0.25 / 0.5 * (1 - -1) * 0.5.
+  // With z up the right side turns faster, and the vehicle turns left. On the spot: 0.25 / 0.5 * (1 - -1) * 0.5.
   const Increment<SE3> up = drive_wheels<SE3>(wheels, -1, 1, 0.5);
   CHECK((up.T_before_after.rotation().log() - Vector3(0, 0, 0.5)).norm() < 1e-15);
   CHECK(up.T_before_after.translation().norm() < 1e-15);
@@ -140,12 +142,12 @@ TEST_CASE("wheels: without noise nothing is uncertain") {
 TEST_CASE("wheels: covariance of a straight step, by hand") {
   const Wheels wheels;
   const double left = 3, right = 3, dt = 0.5, way = 0.3 * 3 * 0.5;
-  const double side = 0.01 * 0.01 + 0.02 * 0.02 * 9;  // variance of each side's rate
+  const double side = 0.01 * 0.01 + 0.02 * 0.02 * 9;  // variance of the rate of each side
   const double yaw = 2 * 0.3 * 0.3 * side * dt * dt;  // (r / B)^2 twice
   const double pitch = 0.05 * 0.05 * dt * dt;
   Matrix6 expected = Matrix6::Zero();
   expected(0, 0) = 2 * 0.15 * 0.15 * side * dt * dt;
-  // Halfway along, the turn has swung the rest of the way aside.
+  // Half way along, the rotation has moved the rest of the way sideways.
   expected(1, 1) = 0.01 * 0.01 * dt * dt + way * way / 4 * yaw;
   expected(2, 2) = 0.01 * 0.01 * dt * dt + way * way / 4 * pitch;
   expected(3, 3) = 0.05 * 0.05 * dt * dt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Absolute position, attitude and heading: values where they are known, Jacobians by differences on the manifold.
+// Absolute position, attitude and heading: known values, and Jacobians by differences on the manifold.
 #include "sensor/absolute_fix.hpp"
 
 #include <doctest/doctest.h>
@@ -15,8 +15,8 @@ using cairn::test::Random;
 
 constexpr double kPi = 3.14159265358979323846;
 
-// The residual is z - h: its derivative is that of h with the other sign. Three values, of which the first rows()
-// count.
+// The residual is z - h: its derivative is that of h with the opposite sign. Only the first rows() of three values are
+// used.
 Matrix36 numerical(const AbsoluteFix<SE3>& fix, const SE3& T) {
   return -cairn::test::pose_jacobian([&](const SE3& pose) { return fix.residual(pose); }, T);
 }
@@ -27,7 +27,7 @@ double scaled(const Matrix36& J, const Matrix36& expected) {
 
 }  // namespace
 
-TEST_CASE("absolute fix: nothing is left where the pose is what was measured") {
+TEST_CASE("absolute fix: the residual is zero at the measured pose") {
   Random random(1);
   const Vector3 lever(0.4, -0.2, 1.1);
   for (const SE3& T : cairn::test::awkward_poses(2)) {
@@ -44,7 +44,7 @@ TEST_CASE("absolute fix: nothing is left where the pose is what was measured") {
   CHECK(std::abs(AbsoluteFix<SE3>::heading(0.7, 0.1).residual(yawed)(0)) <= 1e-15);
 }
 
-TEST_CASE("absolute fix: the residual is the error that the covariance speaks of") {
+TEST_CASE("absolute fix: the residual is the error that the covariance describes") {
   Random random(3);
   for (const double size : {0.0, 1e-8, 0.1, 1.5, 3.0}) {
     const SE3 T(SO3::exp(random.normal_vector<3>()), 20 * random.normal_vector<3>());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Custom sensors and the check of their Jacobians.
 #include "sensor/custom.hpp"
 
 #include <doctest/doctest.h>
@@ -12,15 +13,15 @@
 using namespace cairn;
 using namespace cairn::test;
 
-// A built-in one behind the callbacks, packed as the C interface has them.
+// A built-in sensor behind callbacks, with Jacobians packed as in the C interface.
 namespace {
 
 struct Wrapped {
   const Sensor<SE3>* sensor = nullptr;
   int rows = 3;
-  int refuse = 0;             // what the callbacks return
+  int refuse = 0;             // return value of the callbacks
   double wrong_landmark = 0;  // error of one entry of a Jacobian
-  double offset = 0;          // where place leads, beside the landmark
+  double offset = 0;          // offset of the placed landmark
 };
 
 SE3 unpack(const double* pose) {
@@ -44,7 +45,7 @@ std::int32_t predict_wrapped(void* user, const double* pose, const double* landm
 std::int32_t place_wrapped(void* user, const double* pose, const double* z, double* landmark, double* J_pose,
                            double* J_z) {
   const Wrapped& w = *static_cast<const Wrapped*>(user);
-  Vector3 full(5, 0, 0);  // what fewer than three values leave open
+  Vector3 full(5, 0, 0);  // not determined by fewer than three values
   for (int i = 0; i < w.rows; ++i) full[i] = z[i];
   Placement<SE3> out;
   if (!w.sensor->place(unpack(pose), full, kNoMount, out)) return 7;
@@ -56,7 +57,7 @@ std::int32_t place_wrapped(void* user, const double* pose, const double* z, doub
   return w.refuse;
 }
 
-// Azimuth and elevation of a point of the body frame: two values, both angles, the head's rows moved up.
+// Azimuth and elevation of a point in the body frame: two angles, which are the last two rows of the head.
 class Bearing final : public Sensor<SE3> {
  public:
   int rows() const override { return 2; }
@@ -94,7 +95,7 @@ const Vector3 kLandmark(10, 3, 2);
 
 }  // namespace
 
-TEST_CASE("custom: the same numbers as the sensor behind the callbacks") {
+TEST_CASE("custom: gives the same numbers as the sensor behind the callbacks") {
   const StereoHead head(mounted_head());
   Wrapped user;
   user.sensor = &head;
@@ -157,7 +158,7 @@ TEST_CASE("custom: angles are wrapped, and only they") {
 
 namespace {
 
-// Writes everything but one value, which stays what the caller made it, or is not finite.
+// Writes all values except one, which keeps the caller's value or is not finite.
 int spoiled = -1;
 double spoiled_by = 0;
 std::int32_t spoil_predict(void*, const double*, const double*, double* z, double* J_pose, double* J_landmark) {
@@ -219,7 +220,7 @@ TEST_CASE("custom: check finds a wrong Jacobian and passes a right one") {
   const StereoCamera camera(mounted_camera());
   const Bearing bearing;
   for (const SE3& T : awkward_poses(37)) {
-    if (T.translation().norm() > 1e3) continue;  // rounding of the coordinates exceeds what the check resolves
+    if (T.translation().norm() > 1e3) continue;  // the rounding of the coordinates exceeds the resolution of the check
     double worst = -1;
     Wrapped user;
     user.sensor = &head;
@@ -231,7 +232,7 @@ TEST_CASE("custom: check finds a wrong Jacobian and passes a right one") {
     user.sensor = &camera;
     REQUIRE(check_custom(CustomSensor<SE3>(wrap(user, 0)), T, ahead.landmark, worst));
     CHECK(worst < 1e-6);
-    // Two values don't tell where a landmark at 12 m lies, but the check holds what they do tell.
+    // Two values do not determine where a landmark at 12 m lies, but the check compares what they do determine.
     REQUIRE(bearing.place(T, Vector3(kPi, 0.2, 0), kNoMount, ahead));
     user.sensor = &bearing;
     user.rows = 2;
@@ -246,7 +247,7 @@ TEST_CASE("custom: check finds a wrong Jacobian and passes a right one") {
   CHECK(worst > 0.9e-3);
   CHECK(worst < 1.1e-3);
   user.wrong_landmark = 0;
-  user.offset = 0.1;  // relative to the 10 m of the landmark's first coordinate, to 3 of its second
+  user.offset = 0.1;  // relative to the first coordinate of the landmark, 10 m, and to the second one, 3 m
   REQUIRE(check_custom(CustomSensor<SE3>(wrap(user, 6)), kPose, kLandmark, worst));
   CHECK(std::abs(worst - 0.1 / 2) < 1e-3);
   user.offset = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Range and bearing in the plane, and what a teammate's radar tells through the sighting of both: values by hand,
-// Jacobians by differences.
+// Range and bearing in the plane, and extended observations through a mutual sighting: values by hand, Jacobians by
+// differences.
 #include "sensor/range_bearing.hpp"
 
 #include <doctest/doctest.h>
@@ -13,6 +13,7 @@
 #include "geometry/angle.hpp"
 #include "numerical.hpp"
 #include "sensor/cartesian.hpp"
+#include "sensor/jacobian_check.hpp"
 
 using namespace cairn;
 using namespace cairn::test;
@@ -21,12 +22,8 @@ namespace {
 
 const Vector3 kNone = Vector3::Zero();
 
-template <class A, class B>
-double relative(const A& analytic, const B& numerical) {
-  return (analytic - numerical).norm() / (1 + numerical.norm());
-}
-
-// All Jacobians of a prediction and of a placement, in the scale of the distance: nearby, bearings turn fast.
+// All Jacobians of a prediction and of a placement. Errors are relative to the distance, because bearings of near
+// points change fast.
 void check_sensor(const Sensor<SE2>& sensor, const SE2& T, const Vector3& z, const Vector3& mount) {
   CAPTURE(z.transpose());
   CAPTURE(T.translation().transpose());
@@ -36,34 +33,10 @@ void check_sensor(const Sensor<SE2>& sensor, const SE2& T, const Vector3& z, con
   REQUIRE(sensor.place(T, z, mount, placed));
   Prediction<SE2> seen;
   REQUIRE(sensor.predict(T, placed.landmark, mount, seen));
-  // A coordinate is rounded to 1e-16 of its size, and divided by the step of 1e-4 and by the distance.
+  // A coordinate is rounded to 1e-16 of its size; this is divided by the step of 1e-4 and by the distance.
   const double tolerance = 1e-8 + 1e-11 * placed.landmark.norm() / std::min(z[0], 1.0);
   CHECK(sensor.residual(z, seen.z).norm() < tolerance);
-
-  const auto z_of = [&](const SE2& pose, const Vector2& landmark, const Vector3& at) {
-    Prediction<SE2> p;
-    REQUIRE(sensor.predict(pose, landmark, at, p));
-    return p.z;
-  };
-  const auto minus = [&](const Vector3& a, const Vector3& b) { return sensor.residual(a, b); };
-  const Vector2& l = placed.landmark;
-  CHECK(relative(seen.J_z_pose, pose_jacobian([&](const SE2& X) { return z_of(X, l, mount); }, T, minus)) < tolerance);
-  CHECK(relative(seen.J_z_landmark, jacobian<2>([&](const Vector2& x) { return z_of(T, x, mount); }, l, minus)) <
-        tolerance);
-  CHECK(relative(seen.J_z_mount, jacobian<3>([&](const Vector3& x) { return z_of(T, l, x); }, mount, minus)) <
-        tolerance);
-
-  const auto landmark_of = [&](const SE2& pose, const Vector3& value, const Vector3& at) {
-    Placement<SE2> p;
-    REQUIRE(sensor.place(pose, value, at, p));
-    return p.landmark;
-  };
-  CHECK(relative(placed.J_landmark_pose, pose_jacobian([&](const SE2& X) { return landmark_of(X, z, mount); }, T)) <
-        tolerance);
-  CHECK(relative(placed.J_landmark_z, jacobian<3>([&](const Vector3& x) { return landmark_of(T, x, mount); }, z)) <
-        tolerance);
-  CHECK(relative(placed.J_landmark_mount, jacobian<3>([&](const Vector3& x) { return landmark_of(T, z, x); }, mount)) <
-        tolerance);
+  check_jacobians<SE2>(sensor, T, z, mount, placed, seen, tolerance);
 }
 
 const double kBearings[] = {0, 1e-9, 0.7, kPi / 2, -kPi / 2, 3, kPi - 1e-9, -kPi + 1e-9, kPi, 5};
@@ -82,7 +55,7 @@ TEST_CASE("range and bearing: a mounted sensor by hand") {
   p.T_body_sensor = SE2(SO2::from_angle(kPi / 2), Vector2(1, 2));
   const RangeBearing radar(p);
   const SE2 T(SO2::from_angle(kPi / 2), Vector2(10, 20));
-  // The sensor stands at (10, 20) + R(90) (1, 2) = (8, 21) and looks along -x.
+  // The sensor is at (10, 20) + R(90) (1, 2) = (8, 21) and looks along -x.
   Prediction<SE2> seen;
   REQUIRE(radar.predict(T, Vector2(5, 21), kNone, seen));
   CHECK(seen.z[0] == doctest::Approx(3));
@@ -165,7 +138,8 @@ TEST_CASE("extended observation: Jacobians") {
         const double back = random.uniform(-kPi, kPi);
         const ExtendedObservation extended({}, sighting_of(range, bearing, back), true);
         for (double z : kBearings) {
-          // Not so near to the teammate that a turn of the own vehicle by the differences' step leads past it.
+          // Not so near to the teammate that a rotation of the own vehicle by the step of the differences leads past
+          // it.
           const double distance = std::max(std::pow(10.0, random.uniform(-0.5, 3)), range / 20);
           check_sensor(extended, T, Vector3(distance, z, 0), kNone);
           const Vector3 mount(0.01 * range * random.normal(), 0.05 * random.normal(), 0.05 * random.normal());
@@ -176,7 +150,7 @@ TEST_CASE("extended observation: Jacobians") {
 
 // y_j = r_0 u(theta_0) + r_j u(theta_j + delta), delta = theta_0 - theta_0' + pi; A_j = [u, r_j u_perp](theta_j +
 // delta); B_j = [u(theta_0), r_0 u_perp(theta_0) + r_j u_perp(theta_j + delta), -r_j u_perp(theta_j + delta)].
-TEST_CASE("extended observation: the placement is the theory's") {
+TEST_CASE("extended observation: the placement follows the theory") {
   Random random(11);
   const auto u = [](double a) { return Vector2(std::cos(a), std::sin(a)); };
   const auto u_perp = [](double a) { return Vector2(-std::sin(a), std::cos(a)); };
@@ -201,8 +175,8 @@ TEST_CASE("extended observation: the placement is the theory's") {
   }
 }
 
-// It is what the teammate's own radar sees, from where the sighting says that it stands.
-TEST_CASE("extended observation: as the teammate sees it") {
+// The extended observation equals the observation of the teammate's own radar at the sighted pose.
+TEST_CASE("extended observation: equals the view of the teammate") {
   Random random(12);
   const RangeBearing radar;
   for (int n = 0; n < 200; ++n) {
@@ -216,7 +190,7 @@ TEST_CASE("extended observation: as the teammate sees it") {
     const ExtendedObservation sensor({}, sighting_of(there.z[0], there.z[1], back.z[1]), true);
     REQUIRE(sensor.predict(own, landmark, kNone, extended));
     CHECK(radar.residual(direct.z, extended.z).norm() < 1e-9);
-    // Another sighting, by set() and by the mount's error.
+    // Another sighting, by set() and by the error of the mount.
     ExtendedObservation off({}, sighting_of(there.z[0] + 3, there.z[1] - 0.02, back.z[1] + 0.03), true);
     Prediction<SE2> by_mount;
     REQUIRE(off.predict(own, landmark, Vector3(-3, 0.02, -0.03), by_mount));
@@ -227,14 +201,14 @@ TEST_CASE("extended observation: as the teammate sees it") {
   }
 }
 
-TEST_CASE("extended observation: near the teammate there is nothing to see") {
+TEST_CASE("extended observation: nothing is seen near the teammate") {
   RangeBearingParameters p;
   p.near_range = 0.5;
   const ExtendedObservation extended(p, sighting_of(10, 0, kPi), true);
   Prediction<SE2> seen;
   Placement<SE2> placed;
   CHECK_FALSE(extended.predict(SE2(), Vector2(10.1, 0), kNone, seen));
-  CHECK(extended.predict(SE2(), Vector2(0.1, 0), kNone, seen));  // near the own vehicle, far from the other
+  CHECK(extended.predict(SE2(), Vector2(0.1, 0), kNone, seen));  // near the own vehicle, far from the teammate
   CHECK_FALSE(extended.place(SE2(), Vector3(0.1, 0, 0), kNone, placed));
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Jacobians and limits of the built-in sensors.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include "geometry/angle.hpp"
 #include "numerical.hpp"
 #include "sensor/cartesian.hpp"
+#include "sensor/jacobian_check.hpp"
 #include "sensor/sensors.hpp"
 
 using namespace cairn;
@@ -14,14 +16,9 @@ using namespace cairn::test;
 
 namespace {
 
-template <class A, class B>
-double relative(const A& analytic, const B& numerical) {
-  return (analytic - numerical).norm() / (1 + numerical.norm());
-}
-
-// All Jacobians of a prediction and of a placement against central differences, and that both undo each other.
-// The differences are good to 1e-9 of a Jacobian at the nearest points (numerical.hpp); a coordinate x, rounded to
-// 1e-16 x a few times, adds a few 1e-12 x when it is divided by the step of 1e-4.
+// Compares all Jacobians of a prediction and of a placement with central differences, and checks that both invert each
+// other. The differences are accurate to 1e-9 of a Jacobian at the nearest points (numerical.hpp). A coordinate x,
+// rounded to 1e-16 x a few times, adds a few 1e-12 x when it is divided by the step of 1e-4.
 void check_sensor(const Sensor<SE3>& sensor, const SE3& T, const Vector3& z, const Vector2& mount) {
   Placement<SE3> placed;
   REQUIRE(sensor.place(T, z, mount, placed));
@@ -29,34 +26,10 @@ void check_sensor(const Sensor<SE3>& sensor, const SE3& T, const Vector3& z, con
   Prediction<SE3> seen;
   REQUIRE(sensor.predict(T, placed.landmark, mount, seen));
   CHECK(sensor.residual(z, seen.z).norm() < tolerance * (1 + z.norm()));
-
-  const auto z_of = [&](const SE3& pose, const Vector3& landmark, const Vector2& angles) {
-    Prediction<SE3> p;
-    REQUIRE(sensor.predict(pose, landmark, angles, p));
-    return p.z;
-  };
-  const auto minus = [&](const Vector3& a, const Vector3& b) { return sensor.residual(a, b); };
-  const Vector3& l = placed.landmark;
-  CHECK(relative(seen.J_z_pose, pose_jacobian([&](const SE3& X) { return z_of(X, l, mount); }, T, minus)) < tolerance);
-  CHECK(relative(seen.J_z_landmark, jacobian<3>([&](const Vector3& x) { return z_of(T, x, mount); }, l, minus)) <
-        tolerance);
-  CHECK(relative(seen.J_z_mount, jacobian<2>([&](const Vector2& x) { return z_of(T, l, x); }, mount, minus)) <
-        tolerance);
-
-  const auto landmark_of = [&](const SE3& pose, const Vector3& value, const Vector2& angles) {
-    Placement<SE3> p;
-    REQUIRE(sensor.place(pose, value, angles, p));
-    return p.landmark;
-  };
-  CHECK(relative(placed.J_landmark_pose, pose_jacobian([&](const SE3& X) { return landmark_of(X, z, mount); }, T)) <
-        tolerance);
-  CHECK(relative(placed.J_landmark_z, jacobian<3>([&](const Vector3& x) { return landmark_of(T, x, mount); }, z)) <
-        tolerance);
-  CHECK(relative(placed.J_landmark_mount, jacobian<2>([&](const Vector2& x) { return landmark_of(T, z, x); }, mount)) <
-        tolerance);
+  check_jacobians<SE3>(sensor, T, z, mount, placed, seen, tolerance);
 }
 
-// What a refusal must not depend on: that the point itself is at fault.
+// Whether a sensor at the identity pose observes `landmark`, and whether it places a landmark from z.
 bool sees(const Sensor<SE3>& sensor, const Vector3& landmark) {
   Prediction<SE3> out;
   return sensor.predict(SE3(), landmark, kNoMount, out);
@@ -107,7 +80,7 @@ TEST_CASE("stereo head: the mount of eq. 4") {
   REQUIRE(head.predict(T, T * m_b, kNoMount, seen));
   CHECK((seen.z - Vector3(m_c.norm(), std::atan2(2, 8), std::atan2(-1, std::hypot(8, 2)))).norm() < 1e-14);
 
-  // A mount error adds to the encoders.
+  // A mount error adds to the encoder readings.
   StereoHead turned(p);
   turned.point(pan + 0.02, stick - 0.03);
   Prediction<SE3> expected;
@@ -125,10 +98,10 @@ TEST_CASE("stereo head: signs with the default mount") {
   CHECK((seen.z - Vector3(std::sqrt(8), 0, kPi / 4)).norm() < 1e-14);  // up is positive
   head.point(kPi / 2, 0);
   REQUIRE(head.predict(SE3(), Vector3(0, 4, 0), kNoMount, seen));
-  CHECK((seen.z - Vector3(4, 0, 0)).norm() < 1e-14);  // panned left, it looks left
+  CHECK((seen.z - Vector3(4, 0, 0)).norm() < 1e-14);  // panned to the left, it looks to the left
   head.point(0, 0.5);
   REQUIRE(head.predict(SE3(), Vector3(4, 0, 0), kNoMount, seen));
-  CHECK(std::abs(seen.z[2] - 0.5) < 1e-14);  // a positive stick angle lowers the lens, the point appears above
+  CHECK(std::abs(seen.z[2] - 0.5) < 1e-14);  // a positive stick angle lowers the lens, so the point appears above
 }
 
 TEST_CASE("stereo head: Jacobians") {
@@ -142,7 +115,7 @@ TEST_CASE("stereo head: Jacobians") {
       check_sensor(head, T, z, kNoMount);
       check_sensor(head, T, z, Vector2(0.05, -0.08));
     }
-    // Close to the limits: in range, in elevation, and across the cut of the azimuth.
+    // Close to the limits of range and elevation, and across the cut of the azimuth.
     const SE3 T(SO3::exp(Vector3(0.3, -0.2, 1)), Vector3(1, 2, 3));
     check_sensor(head, T, Vector3(p.near_range + 1e-3, 0.4, 0.1), kNoMount);
     check_sensor(head, T, Vector3(10, 0.4, p.max_elevation - 1e-3), kNoMount);
@@ -188,10 +161,10 @@ TEST_CASE("stereo head: noise and residual") {
   CHECK((r - Vector3(-1, 6.2 - 2 * kPi, 0.1)).norm() < 1e-14);
 }
 
-TEST_CASE("stereo camera: the pinhole, and where it looks") {
+TEST_CASE("stereo camera: projection and viewing direction") {
   const StereoCamera camera;
   Prediction<SE3> seen;
-  // 10 m ahead, 1 m to the left, 0.5 m up: in the image left of and above the centre.
+  // 10 m ahead, 1 m to the left, 0.5 m up: in the image to the left of the centre and above it.
   REQUIRE(camera.predict(SE3(), Vector3(10, 1, 0.5), kNoMount, seen));
   CHECK((seen.z - Vector3(320 - 50, 320 - 60, 240 - 25)).norm() < 1e-11);
 
@@ -211,7 +184,7 @@ TEST_CASE("stereo camera: Jacobians") {
       const double left = random.uniform(0, 640), disparity = random.uniform(4, 80);
       check_sensor(camera, T, Vector3(left, left - disparity, random.uniform(0, 480)), kNoMount);
     }
-    // Close to the limits: near depth, where the disparity is large, and least disparity.
+    // Close to the limits: near depth, where the disparity is large, and the smallest disparity.
     const SE3 T(SO3::exp(Vector3(0.3, -0.2, 1)), Vector3(1, 2, 3));
     const double largest = p.fu * p.baseline / (p.near_depth + 1e-3);
     check_sensor(camera, T, Vector3(800, 800 - largest, 300), kNoMount);
@@ -226,7 +199,7 @@ TEST_CASE("stereo camera: refusals") {
   CHECK_FALSE(sees(camera, Vector3(0.1 - 1e-9, 0, 0)));
   CHECK_FALSE(sees(camera, Vector3(0, 1, 1)));
   CHECK_FALSE(sees(camera, Vector3(-5, 0, 0)));
-  // Least disparity: 2.5 of its deviations, here of sqrt(2) pixels, or min_disparity where that is more.
+  // The smallest disparity is the larger of 2.5 standard deviations, here of sqrt(2) pixels, and min_disparity.
   const double least = 2.5 * std::sqrt(2);
   CHECK(places(camera, Vector3(300, 300 - least - 1e-9, 200)));
   CHECK_FALSE(places(camera, Vector3(300, 300 - least + 1e-9, 200)));

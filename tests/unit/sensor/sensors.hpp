@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sensors with every parameter away from its default, for the tests of sensors.
+// Sensors with non-default values of all parameters, for the tests of sensors.
 #pragma once
 
 #include <limits>

@@ -39,8 +39,7 @@ Observation look(const SE2& from, const Vector2& at, std::uint64_t id, Random& r
 }
 
 void take(Filter<SE2>& filter, int sensor, const std::vector<Observation>& scan) {
-  std::copy(scan.begin(), scan.end(), filter.staging());
-  filter.update(sensor, static_cast<Index>(scan.size()));
+  filter.update(sensor, scan.data(), static_cast<Index>(scan.size()));
 }
 
 struct Claims {

@@ -8,12 +8,12 @@ from . import page, run, team, team_page
 
 
 def pictures_of(runs):
-    """The paper's figures for the page of a comparison; none where matplotlib is missing, and it says so."""
+    """The paper's figures for the page of a comparison. Without matplotlib it prints a message and returns none."""
     from . import figures
     try:
         return figures.for_page(runs)
     except ImportError as error:
-        print(f"cairn.report: the page goes without the paper's figures: {error}: pip install 'cairn[figures]'",
+        print(f"cairn.report: the page is made without the paper's figures: {error}: pip install 'cairn[figures]'",
               file=sys.stderr)
         return ()
 
@@ -25,12 +25,13 @@ def main(arguments=None):
     parser.add_argument("folder", metavar="DIR", help="what 'cairn run --output DIR' or 'cairn simulate --output DIR' wrote")
     parser.add_argument("-o", "--output", metavar="FILE", help="the page (default: DIR/report.html)")
     parser.add_argument("--figures", metavar="OUT", help="write Figures 5 to 13 of the Mars paper into this folder instead")
-    parser.add_argument("--format", choices=("png", "svg"), default="png", help="of the figures (default: png)")
+    parser.add_argument("--format", choices=("png", "svg"), default="png", help="format of the figures (default: png)")
     options = parser.parse_args(arguments)
     try:
         cooperation = team.read_folder(options.folder)
         if cooperation is not None and options.figures:
-            raise run.ReportError(f"{options.folder}: --figures draws those of the Mars paper; this is a team's folder")
+            raise run.ReportError(f"{options.folder}: --figures draws the figures of the Mars paper, and this is the folder of "
+                                      "a team")
         runs = run.read_folder(options.folder) if cooperation is None else ()
         if options.figures:
             from . import figures
@@ -49,7 +50,7 @@ def main(arguments=None):
     except run.ReportError as error:
         print(f"cairn.report: {error}", file=sys.stderr)
     except ImportError as error:
-        print(f"cairn.report: the figures take matplotlib ({error}): pip install 'cairn[figures]'", file=sys.stderr)
+        print(f"cairn.report: the figures need matplotlib ({error}): pip install 'cairn[figures]'", file=sys.stderr)
     except OSError as error:
         print(f"cairn.report: {error}", file=sys.stderr)
     return 2

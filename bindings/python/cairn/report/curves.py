@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page's curves, as plotly draws them: {"data": [...], "layout": {...}}."""
+"""The curves of the page in plotly's form: {"data": [...], "layout": {...}}."""
 import numpy as np
 
 from . import thin
@@ -44,7 +44,7 @@ def band(x, low, high, fill, name):
 
 
 def errors(runs):
-    """One figure for each of the six errors inside their 3-sigma bands; empty where there is no truth."""
+    """One figure for each of the six errors with its 3-sigma band. Empty if there is no truth."""
     figures = []
     for title, error_name, sigma_name, unit, scale in ERRORS:
         bands, lines, inside = [], [], []
@@ -70,7 +70,7 @@ def errors(runs):
 
 
 def nis(runs):
-    """Normalised innovation squared over its degrees of freedom, in its 95 % band."""
+    """Normalised innovation squared (NIS) over its degrees of freedom, with its 95 % band."""
     traces, notes = [], []
     for run in runs:
         table = run.timing
@@ -98,7 +98,7 @@ def nis(runs):
 
 
 def step_time(runs):
-    """Time of each step on a logarithmic axis, closings marked."""
+    """Time of each step on a logarithmic axis. Closings are marked."""
     traces, notes, least, most = [], [], [], []
     for run in runs:
         table = run.timing
@@ -109,7 +109,7 @@ def step_time(runs):
         taken, times = table["step_ms"], run.time_of_steps(table["step"])
         kept = thin.envelope(taken, MOST)
         traces.append(line(times[kept], taken[kept], COLOURS[key], f"{label}step", opacity=0.9))
-        least.append(np.quantile(taken, 0.02))  # a step that sees nothing takes next to no time
+        least.append(np.quantile(taken, 0.02))  # a step without observations takes almost no time
         most.append(taken.max())
         note = f"{label}median {np.median(taken):.3g} ms, worst {taken.max():.3g} ms"
         closings = np.isin(table["step"], run.closing_steps())
@@ -132,15 +132,15 @@ def held(runs):
     """Landmarks in the state of the filter."""
     traces = []
     for run in runs:
-        told = run.held_landmarks()
-        if told is None:
+        counts = run.held_landmarks()
+        if counts is None:
             continue
-        key, (times, count) = key_of(runs, run), told
+        key, (times, count) = key_of(runs, run), counts
         kept = thin.envelope(count, MOST)
         traces.append(line(times[kept], count[kept], COLOURS[key], "landmarks" if key == "only" else key))
     if not traces:
         return None
-    note = "the squared number is what a step costs"
+    note = "the cost of a step grows with the square of this number"
     if any(run.closing_steps() for run in runs):
         note += "; each submap starts anew"
     return {"title": "Landmarks in the filter's state", "note": note, "data": traces, "layout": base_layout(280, "landmarks")}

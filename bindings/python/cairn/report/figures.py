@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures 5 to 13 of the Mars paper's section 4, drawn by matplotlib from a comparison's two runs."""
+"""Figures 5 to 13 of section 4 of the Mars paper, drawn by matplotlib from the two runs of a comparison."""
 import io
 import os
 
@@ -12,7 +12,7 @@ from .run import ReportError
 matplotlib.use("Agg", force=True)
 from matplotlib import pyplot, ticker  # noqa: E402
 
-TRUTH, ESTIMATE, MARK, SEEN = "#d63f8f", "#1f4fd0", "#2e9b3d", "#d02626"  # the paper's: pink, blue, green, red
+TRUTH, ESTIMATE, MARK, SEEN = "#d63f8f", "#1f4fd0", "#2e9b3d", "#d02626"  # the colours of the paper: pink, blue, green, red
 SIDES = {"standard": "#c8641b", "submaps": "#2563a8"}
 STYLE = {"font.size": 9, "axes.grid": True, "grid.color": "#e4e1da", "axes.edgecolor": "#9a968c", "axes.titlesize": 10,
          "legend.fontsize": 8, "legend.framealpha": 0.9, "svg.hashsalt": "cairn", "savefig.facecolor": "white"}
@@ -39,7 +39,7 @@ def _terrain(axes, table):
 
 
 def _flatten(axes):
-    """Axes x and y true to each other, heights five times as tall and more where the country is flat."""
+    """Axes x and y have the same scale. Heights are drawn five times as tall, and more on flat ground."""
     axes.set_xlabel("x (m)", labelpad=6)
     axes.set_ylabel("y (m)", labelpad=6)
     axes.set_zlabel("z (m)", labelpad=-2)
@@ -84,7 +84,7 @@ def trajectories(run):
 
 
 def _three(times, values, names, unit, bound, sigmas=None):
-    """Three curves, one below the other, each within the paper's bound."""
+    """Three curves, one below the other, each with the paper's bound."""
     figure, rows = pyplot.subplots(3, 1, sharex=True, figsize=(6.4, 4.6))
     for row, value, name, at in zip(rows, values.T, names, range(3)):
         if sigmas is not None:
@@ -121,7 +121,7 @@ def attitude_error(run, bound):
 
 
 def local_deviation(run):
-    """Of the local position and azimuth; None where the run did not write it."""
+    """Figure of the local position and azimuth. None if the run did not write them."""
     columns = [run.trajectory.get(name) for name in ("local_sigma_x_m", "local_sigma_y_m", "local_sigma_dtheta_z_rad")]
     if any(column is None for column in columns):
         return None
@@ -141,13 +141,13 @@ def local_deviation(run):
 
 
 def held(runs):
-    told = {run: run.held_landmarks() for run in runs}
-    if not any(told.values()):
+    counts = {run: run.held_landmarks() for run in runs}
+    if not any(counts.values()):
         return None
     figure, axes = pyplot.subplots(figsize=(6.4, 4.2))
     for run in runs:
-        if told[run]:
-            axes.step(*told[run], where="post", linewidth=1.3, color=SIDES.get(run.name, ESTIMATE),
+        if counts[run]:
+            axes.step(*counts[run], where="post", linewidth=1.3, color=SIDES.get(run.name, ESTIMATE),
                       label={"standard": "standard EKF-SLAM", "submaps": "SLAM with submaps"}.get(run.name, run.name))
     axes.set_xlabel("time (s)")
     axes.set_ylabel("landmarks")
@@ -158,7 +158,7 @@ def held(runs):
 
 
 def draw(runs):
-    """(number, how to draw it) of each figure that these runs have; one run alone is standard or has submaps."""
+    """(number, function that draws it) of each figure that these runs have. A single run is standard or has submaps."""
     sides = {run.name: run for run in runs} if len(runs) > 1 else {
         "submaps" if runs[0].submaps is not None and len(runs[0].submaps["step"]) else "standard": runs[0]}
     standard, submaps = sides.get("standard"), sides.get("submaps")
@@ -193,7 +193,7 @@ def for_page(runs):
 
 
 def write(runs, folder, kind):
-    """Writes figure_05.png and so on; gives their paths."""
+    """Writes figure_05.png and so on; returns their paths."""
     os.makedirs(folder, exist_ok=True)
     paths = []
     for number, content in _rendered(runs, kind):
@@ -201,5 +201,5 @@ def write(runs, folder, kind):
         with open(paths[-1], "wb") as file:
             file.write(content)
     if not paths:
-        raise ReportError("there is nothing to draw")
+        raise ReportError("there is nothing to draw: name a folder that 'cairn simulate mars --output' wrote")
     return paths

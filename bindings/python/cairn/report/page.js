@@ -6,7 +6,7 @@
   const sceneDone = data.scene ? drawScene(data.scene, config) : Promise.resolve();
   const curves = data.curves.map((curve, n) =>
     Plotly.newPlot(document.getElementById('curve' + n), curve.data, curve.layout, config));
-  // Curves over one time axis are zoomed together.
+  // Curves over the same time axis zoom together.
   let zooming = false;
   data.curves.forEach((curve, n) => document.getElementById('curve' + n).on('plotly_relayout', event => {
     if (zooming || curve.alone) return;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Puts the page together: one file, everything in it."""
+"""Builds the page: one file that contains everything."""
 import base64
 import html
 import json
@@ -27,22 +27,22 @@ MEANINGS = {
     "attitude_end_deg": "attitude error once the last submap is closed, degrees",
     "filter_landmarks_max": "landmarks in the filter's state, at most",
     "filter_landmarks_mean": "landmarks in the filter's state, mean over the steps",
-    "filter_landmarks_rms": "the same, root mean square: what the cost goes by",
+    "filter_landmarks_rms": "the same, root mean square: the cost depends on it",
     "landmark_rmse_m": "landmarks' error at the end, root mean square, m",
-    "pose_anees_per_dof": "squared pose error over its variance: 1 for an honest filter",
-    "nis_per_dof": "squared innovation over its variance: 1 where the noise is as assumed",
-    "wrong_pairings": "observations paired with the wrong landmark", "paired": "observations paired without a name",
+    "pose_anees_per_dof": "squared pose error over its variance: 1 for a consistent filter",
+    "nis_per_dof": "squared innovation over its variance: 1 if the noise is as assumed",
+    "wrong_pairings": "observations paired with the wrong landmark", "paired": "observations paired without an id",
     "vehicles": "vehicles of the team", "recursion_ms_mean": "time of one vehicle's step, its share of the packets in it, ms",
-    "claimed_improvement": "by how much the first vehicle's covariance is smaller than by itself",
-    "true_improvement": "by how much its mean squared error is"}
+    "claimed_improvement": "by how much the covariance of the first vehicle is smaller than without the team",
+    "true_improvement": "by how much its mean squared error is smaller than without the team"}
 CARDS = [("pose_rmse_m", "position error, rms", "m"), ("landmark_rmse_m", "landmark error, rms", "m"),
-         ("attitude_rmse_deg", "attitude error, rms", "°"), ("pose_anees_per_dof", "honesty of the pose (1 is right)", ""),
+         ("attitude_rmse_deg", "attitude error, rms", "°"), ("pose_anees_per_dof", "consistency of the pose (1 is right)", ""),
          ("step_ms_mean", "time of a step", "ms"), ("landmarks", "landmarks", ""), ("submaps", "submaps", "")]
 FIGURE_SECTION = "The Mars paper’s figures"
 
 
 def number(value):
-    """A figure as a person writes it."""
+    """A number in readable form."""
     if isinstance(value, str):
         return html.escape(value)
     if isinstance(value, int) or (abs(value) >= 1000 and value == round(value)):
@@ -106,7 +106,7 @@ def plot_block(curve, at):
 
 
 def sections(runs, pictures):
-    """HTML of the sections below the scene, and the curves that they hold."""
+    """HTML of the sections below the scene, and the curves in them."""
     found, blocks = [], []
 
     def place(curve):
@@ -135,12 +135,12 @@ def plotly_source():
     try:
         from plotly.offline import get_plotlyjs
     except ImportError as error:
-        raise ReportError(f"the page takes plotly ({error}): pip install 'cairn[report]'") from None
+        raise ReportError(f"the page needs plotly ({error}): pip install 'cairn[report]'") from None
     return get_plotlyjs().replace("</script", "<\\/script")
 
 
 def build(folder, runs, pictures=()):
-    """The page of one run or of two, as text."""
+    """The text of the page of one run or of two."""
     title = os.path.basename(os.path.abspath(folder))
     title = f"{title}: submaps beside one standard map" if len(runs) > 1 else title
     main = runs[-1]
@@ -151,7 +151,7 @@ def build(folder, runs, pictures=()):
 
 
 def assemble(folder, title, lead, cards_html, blocks, table_html, found, built_scene=None):
-    """The page's text of its parts; `found` are the curves that the blocks hold."""
+    """The text of the page from its parts. `found` are the curves in the blocks."""
     data = {"scene": built_scene,
             "curves": [{"data": curve["data"], "layout": curve["layout"], "alone": bool(curve.get("alone"))}
                        for curve in found]}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads what a run left in its folder."""
+"""Reads the files that a run wrote into its folder."""
 import csv
 import io
 import json
@@ -7,12 +7,12 @@ import os
 
 import numpy as np
 
-WHOLE = {"id", "submap"}    # columns that a double would not hold exactly
+WHOLE = {"id", "submap"}    # columns whose values a double may not hold exactly
 WORDS = {"mode", "reason", "result"}
 
 
 class ReportError(Exception):
-    """The folder can't be reported on; the message names the file and the cause."""
+    """No report can be made of the folder. The message names the file and the cause."""
 
 
 def _column(name, cells):
@@ -24,7 +24,7 @@ def _column(name, cells):
 
 
 def _plain_table(header, body):
-    """The quick way for long tables of numbers alone."""
+    """Fast reader for long tables that hold only numbers."""
     body = body.replace("\r", "").replace(",,", ",nan,").replace(",,", ",nan,").replace(",\n", ",nan\n")
     if not body.strip():
         return {name: np.zeros(0) for name in header}
@@ -35,7 +35,7 @@ def _plain_table(header, body):
 
 
 def read_table(path):
-    """A CSV file as a dictionary of columns (NaN where a field is empty), or None where there is no such file."""
+    """A CSV file as a dictionary of columns (NaN for an empty field), or None if there is no such file."""
     try:
         with open(path, newline="") as file:
             header = file.readline().strip().split(",")
@@ -53,11 +53,11 @@ def read_table(path):
                 raise ValueError(f"line {number + 2} has {len(row)} fields under {len(header)} names")
         return {name: _column(name, [row[i] for row in rows]) for i, name in enumerate(header)}
     except ValueError as error:
-        raise ReportError(f"{path}: it is no table of numbers: {error}") from None
+        raise ReportError(f"{path}: it is not a table of numbers: {error}") from None
 
 
 def read_figures(path):
-    """The figures of a summary.json by name; none where there is no such file."""
+    """The figures of a summary.json by name. Empty if there is no such file."""
     try:
         with open(path) as file:
             found = json.load(file)
@@ -71,14 +71,14 @@ def read_figures(path):
 
 
 class Observations:
-    """What innovations.csv tells: when a landmark was seen first, how many were refused and why, and how many landmarks
-    the filter held at each step."""
+    """The contents of innovations.csv: the first step of each landmark, the number of refused observations for each
+    reason, and the number of landmarks in the filter at each step."""
 
     def __init__(self, path, closing_steps):
-        self.first_step = {}   # of each landmark id
-        self.refused = {}      # number by reason
+        self.first_step = {}   # by landmark id
+        self.refused = {}      # number of refused observations by reason
         self.total = 0
-        self.held_step, self.held = [], []  # distinct landmarks taken in since the last closing
+        self.held_step, self.held = [], []  # distinct landmarks observed since the last closing
         closings = sorted(closing_steps)
         held, closed, step = set(), 0, None
         try:
@@ -111,11 +111,11 @@ class Observations:
         except FileNotFoundError:
             pass
         except (OSError, ValueError, IndexError) as error:
-            raise ReportError(f"{path}: it is no table of observations: {error}") from None
+            raise ReportError(f"{path}: it is not a table of observations: {error}") from None
 
 
 class Run:
-    """The files of one run. Tables that are absent are None."""
+    """The files of one run. A table without a file is None."""
 
     def __init__(self, folder, name=None):
         self.folder = folder
@@ -146,7 +146,7 @@ class Run:
         return read_figures(self._path(name + ".json"))
 
     def _members(self):
-        """Ids of each submap's landmarks, by submap."""
+        """Ids of the landmarks of each submap, by submap."""
         table = self._table("submap_landmarks")
         members = {}
         if table is not None:
@@ -158,7 +158,7 @@ class Run:
         return [] if self.submaps is None else [int(step) for step in self.submaps["step"]]
 
     def positions(self, prefix=""):
-        """Positions (n x 3), m; prefix "true_" for the true ones, None where there is none."""
+        """Positions (n x 3), m. With the prefix "true_" the true positions, or None if there is no truth."""
         columns = [self.trajectory.get(f"{prefix}{axis}_m") for axis in "xyz"]
         if any(column is None for column in columns):
             return None
@@ -172,7 +172,7 @@ class Run:
         return np.interp(steps, self.trajectory["step"], self.trajectory["t_s"])
 
     def held_landmarks(self):
-        """Times and how many landmarks the filter's state held then; None where nothing tells."""
+        """Times, and the number of landmarks in the filter's state at each; None if no file has them."""
         table, seen = self.timing, self.observations
         if table is not None and "filter_landmarks" in table and len(table["step"]):
             return self.time_of_steps(table["step"]), table["filter_landmarks"]

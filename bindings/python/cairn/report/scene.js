@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 'use strict';
-// Draws the 3-D scene and works its slider; the promise is kept once it stands.
+// Draws the 3-D scene and handles its slider. The promise resolves when the scene is drawn.
 function drawScene(scene, config) {
   const sceneConfig = {...config, displayModeBar: true,
                        modeBarButtons: [['orbitRotation', 'pan3d', 'zoom3d', 'resetCameraDefault3d']]};
@@ -8,9 +8,9 @@ function drawScene(scene, config) {
   const colours = {only: '#2563a8', standard: '#c8641b', submaps: '#2563a8'};
   const main = scene.runs[scene.runs.length - 1];
   const plot = document.getElementById('scene');
-  const traces = [], dynamic = [];  // dynamic: [number of a trace, function of a stop that gives what to set]
+  const traces = [], dynamic = [];  // dynamic: [number of a trace, function of a stop that returns what to set]
 
-  // How many of an ascending list are at most `step`.
+  // Number of entries of an ascending list that are at most `step`.
   function known(steps, step) {
     let low = 0, high = steps.length;
     while (low < high) {
@@ -123,7 +123,7 @@ function drawScene(scene, config) {
     if (main.landmarks.x.length) parts.push(stop.landmarks + ' landmarks seen');
     return parts.join(' · ');
   }
-  // Draws the newest stop that was asked for; those that came while it was drawing are passed over.
+  // Draws the newest requested stop. Requests that came while it was drawing are skipped.
   function show(number) {
     label.textContent = describe(scene.stops[number]);
     const idle = wanted === null;
@@ -145,7 +145,7 @@ function drawScene(scene, config) {
     });
     return drawing;
   }
-  // One restyle for each set of keys that the same traces have.
+  // One restyle call for each set of keys that the same traces share.
   function draw(changes, numbers) {
     const groups = {};
     numbers.forEach(number => {
@@ -180,12 +180,12 @@ function drawScene(scene, config) {
   const notes = [];
   const counts = main.counts;
   if (counts.landmarksDrawn < counts.landmarks) {
-    notes.push(counts.landmarksDrawn + ' of ' + counts.landmarks + ' landmarks are drawn, an even pick.');
+    notes.push(counts.landmarksDrawn + ' of ' + counts.landmarks + ' landmarks are drawn, evenly chosen.');
   }
   if (counts.ellipsoids) {
     notes.push(counts.ellipsoids < counts.landmarks
       ? 'Ellipsoids (3σ along each axis) are drawn for ' + counts.ellipsoids + ' of ' + counts.landmarks +
-        ' landmarks: the most uncertain, and an even pick of the others.'
+        ' landmarks: the most uncertain ones, and evenly chosen others.'
       : 'Ellipsoids are 3σ along each axis.');
   }
   if (counts.submaps) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The data of the page's 3-D scene: what is drawn, and how much of it is known at each stop of the slider."""
+"""The data of the page's 3-D scene: the objects, and which of them are shown at each stop of the slider."""
 import numpy as np
 
 from . import shapes, thin
@@ -9,7 +9,7 @@ MOST_LANDMARKS = 20000
 MOST_POINTS = 4000     # of a trajectory
 MOST_OUTLINES = 1000
 MOST_STOPS = 240
-TERRAIN_SIDE = 140     # most grid lines each way
+TERRAIN_SIDE = 140     # largest number of grid lines in each direction
 COVARIANCE = ["cov_xx_m2", "cov_xy_m2", "cov_xz_m2", "cov_xy_m2", "cov_yy_m2", "cov_yz_m2", "cov_xz_m2", "cov_yz_m2",
               "cov_zz_m2"]
 
@@ -53,7 +53,7 @@ class Landmarks:
 
 
 def outlines(run, landmarks):
-    """Each submap's outline from above, as (submap, step, points, landmark rows)."""
+    """The outline of each submap from above: (submap, step, points, landmark rows)."""
     if run.submaps is None:
         return []
     drawn, since = [], run.trajectory["step"][0]
@@ -61,7 +61,7 @@ def outlines(run, landmarks):
     for submap, step in zip(run.submaps["submap"].tolist(), run.submaps["step"]):
         rows = [landmarks.where[i] for i in run.members.get(submap, []) if i in landmarks.where]
         points = landmarks.points[rows]
-        if len(rows) < 3:  # too few for an outline: the way driven in it helps out
+        if len(rows) < 3:  # too few for an outline: the trajectory in the submap is added
             driven = (run.trajectory["step"] >= since) & (run.trajectory["step"] <= step)
             points = np.vstack([points, positions[driven]])
         drawn.append((submap, float(step), shapes.outline(points), rows))
@@ -70,7 +70,7 @@ def outlines(run, landmarks):
 
 
 def run_scene(run):
-    """What is drawn of one run. Entries that grow as time goes on come in time's order, with the step of each."""
+    """The objects of one run. Entries that are added over time are in order of time, each with its step."""
     steps, positions, truth = run.trajectory["step"], run.positions(), run.positions("true_")
     kept = thin.evenly(len(steps), MOST_POINTS)
     landmarks = Landmarks(run)
@@ -105,7 +105,7 @@ def run_scene(run):
 
 
 def stops(run):
-    """Steps at which the slider stops: after each closing, or evenly spread; the last step is always one."""
+    """Steps at which the slider stops: after each closing, or evenly spread. The last step is always a stop."""
     steps = run.trajectory["step"]
     closings = [step for step in run.closing_steps() if steps[0] <= step <= steps[-1]]
     if closings:
@@ -116,7 +116,7 @@ def stops(run):
 
 
 def exaggeration(scenes, ground):
-    """Extent and how many times heights are drawn taller than true, so that flat country shows some relief."""
+    """Extent of the scene, and the factor by which heights are exaggerated so that flat ground shows some relief."""
     def span(axis):
         found = [value for scene in scenes for value in scene["estimate"][axis] + scene["landmarks"][axis]
                  if value is not None]
@@ -130,13 +130,13 @@ def exaggeration(scenes, ground):
     for candidate in (2.0, 5.0, 10.0, 20.0):
         if z * times / widest < 0.08:
             times = candidate
-    nearer = min(1.7, widest / np.sqrt(x * y))  # a long narrow country would be small otherwise
+    nearer = min(1.7, widest / np.sqrt(x * y))  # without this a long narrow scene would look small
     return {"x": nearer * x / widest, "y": nearer * y / widest, "z": nearer * max(z * times / widest, 0.02),
             "times": times}
 
 
 def build(runs):
-    """The scene of one run or of two; the last one has the slider's stops and the submaps."""
+    """The scene of one run or of two. The last run has the stops of the slider and the submaps."""
     main = runs[-1]
     first, closings = Landmarks(main).first, sorted(main.closing_steps())
     ground = next((found for found in (terrain(run.terrain) for run in reversed(runs)) if found), None)

@@ -7,7 +7,7 @@ import numpy as np
 
 @functools.lru_cache(maxsize=None)
 def sphere():
-    """A unit sphere of 42 vertices and 80 triangles: an icosahedron, split once. Vertices and triangles."""
+    """Vertices and triangles of a unit sphere: an icosahedron, split once, with 42 vertices and 80 triangles."""
     golden = (1 + 5 ** 0.5) / 2
     vertices = [v for a in (-1, 1) for b in (-golden, golden) for v in ((0, a, b), (a, b, 0), (b, 0, a))]
     vertices = np.array(vertices) / np.hypot(1, golden)
@@ -31,14 +31,14 @@ def sphere():
 
 
 def ellipsoid(centre, covariance, sigmas=3.0):
-    """Vertices (42 x 3) of the surface of so many standard deviations."""
+    """Vertices (42 x 3) of the ellipsoid of a given number of standard deviations."""
     variances, axes = np.linalg.eigh(covariance)
     lengths = sigmas * np.sqrt(np.maximum(variances, 0.0))
     return centre + (sphere()[0] * lengths) @ axes.T
 
 
 def outline(points):
-    """Convex hull seen from above, (n x 3), closed: the first point comes again at the end."""
+    """Convex hull seen from above, (n x 3). It is closed: the last point repeats the first."""
     points = np.unique(np.asarray(points, dtype=float), axis=0)
     if len(points) > 2:
         def chain(ordered):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads what a team left in its folder: one run of all its vehicles, or a comparison of the modes."""
+"""Reads the files that a team wrote into its folder: one run of all vehicles, or a comparison of the modes."""
 import os
 import types
 
@@ -27,7 +27,7 @@ def _table(folder, name, columns):
 
 
 class Vehicle:
-    """One vehicle's columns of a table, and the errors where there is truth."""
+    """The columns of one vehicle in a table, and its errors if there is truth."""
 
     def __init__(self, number, columns):
         self.number = number
@@ -37,7 +37,7 @@ class Vehicle:
         return self.columns[name]
 
     def error(self, name):
-        """Truth minus estimate of x, y or heading, NaN where there is no truth."""
+        """Truth minus estimate of x, y or heading; NaN where there is no truth."""
         if f"true_{name}" not in self.columns:
             return np.full(len(self["time"]), np.nan)
         error = self[f"true_{name}"] - self[name]
@@ -50,7 +50,7 @@ def _by_vehicle(table):
 
 
 class TeamRun:
-    """What 'cairn simulate usv --output' or 'cairn run' of a MRCLAM folder wrote."""
+    """The files of 'cairn simulate usv --output' or of 'cairn run' on an MRCLAM folder."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -59,17 +59,17 @@ class TeamRun:
         landmarks = _table(folder, "team_landmarks.csv", LANDMARKS)
         self.maps = _by_vehicle(landmarks) if landmarks is not None else []
         self.summary = run.read_figures(os.path.join(folder, "summary.json"))
-        self.observations = types.SimpleNamespace(refused={})  # no file tells of them
+        self.observations = types.SimpleNamespace(refused={})  # no file holds them
 
     def one_map(self):
-        """Whether all vehicles hold the same map, as those do that run the same filter."""
+        """Whether all vehicles hold the same map. They do if all run the same filter."""
         first = self.maps[0] if self.maps else None
         return all(np.array_equal(one["id"], first["id"]) and np.allclose(one["x"], first["x"], rtol=0, atol=1e-6)
                    and np.allclose(one["y"], first["y"], rtol=0, atol=1e-6) for one in self.maps)
 
 
 class TeamComparison:
-    """What 'cairn simulate usv --compare --output' wrote: rows by number of features and mode."""
+    """The files of 'cairn simulate usv --compare --output': rows by number of features and mode."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -79,14 +79,14 @@ class TeamComparison:
         self.modes = list(dict.fromkeys(self.table["mode"].tolist()))
 
     def value(self, column, features, mode):
-        """One figure; NaN where the mode was not run with so many features."""
+        """One figure; NaN if the mode was not run with this number of features."""
         found = (self.table["features"] == features) & (self.table["mode"] == mode)
         return float(self.table[column][found][0]) if found.any() else float("nan")
 
 
 def read_folder(folder):
-    """A TeamRun or a TeamComparison; None where the folder holds neither. Of a folder that was used for both, what its
-    summary.json is of."""
+    """A TeamRun or a TeamComparison, or None if the folder holds neither. If the folder was used for both, its
+    summary.json decides."""
     has_run, has_comparison = (os.path.isfile(os.path.join(folder, name))
                                for name in ("team_trajectories.csv", "team_compare.csv"))
     if has_run and has_comparison:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The curves of a team's page, as plotly draws them."""
+"""The curves of the page of a team, in plotly's form."""
 import numpy as np
 
 from . import thin
@@ -25,14 +25,14 @@ def _points(x, y, **more):
 
 
 def ellipses(marks):
-    """Outlines of three standard deviations, one after the other with a gap between: x, y. Along the map's axes where
-    the table tells nothing of how x and y are correlated."""
+    """Ellipses of three standard deviations as one line (x, y) with a gap between ellipses. Their axes are the axes of the
+    map if the table has no correlation of x and y."""
     turn = np.append(np.linspace(0, 2 * np.pi, 37), np.nan)
     x, y = [], []
     for i in thin.evenly(len(marks["x"]), MOST_ELLIPSES):
         a, b = marks["sigma3_x"][i], marks["sigma3_y"][i]
         joint = 9 * marks["cov_xy"][i] if "cov_xy" in marks.columns else 0.0
-        # By a Cholesky factor of the covariance.
+        # The Cholesky factor of the covariance maps the unit circle to the ellipse.
         lean = joint / a if a > 0 else 0.0
         upright = np.sqrt(max(b * b - lean * lean, 0.0))
         x.append(marks["x"][i] + a * np.cos(turn))
@@ -41,7 +41,7 @@ def ellipses(marks):
 
 
 def the_map(team):
-    """The plane from above: trajectories, landmarks with their 3-sigma ellipses."""
+    """The plane from above: trajectories and landmarks with their 3-sigma ellipses."""
     traces, truth = [], False
     for at, vehicle in enumerate(team.vehicles):
         colour = colour_of(at)
@@ -74,12 +74,12 @@ def the_map(team):
     if len(team.maps) > 1 and len(maps) == 1:
         note += " All vehicles hold the same map; it is drawn once."
     if len(maps) > 0 and len(maps[0]["x"]) > MOST_ELLIPSES:
-        note += f" They are drawn for {MOST_ELLIPSES} of {len(maps[0]['x'])} landmarks, an even pick."
+        note += f" They are drawn for {MOST_ELLIPSES} of {len(maps[0]['x'])} landmarks, evenly chosen."
     return {"title": "From above", "note": note, "data": traces, "layout": layout, "alone": True}
 
 
 def errors(team):
-    """Errors of each vehicle's x, y and heading inside their 3-sigma bands; empty where there is no truth."""
+    """Errors of x, y and heading of each vehicle with their 3-sigma bands. Empty if there is no truth."""
     figures = []
     for at, vehicle in enumerate(team.vehicles):
         for name, unit, scale in ERRORS:
@@ -100,7 +100,7 @@ def errors(team):
 
 
 def _bars(comparison, features, bounds):
-    modes = [mode for mode in comparison.modes if mode != "mono"]  # what all are compared with
+    modes = [mode for mode in comparison.modes if mode != "mono"]  # the reference of the comparison
     claimed, true = ([comparison.value(column, features, mode) for mode in modes]
                      for column in ("claimed", "true"))
     paper = max(comparison.value("paper", features, mode) for mode in comparison.modes)
@@ -121,7 +121,8 @@ def _bars(comparison, features, bounds):
 
 
 def improvement(comparison):
-    """Claimed and true improvement on a vehicle by itself: one figure a number of features, all on one scale."""
+    """Claimed and true improvement over a vehicle without a team: one figure for each number of features, all on the same
+    scale."""
     shown = np.concatenate([comparison.table[name] for name in ("claimed", "true", "paper")])
     low, high = np.nanmin(np.append(shown, 0.0)), np.nanmax(np.append(shown, 10.0))
     room = 0.12 * (high - low)
@@ -144,12 +145,12 @@ def _by_features(comparison, column, title, y_title, note, log=False):
     return {"title": title, "note": note, "data": traces, "layout": layout, "alone": True}
 
 
-def honesty(comparison):
-    """ANEES over its degrees of freedom, in the band that the mean of so many runs stays in."""
+def consistency(comparison):
+    """ANEES over its degrees of freedom, with the band in which the mean of this number of runs lies."""
     low, high = (float(comparison.table[name][0]) for name in ("band_low", "band_high"))
-    figure = _by_features(comparison, "anees", "Honesty: ANEES / 3", "ANEES / 3",
-                          f"1 is right, more is overconfident; shaded: {low:.2f} to {high:.2f}, where an honest filter's "
-                          "mean over the runs lies at 95 % of the steps")
+    figure = _by_features(comparison, "anees", "Consistency: ANEES / 3", "ANEES / 3",
+                          f"1 is right, more is overconfident; shaded: {low:.2f} to {high:.2f}, where the mean of a "
+                          "consistent filter over the runs lies at 95 % of the steps")
     figure["layout"]["shapes"] = [
         {"type": "rect", "xref": "paper", "x0": 0, "x1": 1, "y0": low, "y1": high, "line": {"width": 0},
          "fillcolor": "rgba(37,99,168,0.13)", "layer": "below"},
@@ -159,7 +160,7 @@ def honesty(comparison):
 
 
 def comparisons(comparison):
-    return [honesty(comparison),
+    return [consistency(comparison),
             _by_features(comparison, "rmse_m", "Position error", "m", "root mean square of vehicle 1, online"),
             _by_features(comparison, "recursion_ms", "Time of a recursion", "ms",
                          "one vehicle, one step, its share of the packets in it", log=True)]

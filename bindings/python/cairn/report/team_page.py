@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page of a team: its vehicles' drives and maps, or a comparison of the modes."""
+"""The page of a team: the trajectories and maps of its vehicles, or a comparison of the modes."""
 import html
 
 import numpy as np
@@ -7,7 +7,7 @@ import numpy as np
 from . import page, team, team_curves
 
 CARDS = [("pose_rmse_m", "position error, rms", "m", 1), ("landmark_rmse_m", "landmark error, rms", "m", 1),
-         ("pose_anees_per_dof", "honesty of the poses (1 is right)", "", 1),
+         ("pose_anees_per_dof", "consistency of the poses (1 is right)", "", 1),
          ("claimed_improvement", "claimed improvement on one alone", "%", 100),
          ("true_improvement", "true improvement", "%", 100), ("recursion_ms_mean", "time of a recursion", "ms", 1),
          ("vehicles", "vehicles", "", 1), ("landmarks", "landmarks", "", 1)]
@@ -27,7 +27,7 @@ def _cards(summary):
 
 
 def _section(title, figures, found, note="", grid=True):
-    """A section of figures, which are added to `found`."""
+    """A section of figures. The figures are added to `found`."""
     blocks = []
     for figure in figures:
         found.append(figure)
@@ -65,11 +65,11 @@ def _of_comparison(comparison):
     blocks = _section("Improvement on a vehicle by itself, vehicle 1", team_curves.improvement(comparison), found,
                       "Claimed: by how much the norm of the position’s covariance is smaller. True: by how much the mean "
                       "squared error is. A claim above the truth is overconfidence.")
-    blocks += _section("Honesty, accuracy and cost", team_curves.comparisons(comparison), found)
+    blocks += _section("Consistency, accuracy and cost", team_curves.comparisons(comparison), found)
     lead = "modes of a team beside each other: " + ", ".join(comparison.modes)
     return page.assemble(comparison.folder, comparison.name, lead, "", blocks, _comparison_table(comparison), found)
 
 
 def build(one):
-    """The page of a TeamRun or of a TeamComparison, as text."""
+    """The text of the page of a TeamRun or of a TeamComparison."""
     return _of_comparison(one) if isinstance(one, team.TeamComparison) else _of_run(one)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fewer points that look the same."""
+"""Picks fewer points whose curve looks the same."""
 import numpy as np
 
 
 def envelope(values, most):
-    """Indices that keep the lowest and the highest value of each of most/2 stretches: no peak is lost."""
+    """Indices of the lowest and the highest value of each of most/2 intervals, so that no peak is lost."""
     count = len(values)
     if count <= most:
         return np.arange(count)
@@ -18,14 +18,14 @@ def envelope(values, most):
 
 
 def evenly(count, most):
-    """Indices of at most so many, evenly spread, first and last among them."""
+    """Indices of at most `most` values, evenly spread. The first and the last are among them."""
     if count <= most:
         return np.arange(count)
     return np.unique(np.linspace(0, count - 1, most).round().astype(int))
 
 
 def worst_and_evenly(badness, most):
-    """Indices of at most so many: a quarter the worst ones, the others an even pick; ascending."""
+    """Indices of at most `most` values, ascending: a quarter are the worst ones, the others are evenly spread."""
     count = len(badness)
     if count <= most:
         return np.arange(count)
@@ -35,11 +35,11 @@ def worst_and_evenly(badness, most):
 
 
 def numbers(values, digits):
-    """A list for JSON, rounded; null where a value is no number."""
+    """A rounded list for JSON. A value that is not a number becomes null."""
     rounded = np.round(np.asarray(values, dtype=float), digits)
     return [value if np.isfinite(value) else None for value in rounded.tolist()]
 
 
 def significant(values, digits=4):
-    """The same with so many significant digits, for values of any size."""
+    """The same with a given number of significant digits, for values of any size."""
     return [float(f"{value:.{digits}g}") if np.isfinite(value) else None for value in np.asarray(values, dtype=float)]

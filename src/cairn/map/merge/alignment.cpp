@@ -141,7 +141,7 @@ void linearise(const PairedPoints& pairs, const SE3& T, Linearisation& at_T) {
   at_T.weight.solve(at_T.V);
 }
 
-// Where the search stands: without a prior the transform itself, with one also u in T = retract(prior, G u), where
+// The iterate: without a prior the transform itself, with one also u in T = retract(prior, G u), where
 // u ~ N(0, I) and G G^T is the prior's covariance, which may be singular.
 struct Search {
   const TransformPrior* prior;
@@ -301,7 +301,7 @@ std::size_t worst_of(const std::vector<double>& falls) {
   return static_cast<std::size_t>(std::max_element(falls.begin(), falls.end()) - falls.begin());
 }
 
-// What the rest has to keep within: the joint distance, and the fall of each pair.
+// The bounds of a compatible set: of its joint distance, and of the fall of each pair.
 struct Bounds {
   double probability, of_pair;
   bool kept(double distance, int dof, double worst_fall) const {

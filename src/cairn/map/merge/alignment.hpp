@@ -10,8 +10,8 @@
 
 namespace cairn {
 
-// Covariance of k points: 3x3 blocks of points that know nothing of each other, or the full 3k x 3k matrix (symmetric,
-// so that the storage order is nobody's business). `full` counts where it is not empty.
+// Covariance of k points: a 3x3 block for each of independent points, or the full 3k x 3k matrix, which is symmetric.
+// `full` is used where it is not empty.
 struct PointsCovariance {
   std::vector<Matrix3> blocks;
   std::vector<double> full;
@@ -34,7 +34,7 @@ struct TransformPrior {
 enum class AlignmentStatus {
   ok,
   too_few,     // fewer than three pairs and no prior, or none at all
-  degenerate,  // the points lie on a line, as far as their uncertainty lets one tell
+  degenerate,  // the points lie on a line, within their uncertainty
   singular,    // the covariance of the differences has no Cholesky factor
   diverged
 };
@@ -45,20 +45,20 @@ struct Alignment {
   Matrix6 covariance = Matrix6::Zero();  // ordinary error [dp; dtheta]
   double distance = 0;                   // squared Mahalanobis, chi-square of `dof` if the pairs are right
   int dof = 0;                           // 3k - 6, with a prior 3k
-  // By how much the distance falls without each pair, to first order; only where it was asked for.
+  // By pair: how much the distance falls without it, to first order; only where the caller asked for it.
   std::vector<double> falls;
   bool ok() const { return status == AlignmentStatus::ok; }
 };
 
-// The transform that makes the distance least. `start` spares the first guess where one is at hand.
+// The transform of the least distance. `start`, where given, replaces the first guess.
 Alignment align(const PairedPoints& pairs, const TransformPrior* prior = nullptr, bool with_falls = false,
                 const SE3* start = nullptr);
 
 // The largest set that is found by leaving out, one by one, the pair without which the distance falls most, until the
 // rest agrees: jointly, distance <= chi2(dof, probability), and each pair with all the others, its fall <= chi2(3,
-// pair_probability). Among many pairs the joint test alone would let a wrong one pass. `left_out` in that order, `kept`
-// ascending. Where even the last few do not agree, or align() fails, `kept` is empty and the alignment is the last that
-// was tried.
+// pair_probability). Among many pairs the joint test would let a wrong one pass without the single tests. `left_out` is
+// in the order of leaving, `kept` ascending. Where even the last few do not agree, or align() fails, `kept` is empty
+// and the alignment is the last that was tried.
 struct CompatibleAlignment {
   Alignment alignment;
   std::vector<std::size_t> kept, left_out;
@@ -66,7 +66,7 @@ struct CompatibleAlignment {
 CompatibleAlignment align_compatible(const PairedPoints& pairs, double probability, double pair_probability,
                                      const TransformPrior* prior = nullptr, const SE3* start = nullptr);
 
-// The pairs of these numbers, with their part of the covariances.
+// The pairs with these numbers, and their part of the covariances.
 PairedPoints select_pairs(const PairedPoints& pairs, const std::vector<std::size_t>& which);
 
 // Least squares with weights (Horn 1987, by the singular vectors of Umeyama 1991): a rotation, never a reflection.

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "core/chi_square.hpp"
-#include "map/spatial_index.hpp"
 #include "map/merge/triangles.hpp"
+#include "map/spatial_index.hpp"
 
 namespace cairn {
 namespace {
@@ -28,10 +28,10 @@ constexpr double kSame = 0.5;            // of the pairs that two transforms sha
 struct Side {
   const PointSet& set;
   SpatialIndex index;
-  std::vector<Matrix3> covariances;  // that gates are made of
+  std::vector<Matrix3> covariances;  // for gates
   double widest = 0;                 // trace of the largest
 
-  // With a transform between the frames, what a map's points have in common counts; without one it doesn't.
+  // `local`: without the errors that neighbours have in common, which an unknown transform absorbs.
   Side(const PointSet& points, bool local) : set(points), index([&points](std::size_t i) { return points.points[i]; }) {
     for (std::size_t i = 0; i < set.points.size(); ++i) index.add(i);
     covariances = local ? local_covariances(points, index, kNeighbours) : points.covariances;
@@ -157,7 +157,7 @@ void settle(const Side& a, const Side& b, const CorrespondenceOptions& options, 
   alignment = compatible.alignment;
 }
 
-// Two triangles laid onto each other.
+// A triangle of b laid onto one of a.
 struct Hypothesis {
   double score;   // how surprising its support is: sum of log(spacing / tolerance) over the supporting neighbours
   double misfit;  // of the sides, chi-square of 3
@@ -223,7 +223,7 @@ class Matcher {
   double unverified_ = 0;   // score of the best hypothesis that no solution explains and nobody looked at
 };
 
-// Triangles of a whose sides few triangles of b have come first: they tell most.
+// Begins with the triangles of a whose sides few triangles of b share: they tell most.
 void Matcher::propose(Correspondence& result) {
   std::vector<Vector3> sides;
   double widest = 0;
@@ -292,7 +292,7 @@ void Matcher::consider(const Triangle& a, const Triangle& b, Correspondence& res
   }
 }
 
-// The neighbours of one corner in b, do they fall onto neighbours of that corner in a?
+// Scores how many neighbours of one corner in b fall onto neighbours of that corner in a.
 double Matcher::support(const Hypothesis& h, const SE3& T, double variance, double height) const {
   const auto is_corner = [](const std::array<std::uint32_t, 3>& corners, std::uint32_t i) {
     return corners[0] == i || corners[1] == i || corners[2] == i;
@@ -372,7 +372,7 @@ void Matcher::choose(std::size_t least, Correspondence& result) {
   settle(a_, b_, options_, nullptr, best.pairs, best.alignment);
   const double count = static_cast<double>(best.pairs.size());
   if (best.pairs.size() < least) return;
-  // Three pairs were given away to the transform; the others, P(Poisson(chance) >= n) for each of all that were tried.
+  // Three pairs fit any transform. The probability that chance gives the others is P(Poisson(chance) >= n), per trial.
   const double alarm = chi_square_cdf(2 * (count - 3), 2 * result.chance) * static_cast<double>(result.hypotheses);
   if (alarm > options_.false_alarm) return;
 
@@ -395,9 +395,9 @@ void Matcher::choose(std::size_t least, Correspondence& result) {
   }
 }
 
-// Local gates are too narrow where maps have bent on a long way. Whoever is nearest by less than half the spacing may
-// join, if the joint test, which knows the bend, lets it. What is near is told by the local fit: the transform between
-// the frames is as vague as the frames are.
+// Local gates are too narrow where maps have bent on a long way. A pair closer than half the spacing may join if the
+// joint test, which knows the bend, accepts it. The local fit tells which pairs are close: the transform between the
+// frames is as vague as the frames are.
 void Matcher::extend(Solution& solution) const {
   constexpr int kExtensions = 5;
   if (!a_.set.joint && !b_.set.joint) return;

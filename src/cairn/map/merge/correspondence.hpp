@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which points of one map are which of another, where neither the pairs nor the transform between the frames are known.
-// Deterministic. docs/map_merging.md tells how and why.
+// Finds the pairs of points that two maps have in common, where neither the pairs nor the transform between the frames
+// are known. Deterministic. docs/map_merging.md tells how and why.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,15 @@ namespace cairn {
 struct PointSet {
   std::vector<Vector3> points;
   std::vector<Matrix3> covariances;  // of each point
-  // Joint covariance of `count` of them, 3 count x 3 count, symmetric. May be absent: then they count as independent,
-  // which maps are not; with it, a map whose frame is vague is still as sharp as its points are among themselves.
+  // Joint covariance of `count` of them, 3 count x 3 count, symmetric. May be absent: then the points count as
+  // independent, which those of a map are not. With it, a map whose frame is vague is still as sharp as its points are
+  // relative to each other.
   std::function<void(const std::size_t* indices, std::size_t count, double* matrix)> joint;
 };
 
 struct CorrespondenceOptions {
   double gate_probability = 0.999;      // of a right pair, to pass its own gate
-  double joint_probability = 0.99;      // of the right pairs, to agree jointly
+  double joint_probability = 0.99;      // of all right pairs, to pass the joint test
   std::size_t min_pairs = 5;            // without a prior
   double ambiguity = 0.8;               // refuse if another transform pairs this fraction of the best one's count
   double false_alarm = 1e-3;            // probability that unrelated maps match
@@ -31,16 +32,16 @@ struct CorrespondenceOptions {
   std::size_t triangle_corners = 8;     // neighbours that a point's triangles are drawn from
   std::size_t max_triangles = 40000;    // a map
   std::size_t max_hypotheses = 400000;  // pairs of triangles that are laid onto each other
-  std::size_t max_verified = 400;       // of these, looked at over the whole map
+  std::size_t max_verified = 400;       // hypotheses that are tested over the whole map
 };
 
 enum class CorrespondenceReason {
   found,
-  too_few,    // points, or triangles that their uncertainty leaves a shape
+  too_few,    // too few points, or triangles whose shape is known
   nothing,    // nothing in common beyond chance
-  ambiguous,  // two different transforms serve as well
-  budget,     // more good candidates than were to be looked at
-  too_vague   // the prior is, beside the distances between points: search without it
+  ambiguous,  // two different transforms fit equally well
+  budget,     // more good candidates than max_verified
+  too_vague   // the prior is vaguer than the distances between points: search without it
 };
 
 struct Correspondence {

@@ -78,7 +78,7 @@ Pairs pairs_by_geometry(const Landmarks& map, const Landmarks& other, const Merg
   return found.pairs;
 }
 
-// Evenly drawn, the first and the last with them.
+// Up to `most` numbers below `count`, evenly drawn, the first and the last among them.
 std::vector<std::size_t> drawn(std::size_t count, std::size_t most) {
   std::vector<std::size_t> which(std::min(count, most));
   for (std::size_t i = 0; i < which.size(); ++i)
@@ -123,7 +123,7 @@ PairedPoints joint_points(const Landmarks& map, const Landmarks& other, const Pa
   }
 }
 
-// Those that were not drawn, each against the transform that the drawn ones gave.
+// Squared distance of a pair that was not drawn, against the transform from the drawn pairs.
 double distance_of(const Landmarks& map, const Landmarks& other, const std::pair<std::size_t, std::size_t>& pair,
                    const Alignment& alignment) {
   const Matrix3 R = alignment.T_a_b.rotation().matrix();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two maps become one: which landmarks are the same, how the frames lie, whether that holds, and what everyone is
-// called afterwards. docs/map_merging.md derives it.
+// The plan by which two maps become one: which landmarks are the same, how the frames lie, whether both agree, and the
+// ids of the merged map. docs/map_merging.md derives it.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "map/merge/alignment.hpp"
 #include "map/landmarks.hpp"
+#include "map/merge/alignment.hpp"
 
 namespace cairn {
 
@@ -43,15 +43,15 @@ struct MergePlan {
   Alignment alignment;
 };
 
-// Of all pairs' joint covariances up to `joint_at_most` pairs; of more, so many, evenly drawn, are tested jointly and
-// the others each by itself. Throws where the maps do not merge; `report` then tells how far it got.
+// Tests all pairs jointly, up to `joint_at_most` pairs; of more pairs, that many, evenly drawn, are tested jointly and
+// each of the others singly. Throws where the maps do not merge; `report` then tells how far it got.
 MergePlan plan_merge(const Landmarks& map, const Landmarks& other, const MergeOptions& options,
                      std::size_t joint_at_most, MergeReport& report);
 
-// What became of the other's landmarks, by ascending id there.
+// The new ids of the other's landmarks, by ascending old id.
 std::vector<MergedId> merged_ids(const Landmarks& other, const MergePlan& plan);
 
-// Throws that these two contradict, and says so in the report.
+// Throws that these two landmarks contradict each other, and names them in the report.
 [[noreturn]] void throw_contradiction(std::uint64_t id, std::uint64_t other_id, MergeReport& report);
 
 }  // namespace cairn

@@ -8,10 +8,10 @@
 namespace cairn {
 namespace {
 
-// Of a triangle: its least height in standard deviations of a side, and in parts of its longest side. Below, its plane
-// is too vague to lay another one onto.
+// The least height of a triangle, in standard deviations of a side, and in parts of its longest side. The plane of a
+// flatter triangle is too vague to lay another one onto.
 constexpr double kLeastHeight = 4, kLeastShape = 0.15;
-// Triangles whose sides are this much less certain than is usual would widen the search for all others.
+// Leaves out triangles whose variances are this many times the usual: they would widen the search for all others.
 constexpr double kMostVariance = 9;
 
 // Variances of the distances between `members`, [i][j]; with the joint covariance where there is one.

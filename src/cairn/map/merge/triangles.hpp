@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles of neighbouring points: what two maps of one place have in common whatever their frames are.
+// Triangles of neighbouring points: two maps of one place have them in common, whatever their frames are.
 #pragma once
 
 #include <array>
@@ -26,13 +26,14 @@ struct Triangles {
   double spacing = 0;  // median distance of a point and its nearest, m
 };
 
-// Triangles of each point with pairs of its `corners` nearest, each once; slivers and those that their uncertainty
-// leaves shapeless are left out. `neighbours` of each point are kept, at least as many as `corners`.
+// Triangles of each point with pairs of its `corners` nearest points, each once; without slivers, and without triangles
+// whose shape is lost in their uncertainty. Keeps `neighbours` neighbours of each point, at least `corners`.
 Triangles make_triangles(const PointSet& set, const SpatialIndex& index, std::size_t corners, std::size_t neighbours,
                          std::size_t most);
 
-// Covariance of each point beside its neighbours: what its error has in common with theirs, as a motion of all of them,
-// is taken out, for a transform between two maps takes it up anyway. Without a joint covariance the points' own.
+// Covariance of each point relative to its neighbours: without the part of its error that is a common rigid motion of
+// all of them, which a transform between two maps absorbs anyway. Without a joint covariance: the points' own
+// covariances.
 std::vector<Matrix3> local_covariances(const PointSet& set, const SpatialIndex& index, std::size_t neighbours);
 
 // The rotation and translation that lay triangle b onto triangle a, corner i on corner i: sides along each other,

@@ -280,6 +280,31 @@ TEST_CASE_TEMPLATE("sparse map: a submap that can't be taken in changes nothing"
   }
 }
 
+TEST_CASE_TEMPLATE("sparse map: a transaction without commit changes nothing", Pose, SE3, SE2) {
+  Ring<Pose> ring(20, ErrorKind::invariant, 8, 12, {0.05, 0.004});
+  MapOptions<Pose> options = ring.options();
+  options.initial_covariance += 1e-4 * Pose::Square::Identity();
+  SparseMap<Pose> map(options), twin(options);
+  for (int i = 0; i < 12; ++i) {
+    const auto fix = AbsoluteFix<Pose>::position(ring.base(i + 1).translation(),
+                                                 0.01 * Pose::Rotation::Matrix::Identity(), Pose::Point::Zero());
+    const Submap<Pose> submap = ring.submap(i);
+    const std::vector<double> before = everything(map);
+    Submap<Pose> wrong = submap;  // needs the second try
+    wrong.landmarks[2] += 5 * Pose::Point::Unit(Pose::kDim - 1);
+    for (const Submap<Pose>& joined : {submap, wrong}) {
+      const auto transaction = map.begin();
+      transaction->join(joined);
+      CHECK(transaction->fix(fix, 1e9).accepted);
+    }
+    CHECK(map.begin()->fix(fix, 1e9).accepted);
+    CHECK(everything(map) == before);
+    map.join(submap);
+    twin.join(submap);
+    CHECK(everything(map) == everything(twin));  // the same bits as if nothing had been
+  }
+}
+
 TEST_CASE_TEMPLATE("sparse map: a copy is a map of its own", Pose, SE3, SE2) {
   Ring<Pose> ring(17, ErrorKind::invariant, 8, 12, {0.05, 0.004});
   SparseMap<Pose> map(ring.options());

@@ -366,6 +366,13 @@ TEST_CASE("sparse merge: what the test of the pairs lets pass, the growth of the
       }
     } else {
       CHECK_THROWS_AS(both.append(*b, plan, options, report), Error);
+      CHECK(both.size() == a->size());
+      CHECK(both.submap_count() == a->submap_count());
+      CHECK(both.cost() == a->cost());
+      for (std::size_t i = 0; i < a->size(); ++i) {
+        CHECK(both.position(i) == a->position(i));
+        CHECK(both.observations(i) == a->observations(i));
+      }
       CHECK(report.broken_id == scene.other.ids[21]);
       CHECK(report.rows == 84);
       CHECK(report.distance > 180.0);  // 2 m at 0.14 m, less what the transform takes up

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A front of the elimination tree. Included by the tree's own files alone.
+// A front of the elimination tree: a dense matrix over the variables that it eliminates and those of its boundary.
 #pragma once
 
-#include "map/join/sparse/elimination_tree.hpp"
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "map/join/sparse/tree_key.hpp"
+#include "map/join/sparse/variable.hpp"
 
 namespace cairn {
 
@@ -21,34 +27,18 @@ struct TreeFront {
   std::vector<double> complement;    // packed lower triangle, b x b: what the boundary knows of what lies below
 
   bool leaf() const { return child[0] == nullptr; }
+  using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+  Block eliminated_block() const { return Block(factor.data(), e, e, Eigen::OuterStride<>(e + b)); }    // L_EE
+  Block boundary_block() const { return Block(factor.data() + e, b, e, Eigen::OuterStride<>(e + b)); }  // L_BE
 };
+using FrontPointer = std::shared_ptr<const TreeFront>;
+
+// Of a front and all below it.
+std::size_t memory_bytes(const TreeFront& front);
 
 // Where the states of some of a front's variables (ascending) stand among its own: the eliminated ones, then the
 // boundary.
 template <class Pose>
-std::vector<Index> state_map(const std::vector<Variable>& part, const TreeFront& front) {
-  std::vector<Index> map;
-  map.reserve(part.size() * 3);
-  const auto add = [&](Variable v, Index at) {
-    for (Index d = 0; d < dimension<Pose>(v); ++d) map.push_back(at + d);
-  };
-  const std::vector<Variable>&first = front.eliminated, &second = front.boundary;
-  if (front.bit == TreeFront::kCrown) {
-    for (const Variable v : part) {
-      Index at = 0;
-      for (std::size_t i = 0; first[i] != v; ++i) at += dimension<Pose>(first[i]);
-      add(v, at);
-    }
-    return map;
-  }
-  std::size_t i = 0, j = 0;  // all three lists are ascending
-  Index at_i = 0, at_j = front.e;
-  for (const Variable v : part) {
-    while (i < first.size() && first[i] < v) at_i += dimension<Pose>(first[i++]);
-    while (j < second.size() && second[j] < v) at_j += dimension<Pose>(second[j++]);
-    add(v, i < first.size() && first[i] == v ? at_i : at_j);
-  }
-  return map;
-}
+std::vector<Index> state_map(const std::vector<Variable>& part, const TreeFront& front);
 
 }  // namespace cairn

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Symmetric matrices by their lower triangle alone, column after column.
+// Symmetric matrices, stored as their lower triangle, column after column.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ class Packed {
   // Column c, to be indexed by rows from c on.
   const double* column(Eigen::Index c) const { return values_.data() + c * size_ - c * (c + 1) / 2; }
 
-  // Rows and columns of 3-blocks and of whatever else, both triangles.
+  // The dense block of these rows and columns.
   template <class Rows, class Columns>
   Eigen::MatrixXd block(const Rows& rows, const Columns& columns) const {
     Eigen::MatrixXd out(rows.size(), columns.size());

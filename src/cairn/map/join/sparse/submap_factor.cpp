@@ -14,12 +14,12 @@ using Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// Variances below these count as these: what a submap knows exactly (it began there, and did not move) must not divide
-// by zero. A micrometre and a tenth of a microradian.
+// The least variances: what a submap knows exactly (it began there, and did not move) must not divide by zero. A
+// micrometre and a tenth of a microradian.
 constexpr double kLeastPosition = 1e-12, kLeastTurn = 1e-14;
 
 // A covariance scaled to unit diagonal, and its factor. Where it is singular, a grain of independent noise makes it
-// regular; so does the same grain all of its principal parts.
+// regular, and with it all of its principal parts.
 struct ScaledFactor {
   Vector scale;
   Eigen::LLT<Matrix> llt;
@@ -62,7 +62,7 @@ SubmapData<Pose>::SubmapData(const Submap<Pose>& submap)
       ids(submap.ids),
       landmarks(submap.landmarks),
       covariance(submap.covariance) {
-  // The whole, so that no landmark that is private today can stop a closing some day, when another submap sees it.
+  // Tests the whole covariance, so that no landmark that is private today can stop a later closing that shares it.
   factor<Pose>(submap.covariance);
 }
 
@@ -101,8 +101,8 @@ Vector SubmapFactor<Pose>::residual(const Values& values) const {
   return xi;
 }
 
-// Of a point x (the end's position or a shared landmark), whose own error is e_x: B (e_x - e_p) + base e_R + end
-// e_R_end.
+// The rows of a point x (the end's position or a shared landmark), whose own error is e_x: B (e_x - e_p) + base e_R +
+// end e_R_end.
 template <class Pose>
 struct SubmapFactor<Pose>::Jacobian {
   PointSquare B;
@@ -212,7 +212,7 @@ Matrix SubmapFactor<Pose>::hessian(const Values& values, const std::vector<Rotat
   for (Index i = 0; i < shared_count(); ++i) own.push_back(B * axes[2 + i].matrix());
 
   Matrix H = Matrix::Zero(columns(), columns());
-  // The poses' columns are dense, those of a landmark have one block in its own rows alone.
+  // The poses' columns are dense, those of a landmark have one block, in its own rows.
   const Matrix weighted = information.selfadjointView<Eigen::Lower>() * poses;
   H.topLeftCorner<2 * kDof, 2 * kDof>().noalias() = poses.transpose() * weighted;
   Matrix strip(n, kDim);

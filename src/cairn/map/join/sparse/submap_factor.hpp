@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A closed submap as one observation of its base, its end and its landmarks: the submap's estimate is the value, its
-// covariance the noise, whole (docs/submaps.md).
+// A closed submap as one observation of its base, its end and its landmarks: the value is the submap's estimate, the
+// noise its whole covariance (docs/submaps.md).
 //
-// Landmarks that no other submap holds are private: given the others, they can always stand where they leave no
-// residual, so that eliminating them leaves the covariance of the others as it is. Only base, end and shared landmarks
+// Landmarks that no other submap holds are private: whatever the others are, a private landmark has a position without
+// residual, so that eliminating it leaves the covariance of the others as it is. Only base, end and shared landmarks
 // enter the factor; the private ones follow from them.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace cairn {
 
-// What never changes. Shared between copies of a map.
+// The part of a factor that never changes. Copies of a map share it.
 template <class Pose>
 struct SubmapData {
   explicit SubmapData(const Submap<Pose>& submap);
@@ -72,7 +72,7 @@ class SubmapFactor {
   // Block of the information of a single shared landmark, in map axes.
   PointSquare landmark_information(Eigen::Index i, const Rotation& base) const;
 
-  // Where each of the submap's landmarks leaves no residual of its own, a column each, in the map frame.
+  // The positions at which the submap's landmarks leave no residual of their own: a column each, in the map frame.
   Points place_private(const Values& values, const Vector& residual, const Vector& weighted) const;
   // Landmarks of the submap by their number, as e = A [base; end; shared] + w with ordinary errors in map axes, w of
   // covariance W: joint of all that are asked for. Shared landmarks are not to be asked for.

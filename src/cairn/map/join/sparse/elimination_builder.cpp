@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/join/sparse/elimination_builder.hpp"
+
+#include <algorithm>
+
+#include "linear/triangle.hpp"
+
+namespace cairn {
+
+template <class Pose>
+FrontPointer EliminationBuilder<Pose>::build(const FrontPointer& old, TouchIterator begin, TouchIterator end) {
+  int bit = begin->key.split((end - 1)->key);
+  TreeKey key = begin->key;
+  if (old != nullptr) {
+    key = old->key;
+    bit = std::min({bit, old->bit, begin->key.split(key), (end - 1)->key.split(key)});
+  }
+  if (bit == TreeKey::kBits) return leaf(begin->key);
+  const TouchIterator middle = std::find_if(begin, end, [&](const TreeTouch& item) { return item.key.bit(bit); });
+  FrontPointer child[2];
+  for (int side = 0; side < 2; ++side) {
+    const TouchIterator from = side == 0 ? begin : middle, to = side == 0 ? middle : end;
+    FrontPointer before;
+    if (old != nullptr) {
+      if (bit == old->bit)
+        before = old->child[side];
+      else if (old->key.bit(bit) == (side == 1))
+        before = old;
+    }
+    const bool touched = std::any_of(from, to, [&](const TreeTouch& item) {
+      return item.bit == TreeKey::kBits || (before != nullptr && before->bit <= item.bit);
+    });
+    child[side] = touched ? build(before, from, to) : before;
+    if (child[side] == nullptr) return nullptr;
+  }
+  return make(bit, key, child, 2);
+}
+
+template <class Pose>
+FrontPointer EliminationBuilder<Pose>::crown(const FrontPointer& top) {
+  const FrontPointer child[2] = {top, nullptr};
+  return make(TreeFront::kCrown, top->key, child, 1);
+}
+
+template <class Pose>
+FrontPointer EliminationBuilder<Pose>::leaf(const TreeKey& key) {
+  auto front = std::make_shared<TreeFront>();
+  front->key = key;
+  front->boundary = source_.variables(key.leaf);
+  front->held.assign(front->boundary.size(), 1);
+  front->b = dimension<Pose>(front->boundary);
+  front->absolute = source_.absolute(key.leaf);
+  return front;
+}
+
+// Adds a child's complement to the front's matrix.
+template <class Pose>
+void EliminationBuilder<Pose>::assemble(const TreeFront& child, const TreeFront& front, Index n) {
+  const std::vector<Index> map = state_map<Pose>(child.boundary, front);
+  const double* from = child.complement.data();
+  Index ld_from = 0;  // 0: packed
+  if (child.leaf()) {
+    leaf_.assign(static_cast<std::size_t>(child.b * child.b), 0.0);
+    source_.information(child.key.leaf, leaf_.data(), child.b);
+    assembled_.push_back(child.key.leaf);
+    from = leaf_.data();
+    ld_from = child.b;
+  }
+  for (Index c = 0; c < child.b; ++c) {
+    const double* column = ld_from != 0 ? from + c * ld_from : from - c;
+    const Index to = map[c];
+    for (Index r = c; r < child.b; ++r) {
+      const Index row = map[r];
+      matrix_[row >= to ? to * n + row : row * n + to] += column[r];
+    }
+    if (ld_from == 0) from += child.b - c;
+  }
+}
+
+template <class Pose>
+FrontPointer EliminationBuilder<Pose>::make(int bit, const TreeKey& key, const FrontPointer child[2], int children) {
+  auto front = std::make_shared<TreeFront>();
+  front->bit = bit;
+  front->key = key;
+  for (int i = 0; i < children; ++i) {
+    front->child[i] = child[i];
+    front->absolute = front->absolute || child[i]->absolute;
+  }
+  sort_variables(*front, children);
+  const Index e = front->e = dimension<Pose>(front->eliminated), b = front->b = dimension<Pose>(front->boundary),
+              n = e + b;
+  matrix_.assign(static_cast<std::size_t>(n * n), 0.0);
+  for (int i = 0; i < children; ++i) assemble(*child[i], *front, n);
+  const std::size_t workspace = std::max({cholesky_workspace(e), solve_workspace(e), update_triangle_workspace(b, e)});
+  if (workspace_.size() < workspace) workspace_.resize(workspace);
+  if (!cholesky(matrix_.data(), n, e, workspace_.data())) return nullptr;
+  if (b > 0 && e > 0) {
+    solve_right_transposed(matrix_.data(), n, e, matrix_.data() + e, n, b, workspace_.data());
+    const TriangleTerm term{matrix_.data() + e, n, matrix_.data() + e, n, e, -1.0};
+    update_triangle(matrix_.data() + e * (n + 1), n, b, &term, 1, workspace_.data());
+  }
+  front->factor.assign(matrix_.begin(), matrix_.begin() + e * n);
+  front->complement.reserve(static_cast<std::size_t>(b * (b + 1) / 2));
+  for (Index c = 0; c < b; ++c) {
+    const double* column = matrix_.data() + (e + c) * n + e;
+    front->complement.insert(front->complement.end(), column + c, column + b);
+  }
+  for (const Variable v : front->eliminated) eliminated_at_[v] = static_cast<std::int16_t>(bit);
+  ++made_;
+  return front;
+}
+
+// What no leaf elsewhere holds is eliminated; the crown eliminates the rest, in ascending order.
+template <class Pose>
+void EliminationBuilder<Pose>::sort_variables(TreeFront& front, int children) {
+  const auto take = [&](Variable v, std::int32_t held) {
+    if (front.bit == TreeFront::kCrown || held == degree_[v]) {
+      front.eliminated.push_back(v);
+    } else {
+      front.boundary.push_back(v);
+      front.held.push_back(held);
+    }
+  };
+  const TreeFront& a = *front.child[0];
+  if (children == 1) {
+    for (std::size_t i = 0; i < a.boundary.size(); ++i) take(a.boundary[i], a.held[i]);
+    // The newest base comes last: its covariance is then the last pivot's.
+    const auto newest =
+        std::find_if(front.eliminated.rbegin(), front.eliminated.rend(), [](Variable v) { return !is_landmark(v); });
+    if (newest != front.eliminated.rend()) std::rotate(front.eliminated.rbegin(), newest, newest + 1);
+    return;
+  }
+  const TreeFront& c = *front.child[1];
+  std::size_t i = 0, j = 0;
+  while (i < a.boundary.size() || j < c.boundary.size()) {
+    if (j == c.boundary.size() || (i < a.boundary.size() && a.boundary[i] < c.boundary[j])) {
+      take(a.boundary[i], a.held[i]);
+      ++i;
+    } else if (i == a.boundary.size() || c.boundary[j] < a.boundary[i]) {
+      take(c.boundary[j], c.held[j]);
+      ++j;
+    } else {
+      take(a.boundary[i], a.held[i] + c.held[j]);
+      ++i, ++j;
+    }
+  }
+}
+
+template class EliminationBuilder<SE2>;
+template class EliminationBuilder<SE3>;
+
+}  // namespace cairn

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes the fronts that an update of the elimination tree changes: assembles their matrices and factors them.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "geometry/se2.hpp"
+#include "geometry/se3.hpp"
+#include "map/join/sparse/elimination_front.hpp"
+#include "map/join/sparse/elimination_visitors.hpp"
+
+namespace cairn {
+
+// Of one update. A touch names fronts that are made anew, down to and with its bit.
+template <class Pose>
+class EliminationBuilder {
+ public:
+  using TouchIterator = std::vector<TreeTouch>::const_iterator;
+  static constexpr std::int16_t kNever = std::numeric_limits<std::int16_t>::max();  // of a variable: not eliminated
+
+  // How many leaves hold each variable; where each is eliminated, which is brought up to date; and the leaves whose
+  // information was asked for, which are added.
+  EliminationBuilder(const LeafSource& source, const std::vector<std::int32_t>& degree,
+                     std::vector<std::int16_t>& eliminated_at, std::vector<std::uint32_t>& assembled)
+      : source_(source), degree_(degree), eliminated_at_(eliminated_at), assembled_(assembled) {}
+
+  // The subtree of these touches, sorted by key, in place of the old one. Null where a pivot failed.
+  FrontPointer build(const FrontPointer& old, TouchIterator begin, TouchIterator end);
+  // The front above the whole tree.
+  FrontPointer crown(const FrontPointer& top);
+  std::size_t made() const { return made_; }
+
+ private:
+  FrontPointer leaf(const TreeKey& key);
+  void assemble(const TreeFront& child, const TreeFront& front, Index n);
+  FrontPointer make(int bit, const TreeKey& key, const FrontPointer child[2], int children);
+  void sort_variables(TreeFront& front, int children);
+
+  const LeafSource& source_;
+  const std::vector<std::int32_t>& degree_;
+  std::vector<std::int16_t>& eliminated_at_;
+  std::vector<std::uint32_t>& assembled_;
+  std::vector<double> matrix_, leaf_, workspace_;
+  std::size_t made_ = 0;
+};
+
+extern template class EliminationBuilder<SE2>;
+extern template class EliminationBuilder<SE3>;
+
+}  // namespace cairn

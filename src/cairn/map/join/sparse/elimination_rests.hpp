@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the fronts of an elimination tree keep back: motions that were not handed down, forces that were not followed.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "map/join/sparse/elimination_front.hpp"
+
+namespace cairn {
+
+class TreeRests {
+ public:
+  struct Rest {
+    FrontPointer front;
+    Eigen::VectorXd motion;  // of its boundary, not handed down; empty: none
+    Eigen::VectorXd y;       // L_EE^-1 times the forces on what it eliminates, not followed yet; empty: none
+    Eigen::VectorXd force;   // what both exert on the boundary
+  };
+  // By key and bit: sums must not depend on where fronts lie in memory.
+  using ByPlace = std::map<std::pair<TreeKey, int>, std::shared_ptr<const Rest>>;
+
+  void keep(const FrontPointer& front, Eigen::VectorXd motion, Eigen::VectorXd y);
+  Rest take(const TreeFront& front);  // an empty one where there is none
+  bool empty() const { return by_place_.empty(); }
+  const ByPlace& all() const { return by_place_; }
+
+  // Fronts with a child that was carried in the last step. The factor is of older linearisation points, and would have
+  // the rigid motion raise a force that does not exist: the next step counts these fronts' forces anew.
+  void note_carried(const TreeFront& front) { carried_.push_back({front.key, front.bit}); }
+  void take_carried(std::vector<TreeTouch>& touches) {
+    touches.insert(touches.end(), carried_.begin(), carried_.end());
+    carried_.clear();
+  }
+
+ private:
+  ByPlace by_place_;
+  std::vector<TreeTouch> carried_;
+};
+
+}  // namespace cairn

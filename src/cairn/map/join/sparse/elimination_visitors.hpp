@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The interfaces by which the elimination tree asks its owner for numbers and hands out results.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "map/join/sparse/variable.hpp"
+
+namespace cairn {
+
+// The submaps, as the tree's leaves. A leaf has ascending variables.
+class LeafSource {
+ public:
+  virtual ~LeafSource() = default;
+  virtual const std::vector<Variable>& variables(std::uint32_t leaf) const = 0;
+  // Lower triangle of its information, in the order of its variables; H comes zeroed.
+  virtual void information(std::uint32_t leaf, double* H, Index ld) const = 0;
+  // Whether it tells where its variables stand, not only how they stand to each other.
+  virtual bool absolute(std::uint32_t leaf) const = 0;
+};
+
+// The right-hand side of H x = b, and its solution; several columns at a time.
+class TreeSystem {
+ public:
+  virtual ~TreeSystem() = default;
+  // Adds to the right-hand side of a variable, dimension<Pose>(v) x columns.
+  virtual void right_hand_side(Variable v, double* b, Index ld) const = 0;
+  // Receives the solution of a variable. False: whatever depends on this variable only needs no visit.
+  virtual bool solution(Variable v, const double* x, Index ld) = 0;
+};
+
+// A point p goes by move + turn x (p - centre), to first order.
+template <class Pose>
+struct RigidMotion {
+  typename Pose::Point centre, move;
+  typename Pose::Rotation::Tangent turn;
+};
+
+// One step of an iteration; see EliminationTree::relax().
+template <class Pose>
+class TreeRelaxation : public TreeSystem {
+ public:
+  // Whether a motion of this variable is worth handing down.
+  virtual bool matters(Variable v, const double* x) const = 0;
+  // The rigid motion nearest to that of some variables; subtracts it from their motion.
+  virtual RigidMotion<Pose> take_rigid(const std::vector<Variable>& variables, Eigen::VectorXd& motion) const = 0;
+  // A variable follows a rigid motion.
+  virtual void carry(Variable v, const RigidMotion<Pose>& motion) = 0;
+  // All of the leaf's variables follow it, or rest; so must everything that depends on the leaf only.
+  virtual void carry_leaf(std::uint32_t leaf, const RigidMotion<Pose>& motion) = 0;
+  // All of the leaf's variables stand at their new values now.
+  virtual void visit(std::uint32_t leaf) = 0;
+};
+
+// Receives covariances: of all variables of a leaf, in their order.
+class TreeCovariances {
+ public:
+  virtual ~TreeCovariances() = default;
+  virtual void leaf(std::uint32_t leaf, const Eigen::MatrixXd& covariance) = 0;
+};
+
+}  // namespace cairn

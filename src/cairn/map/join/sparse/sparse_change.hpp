@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One change of a sparse map's state: it saves what it touches, and takes everything back unless it is kept.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "map/join/sparse/sparse_state.hpp"
+#include "map/spatial_index.hpp"
+
+namespace cairn {
+
+// Saves at most once what existed before. New bases, landmarks and leaves stand behind the old ones and need no copy.
+template <class Pose>
+class SparseChange {
+ public:
+  using State = SparseState<Pose>;
+  using Number = typename State::Number;
+  using Point = typename Pose::Point;
+  using Rotation = typename Pose::Rotation;
+
+  SparseChange(SparseState<Pose>& state, SpatialIndex& index);
+  ~SparseChange();  // takes back what is not kept
+  SparseChange(const SparseChange&) = delete;
+  SparseChange& operator=(const SparseChange&) = delete;
+
+  // Before a landmark or a base moves, and before a leaf changes.
+  void save_landmark(Number landmark);
+  void save_base(Number base);
+  void save_leaf(Number leaf);
+  void save_turn(Number leaf);  // where only Leaf::turned changes
+
+  void add_base(const Pose& base);
+  Number add_landmark(const Point& position);  // without an id, which callers do not see
+  void show_landmark(Number landmark, std::uint64_t id);
+  typename State::Leaf new_leaf(std::shared_ptr<const SubmapData<Pose>> data) const;  // of the next number
+  // Another submap holds a landmark that existed before, and observed it so often.
+  void extend(Number landmark, Number submap, std::uint64_t count);
+  // Appends the number of the first submap of a landmark, or what tells the tree that one submap more holds it.
+  void note_held_again(Number landmark, std::vector<Number>& reshaped, TreeChanges& changes) const;
+
+  std::size_t old_visible() const { return visible_; }
+  double cost_growth() const;
+  // Places what follows from the solution, reports how far landmarks moved, and keeps the change.
+  void finish(JoinReport& report);
+  // Keeps a change that no finish() needs: of the prior.
+  void keep() { kept_ = true; }
+
+ private:
+  void roll_back() noexcept;
+  void note_moves() noexcept;
+
+  State& state_;
+  SpatialIndex& index_;
+  bool kept_ = false;
+  Number number_;
+  Number landmarks_;  // how many of each there were
+  std::size_t leaf_count_, base_count_, visible_;
+  typename State::Solution solution_;
+  std::vector<std::pair<Number, Point>> positions_;
+  std::vector<std::pair<Number, Pose>> bases_;
+  std::vector<std::pair<Number, typename State::Leaf>> leaves_;
+  std::vector<std::pair<Number, Rotation>> turned_;         // leaves that were carried before they were saved, in order
+  std::vector<std::pair<Number, std::uint64_t>> extended_;  // landmarks, and the observations added
+};
+
+extern template class SparseChange<SE2>;
+extern template class SparseChange<SE3>;
+
+}  // namespace cairn

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which landmarks of a submap contradict a sparse map.
+#pragma once
+
+#include <vector>
+
+#include "map/join/sparse/sparse_state.hpp"
+
+namespace cairn {
+
+// A quick test of a submap that has joined: true where its fused landmarks may contradict the map.
+template <class Pose>
+bool may_contradict(const SparseState<Pose>& state, std::uint32_t leaf, const JoinReport& report);
+
+// The exact gates, for a submap that has not joined: by its landmarks, whether one is to be left out.
+template <class Pose>
+std::vector<char> find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap);
+
+extern template bool may_contradict(const SparseState<SE2>&, std::uint32_t, const JoinReport&);
+extern template bool may_contradict(const SparseState<SE3>&, std::uint32_t, const JoinReport&);
+extern template std::vector<char> find_contradicting(const SparseState<SE2>&, const Submap<SE2>&);
+extern template std::vector<char> find_contradicting(const SparseState<SE3>&, const Submap<SE3>&);
+
+}  // namespace cairn

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/join/sparse/sparse_merger.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/chi_square.hpp"
+#include "core/error.hpp"
+#include "map/join/sparse/sparse_solver.hpp"
+
+namespace cairn {
+namespace {
+
+// Variances of the far end of a bridge that knows nothing: a million metres, ten thousand turns.
+constexpr double kNothingPosition = 1e12, kNothingTurn = 1e8;
+// Variances of a base that stands at the origin: like all that is known exactly (SparseAnchors::prior_information()).
+constexpr double kExactPosition = 1e-12, kExactTurn = 1e-14;
+constexpr int kRounds = 20;
+
+Submap<SE3> link_to(const SE3& T_base_end, const Matrix6& covariance) {
+  Submap<SE3> link;
+  link.error = ErrorKind::standard;
+  link.T_base_end = T_base_end;
+  link.covariance = covariance;
+  return link;
+}
+
+Matrix6 diagonal(double position, double turn) {
+  Vector6 variances;
+  variances << Vector3::Constant(position), Vector3::Constant(turn);
+  return variances.asDiagonal();
+}
+
+// Whether a bridge ends at a base that is fixed: that may be all that connects parts of the map.
+bool anchored(const SparseState<SE3>& state) {
+  for (const auto& [base, fixes] : state.solution.anchors.fixes()) {
+    const SubmapData<SE3>& before = *state.leaves[base - 1].data;
+    if (before.ids.empty() && before.covariance(0, 0) == kNothingPosition) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+SparseMerger::SparseMerger(State& state, SpatialIndex& index, const State& other, const MergePlan& plan,
+                           const MergeOptions& options)
+    : state_(state),
+      other_(other),
+      plan_(plan),
+      options_(options),
+      change_(state, index),
+      first_leaf_(static_cast<Number>(state.leaves.size())) {}
+
+void SparseMerger::append(MergeReport& report) {
+  if (anchored(other_))
+    throw Error(ErrorCode::state,
+                "other: it was merged by has_transform, which ties its parts to its own frame; merge the map into it");
+  double before = state_.cost();
+  for (Number leaf = 0; leaf < other_.leaves.size(); ++leaf)
+    before += other_.leaves[leaf].factor->evaluate(other_.values(leaf)).cost;
+  before += append_bases();
+  append_landmarks();
+  append_leaves();
+  solve();
+  // To first order the cost grows by half of what the two estimates of the common landmarks have against each other.
+  report.distance = std::max(0.0, 2.0 * (state_.cost() - before));
+  report.rows = 3 * plan_.pairs.size() - (options_.prior ? 0 : 6);
+  report.threshold = chi_square_quantile(static_cast<double>(report.rows), options_.joint_gate_probability);
+  if (!(report.distance <= report.threshold)) throw_worst(report);
+  JoinReport joined;
+  change_.finish(joined);
+}
+
+// The bridges, then the other's bases. Returns the cost that the other's first base brings along: against its prior.
+double SparseMerger::append_bases() {
+  const SE3& T = plan_.alignment.T_a_b;
+  const SE3 first = T * other_.bases[0];
+  double cost = 0.0;
+  if (options_.prior) {
+    bridge(state_.bases.back().inverse(), diagonal(kNothingPosition, kNothingTurn));
+    SparseAnchors<SE3>& anchors = state_.solution.anchors;
+    const auto origin = static_cast<Number>(state_.leaves.size());
+    anchors.add(origin,
+                AbsoluteFix<SE3>::position(Vector3::Zero(), kExactPosition * Matrix3::Identity(), Vector3::Zero()));
+    anchors.add(origin, AbsoluteFix<SE3>::attitude(SO3(), kExactTurn * Matrix3::Identity()));
+    state_.bases.back() = SE3();
+    // The other's start pose in the map's frame: e_p = e_pT + G(R_T p) e_RT + R_T e_p0, e_R = e_RT + R_T e_R0.
+    const SE3& T_known = options_.prior->T_a_b;
+    const SE3& prior = other_.solution.anchors.prior();
+    Matrix6 by_T = Matrix6::Identity(), turn = Matrix6::Zero();
+    by_T.topRightCorner<3, 3>() = SO3::turn(T_known.rotation() * prior.translation());
+    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = T_known.rotation().matrix();
+    const Matrix6 covariance = by_T * options_.prior->covariance * by_T.transpose() +
+                               turn * other_.solution.anchors.prior_covariance() * turn.transpose();
+    bridge(T_known * prior, 0.5 * (covariance + covariance.transpose()));
+    cost = 0.5 * pose_error(other_.bases[0], prior)
+                     .dot(other_.solution.anchors.prior_information() * pose_error(other_.bases[0], prior));
+  } else {
+    bridge(state_.bases.back().inverse() * first, diagonal(kNothingPosition, kNothingTurn));
+  }
+  state_.bases.back() = first;
+  offset_ = static_cast<Number>(state_.leaves.size());
+  for (std::size_t j = 1; j < other_.bases.size(); ++j) change_.add_base(T * other_.bases[j]);
+  return cost;
+}
+
+// Appends a submap without landmarks; append_leaves() evaluates it.
+void SparseMerger::bridge(const SE3& T_base_end, const Matrix6& covariance) {
+  State::Leaf leaf = change_.new_leaf(std::make_shared<const SubmapData<SE3>>(link_to(T_base_end, covariance)));
+  change_.add_base(state_.bases.back() * T_base_end);
+  state_.leaves.push_back(std::move(leaf));
+}
+
+// A landmark that was removed from the other map still ties its submaps together; nobody sees it.
+void SparseMerger::append_landmarks() {
+  const SE3& T = plan_.alignment.T_a_b;
+  here_.resize(other_.landmarks.size());
+  for (Number l = 0; l < other_.landmarks.size(); ++l) {
+    const State::Landmark& from = other_.landmarks[l];
+    const auto known = from.slot != State::kNone ? state_.ids.find(plan_.ids[from.slot]) : state_.ids.end();
+    if (known != state_.ids.end()) {
+      here_[l] = known->second;
+      change_.note_held_again(here_[l], reshaped_, changes_);
+      std::uint64_t count = from.count;
+      for (const Number leaf : from.submaps) change_.extend(here_[l], leaf + offset_, std::exchange(count, 0));
+    } else {
+      here_[l] = change_.add_landmark(T * from.position);
+      if (from.slot != State::kNone) change_.show_landmark(here_[l], plan_.ids[from.slot]);
+      State::Landmark& to = state_.landmarks[here_[l]];
+      to.count = from.count;
+      for (const Number leaf : from.submaps) to.submaps.push_back(leaf + offset_);
+    }
+    const std::size_t held = state_.landmarks[here_[l]].submaps.size();
+    if (held > 1) state_.solution.tree.set_degree(landmark_variable(here_[l]), static_cast<std::int32_t>(held));
+  }
+}
+
+void SparseMerger::append_leaves() {
+  for (const State::Leaf& from : other_.leaves) {
+    State::Leaf leaf = change_.new_leaf(from.data);
+    for (const Number l : from.landmarks) leaf.landmarks.push_back(l == State::kNone ? State::kNone : here_[l]);
+    state_.leaves.push_back(std::move(leaf));
+  }
+  std::sort(reshaped_.begin(), reshaped_.end());
+  reshaped_.erase(std::unique(reshaped_.begin(), reshaped_.end()), reshaped_.end());
+  for (const Number old : reshaped_) change_.save_leaf(old);
+  std::vector<Number> dirty = reshaped_;
+  for (Number leaf = first_leaf_; leaf < state_.leaves.size(); ++leaf) {
+    dirty.push_back(leaf);
+    state_.solution.tree.set_degree(base_variable(leaf + 1), 2);
+  }
+  for (const Number leaf : dirty) {
+    state_.shape(state_.leaves[leaf], leaf);
+    state_.evaluate(leaf);
+    changes_.leaves.push_back(state_.leaves[leaf].key);
+  }
+}
+
+void SparseMerger::solve() {
+  State::Solution& solution = state_.solution;
+  solution.length_scale = std::min(solution.length_scale, other_.solution.length_scale);
+  solution.turn_scale = std::min(solution.turn_scale, other_.solution.turn_scale);
+  SparseSolver<SE3> solver(state_, change_);
+  JoinReport unused;
+  solver.refactor(std::move(changes_), unused);
+  solver.optimise(unused);
+  for (int round = 1; round < kRounds && !solution.settled; ++round) solver.optimise(unused);
+}
+
+// Names the common landmark that the other's submaps pull at hardest, judged from below: the covariance of the
+// difference of its two estimates, given all other states, is the sum of the inverses of what either map's submaps know
+// of it.
+void SparseMerger::throw_worst(MergeReport& report) const {
+  double most = -1.0;
+  std::pair<std::size_t, std::size_t> worst = plan_.pairs[0];
+  for (const auto& pair : plan_.pairs) {
+    const Number landmark = state_.visible[pair.first];
+    Matrix3 information[2] = {Matrix3::Zero(), Matrix3::Zero()};
+    Vector3 force = Vector3::Zero();
+    for (const Number number : state_.landmarks[landmark].submaps) {
+      const State::Leaf& leaf = state_.leaves[number];
+      for (Index i = 0; i < leaf.factor->shared_count(); ++i) {
+        if (leaf.landmarks[leaf.factor->shared()[i]] != landmark) continue;
+        information[number >= offset_] += leaf.factor->landmark_information(i, state_.bases[number].rotation());
+        if (number >= offset_) force += state_.force_on(leaf, i);
+      }
+    }
+    const double distance = force.dot((information[0].inverse() + information[1].inverse()) * force);
+    if (distance > most) most = distance, worst = pair;
+  }
+  const auto id = [](const State& state, std::size_t index) { return state.landmarks[state.visible[index]].id; };
+  throw_contradiction(id(state_, worst.first), id(other_, worst.second), report);
+}
+
+}  // namespace cairn

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Appends a sparse map of space to another one: its submaps follow the map's own, moved by how the frames lie, and all
+// are solved for together.
+//
+// The map's submaps are one chain of bases: submap j leads from base j to base j + 1. A bridge connects the other
+// chain: a submap without landmarks that leads from the last base of the one to the first base of the other and knows
+// nothing. Where the transform between the frames is known beforehand, a second bridge tells it: from a base that is
+// fixed at the map's origin to the other's first base.
+#pragma once
+
+#include <vector>
+
+#include "map/join/sparse/sparse_change.hpp"
+#include "map/merge/merge.hpp"
+
+namespace cairn {
+
+// One merge. Unless append() returns, the state is as it was.
+class SparseMerger {
+ public:
+  using State = SparseState<SE3>;
+  using Number = State::Number;
+
+  SparseMerger(State& state, SpatialIndex& index, const State& other, const MergePlan& plan,
+               const MergeOptions& options);
+
+  void append(MergeReport& report);
+
+ private:
+  double append_bases();
+  void bridge(const SE3& T_base_end, const Matrix6& covariance);
+  void append_landmarks();
+  void append_leaves();
+  void solve();
+  [[noreturn]] void throw_worst(MergeReport& report) const;
+
+  State& state_;
+  const State& other_;
+  const MergePlan& plan_;
+  const MergeOptions& options_;
+  SparseChange<SE3> change_;
+  Number first_leaf_, offset_ = 0;  // of the first bridge, and of the other's first submap
+  std::vector<Number> here_;        // the other's landmarks, by their numbers there
+  std::vector<Number> reshaped_;    // leaves with landmarks that are shared only now
+  TreeChanges changes_;
+};
+
+}  // namespace cairn

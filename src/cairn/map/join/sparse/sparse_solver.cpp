@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/join/sparse/sparse_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "core/error.hpp"
+#include "map/join/sparse/leaf_information.hpp"
+
+namespace cairn {
+
+// A rigid motion of many must stay one, whatever its size: with the turn theta of its own base, of that which saw it
+// first, a point goes by V(theta) delta, as (Exp(theta) - I) (p - c) = V(theta) (theta x (p - c)).
+template <class Pose>
+void SparseSolver<Pose>::place(const Step& step, double factor, const Before& from) {
+  std::unordered_map<Number, PointSquare> turned;  // V by base
+  std::size_t base = 0, position = 0;
+  for (const typename Step::Entry& entry : step.entries()) {
+    if (is_landmark(entry.variable)) continue;
+    const auto number = static_cast<Number>(entry.variable >> 1);
+    const Point move = factor * Eigen::Map<const Point>(entry.value);
+    const Tangent turn = factor * Eigen::Map<const Tangent>(entry.value + kDim);
+    const PointSquare V = Rotation::translation_jacobian(turn);
+    const Pose& before = from.bases[base++];
+    state_.bases[number] = Pose(Rotation::exp(turn) * before.rotation(), before.translation() + V * move);
+    turned.emplace(number, V);
+  }
+  for (const typename Step::Entry& entry : step.entries()) {
+    if (!is_landmark(entry.variable)) continue;
+    typename State::Landmark& landmark = state_.landmarks[static_cast<Number>(entry.variable >> 1)];
+    const Point move = factor * Eigen::Map<const Point>(entry.value);
+    const auto first = turned.find(landmark.submaps[0]);
+    landmark.position = from.positions[position++] + (first != turned.end() ? Point(first->second * move) : move);
+  }
+  for (std::size_t i = 0; i < step.carried().size(); ++i)
+    state_.leaves[step.carried()[i].first].turned = Rotation::exp(factor * step.carried()[i].second) * from.turned[i];
+}
+
+// Puts the step's variables where it takes them, and evaluates the leaves that it visits; returns their cost.
+template <class Pose>
+double SparseSolver<Pose>::take_step(const Step& step, double factor, const Before& from) {
+  place(step, factor, from);
+  double cost = 0.0;
+  for (const Number leaf : step.visited()) {
+    state_.evaluate(leaf);
+    cost += state_.leaves[leaf].cost;
+  }
+  return cost;
+}
+
+// Takes the step back. The leaves get back what they were evaluated to, which may have been elsewhere: where
+// motions of other variables rest, the tree counts what these do to them.
+template <class Pose>
+void SparseSolver<Pose>::take_back(const Step& step, Before& from) {
+  place(step, 0.0, from);
+  for (std::size_t i = 0; i < step.visited().size(); ++i) {
+    typename State::Leaf& leaf = state_.leaves[step.visited()[i]];
+    leaf.cost = from.evaluations[i].cost;
+    leaf.gradient.swap(from.evaluations[i].gradient);
+    leaf.turned = from.evaluations[i].turned;
+  }
+}
+
+// The newest of the stale leaves come first; those beyond kAtOnce wait for the next time. Motions that rest in the tree
+// above what changes are handed down before.
+template <class Pose>
+void SparseSolver<Pose>::refactor(TreeChanges changes, JoinReport& report) {
+  typename State::Solution& solution = state_.solution;
+  constexpr std::size_t kAtOnce = 256;
+  const std::size_t taken = std::min(solution.stale.size(), kAtOnce);
+  for (std::size_t i = solution.stale.size() - taken; i < solution.stale.size(); ++i)
+    changes.leaves.push_back(state_.leaves[solution.stale[i]].key);
+  solution.stale.resize(solution.stale.size() - taken);
+  report.relinearised += taken;
+  Step step(state_, 0.0);
+  solution.tree.settle(changes, step);
+  take_step(step, 1.0, save(step));
+
+  std::size_t refactored = 0;
+  std::vector<std::uint32_t> assembled;
+  if (!solution.tree.update(LeafInformation<Pose>(state_), changes, refactored, assembled))
+    throw Error(ErrorCode::numerical, "submap: the map's information is not positive definite; nothing was changed");
+  report.refactored += refactored;
+  for (const TreeKey& key : changes.leaves) solution.pending.push_back(key.leaf);
+  for (const auto& [v, key] : changes.variables) solution.pending.push_back(key.leaf);
+  solution.pending.insert(solution.pending.end(), step.visited().begin(), step.visited().end());
+  for (const Number leaf : assembled) {
+    change_.save_leaf(leaf);
+    state_.note_linearisation(leaf);
+  }
+}
+
+// Saves what the step moves, and returns it.
+template <class Pose>
+typename SparseSolver<Pose>::Before SparseSolver<Pose>::save(const Step& step) {
+  Before before;
+  for (const Number leaf : step.visited()) {
+    change_.save_leaf(leaf);
+    before.evaluations.push_back({state_.leaves[leaf].cost, state_.leaves[leaf].gradient, state_.leaves[leaf].turned});
+  }
+  for (const auto& [leaf, turn] : step.carried()) {
+    before.turned.push_back(state_.leaves[leaf].turned);
+    change_.save_turn(leaf);
+  }
+  for (const typename Step::Entry& entry : step.entries()) {
+    const auto number = static_cast<Number>(entry.variable >> 1);
+    if (is_landmark(entry.variable)) {
+      change_.save_landmark(number);
+      before.positions.push_back(state_.landmarks[number].position);
+    } else {
+      change_.save_base(number);
+      before.bases.push_back(state_.bases[number]);
+    }
+  }
+  return before;
+}
+
+// Each step starts from the leaves that were evaluated since the tree took their forces.
+template <class Pose>
+void SparseSolver<Pose>::optimise(JoinReport& report) {
+  typename State::Solution& solution = state_.solution;
+  constexpr int kHalvings = 6;
+  // A chain's slackness grows by the cube of its length, and so does what stiffness of another shape does to it.
+  const double borne = std::clamp(10.0 * std::pow(static_cast<double>(state_.leaves.size()), -1.5), 5e-5, 0.3);
+  constexpr double kSlack = 0.01;  // of the cost: leaves that were not visited lately tell that of a while ago
+  solution.settled = false;
+  double tolerance = state_.options.step_tolerance;
+  for (int i = 0; i < state_.options.most_iterations && !solution.settled; ++i) {
+    if (!solution.stale.empty()) refactor({}, report);
+    std::vector<TreeTouch> touches;
+    for (const Number leaf : solution.pending) touches.push_back(solution.tree.touch(state_.leaves[leaf].key));
+    Step step(state_, tolerance);
+    const EliminationTree<Pose> before_step = solution.tree;
+    const double foreseen = solution.tree.relax(touches, step);
+    ++report.iterations;
+    Before from = save(step);
+    report.carried += step.carried().size();
+    // Where motions rest, the leaves' costs belong to other values than those that the step starts from. For a small
+    // step the difference is small; a step that hands everything down is compared with the cost where it starts.
+    double before = 0.0;
+    for (const typename Before::Evaluation& evaluation : from.evaluations) before += evaluation.cost;
+    if (tolerance == 0.0) before = take_step(step, 0.0, from);
+    double after = take_step(step, 1.0, from);
+    if (!(after <= before + kSlack) && tolerance > 0.0) {
+      // Too far for a linear step. Next, all that moves is visited, and the step, a direction of descent, is halved.
+      take_back(step, from);
+      solution.tree = before_step;
+      tolerance = 0.0;
+      continue;
+    }
+    double factor = 1.0;
+    for (int halving = 0; !(after <= before + kSlack) && halving < kHalvings; ++halving) {
+      factor *= 0.5;
+      after = take_step(step, factor, from);
+    }
+    if (!(after <= before + kSlack)) {  // nowhere to go from here
+      take_back(step, from);
+      solution.tree = before_step;
+      break;
+    }
+    solution.pending = step.visited();
+    // A submap that has been bent is linearised anew, before the next step.
+    for (const Number leaf : solution.pending)
+      if (state_.strain(leaf) > borne) solution.stale.push_back(leaf);
+    std::sort(solution.stale.begin(), solution.stale.end());
+    solution.stale.erase(std::unique(solution.stale.begin(), solution.stale.end()), solution.stale.end());
+    // What the quadratic model missed is of third order in the step, m = k x^3 where it foresaw D = h x^2 / 2. The next
+    // step, which the force 3 k x^2 would take, then lowers the cost by 9 m^2 / (4 D). Where that is nothing, the
+    // force waits for the next closing: it is counted among those that are pending.
+    const double miss = before - after - foreseen;
+    const bool foretold = 2.25 * miss * miss <= state_.options.cost_tolerance * foreseen;
+    solution.settled = (factor == 1.0 && (foretold || step.largest() < state_.options.convergence_tolerance)) ||
+                       (i > 0 && std::abs(before - after) < state_.options.cost_tolerance);
+  }
+}
+
+template class SparseSolver<SE2>;
+template class SparseSolver<SE3>;
+
+}  // namespace cairn

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/join/sparse/sparse_state.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <type_traits>
+
+namespace cairn {
+
+template <class Pose>
+SparseState<Pose>::SparseState(const MapOptions<Pose>& map_options)
+    : options(map_options),
+      solution(map_options.initial_pose, map_options.initial_covariance),
+      bases{map_options.initial_pose},
+      base_saved{0} {}
+
+template <class Pose>
+bool SparseState<Pose>::find(std::uint64_t id, std::size_t& index) const {
+  const auto found = ids.find(id);
+  if (found == ids.end()) return false;
+  index = landmarks[found->second].slot;
+  return true;
+}
+
+template <class Pose>
+FactorValues<Pose> SparseState<Pose>::values(Number number) const {
+  const Leaf& leaf = leaves[number];
+  Values values{bases[number], bases[number + 1], {}};
+  values.shared.reserve(static_cast<std::size_t>(leaf.factor->shared_count()));
+  for (const Index i : leaf.factor->shared()) values.shared.push_back(landmarks[leaf.landmarks[i]].position);
+  return values;
+}
+
+// Where the tree keeps the leaf of this number.
+template <class Pose>
+TreeKey SparseState<Pose>::key_of(Number number) const {
+  const Point offset = bases[number].translation() - options.initial_pose.translation();
+  return TreeKey(Embedding<Pose>::up(offset), number);
+}
+
+// The leaf's factor and variables, by which of its landmarks are shared now.
+template <class Pose>
+void SparseState<Pose>::shape(Leaf& leaf, Number number) const {
+  std::vector<Index> shared_ones;
+  for (std::size_t i = 0; i < leaf.landmarks.size(); ++i)
+    if (leaf.landmarks[i] != kNone && shared(leaf.landmarks[i])) shared_ones.push_back(static_cast<Index>(i));
+  leaf.factor = std::make_shared<const Factor>(leaf.data, std::move(shared_ones));
+  struct Column {
+    Variable variable;
+    Index state;  // of the factor
+  };
+  std::vector<Column> columns{{base_variable(number), 0}, {base_variable(number + 1), kDof}};
+  for (Index i = 0; i < leaf.factor->shared_count(); ++i)
+    columns.push_back({landmark_variable(leaf.landmarks[leaf.factor->shared()[i]]), Factor::column(i)});
+  std::sort(columns.begin(), columns.end(), [](const Column& a, const Column& b) { return a.variable < b.variable; });
+  leaf.variables.clear();
+  leaf.states.clear();
+  leaf.order.assign(static_cast<std::size_t>(leaf.factor->columns()), 0);
+  Index state = 0;
+  for (const Column& column : columns) {
+    leaf.variables.push_back(column.variable);
+    leaf.states.push_back(state);
+    for (Index d = 0; d < dimension(column.variable); ++d) leaf.order[column.state + d] = state++;
+  }
+}
+
+// The tree knows errors in axes that turn with the map: a base's in its own, a landmark's in those of the base that saw
+// it first. The information of a submap then depends on relative poses only, so that its linearisation stays good when
+// the map around it turns as a whole.
+template <class Pose>
+const typename SparseState<Pose>::Rotation& SparseState<Pose>::axes(Variable v) const {
+  const auto number = static_cast<Number>(v >> 1);
+  return bases[is_landmark(v) ? landmarks[number].submaps[0] : number].rotation();
+}
+
+template <class Pose>
+void SparseState<Pose>::to_map_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& covariance) const {
+  Index state = 0;
+  const auto turn = [&](const auto& R) {
+    constexpr int n = std::decay_t<decltype(R)>::RowsAtCompileTime;
+    covariance.middleRows<n>(state) = (R * covariance.middleRows<n>(state)).eval();
+    covariance.middleCols<n>(state) = (covariance.middleCols<n>(state) * R.transpose()).eval();
+    state += n;
+  };
+  for (const Variable v : variables) {
+    turn(axes(v).matrix());
+    if (!is_landmark(v)) turn(axes(v).adjoint());
+  }
+}
+
+template <class Pose>
+void SparseState<Pose>::note_linearisation(Number number) {
+  Leaf& leaf = leaves[number];
+  const Pose T_base_map = bases[number].inverse();
+  leaf.end_then = T_base_map * bases[number + 1];
+  leaf.landmarks_then.clear();
+  for (const Index i : leaf.factor->shared())
+    leaf.landmarks_then.push_back(T_base_map * landmarks[leaf.landmarks[i]].position);
+  leaf.axes_then.clear();
+  for (const Variable v : leaf.variables) leaf.axes_then.push_back(T_base_map.rotation() * axes(v));
+}
+
+// How far the leaf's landmarks and axes have moved against its base since it was linearised, in the map's scales.
+template <class Pose>
+double SparseState<Pose>::strain(Number number) const {
+  const Leaf& leaf = leaves[number];
+  if (leaf.axes_then.size() != leaf.variables.size()) return std::numeric_limits<double>::infinity();
+  const Pose T_base_map = bases[number].inverse();
+  double way = (T_base_map * bases[number + 1].translation() - leaf.end_then.translation()).norm(), turn = 0.0;
+  for (std::size_t i = 0; i < leaf.landmarks_then.size(); ++i) {
+    const Point& l = landmarks[leaf.landmarks[leaf.factor->shared()[i]]].position;
+    way = std::max(way, (T_base_map * l - leaf.landmarks_then[i]).norm());
+  }
+  for (std::size_t i = 0; i < leaf.variables.size(); ++i)
+    turn = std::max(turn, (T_base_map.rotation() * axes(leaf.variables[i]) * leaf.axes_then[i].inverse()).chord());
+  return std::max(way / solution.length_scale, turn / solution.turn_scale);
+}
+
+template <class Pose>
+void SparseState<Pose>::evaluate(Number number) {
+  Leaf& leaf = leaves[number];
+  const typename Factor::Evaluation own = leaf.factor->evaluate(values(number));
+  leaf.cost = own.cost;
+  Eigen::VectorXd gradient(own.gradient.size());  // apart: a resize that fails would leave the old one torn
+  for (Index i = 0; i < own.gradient.size(); ++i) gradient(leaf.order[i]) = own.gradient(i);
+  leaf.gradient.swap(gradient);
+  if (number == 0) {
+    const typename Pose::Tangent e = pose_error(bases[0], solution.anchors.prior());
+    const typename Pose::Tangent weighted = solution.anchors.prior_information() * e;
+    leaf.cost += 0.5 * e.dot(weighted);
+    leaf.gradient.template segment<kDof>(leaf.order[0]) +=
+        solution.anchors.prior_jacobian(bases[0]).transpose() * weighted;
+  }
+  if (const auto* fixes = solution.anchors.fixes_of(number + 1)) add_fixes(leaf, bases[number + 1], *fixes);
+  leaf.turned = Rotation();
+}
+
+// Adds fixes of the leaf's end to its cost and, in map axes, to its gradient.
+template <class Pose>
+void SparseState<Pose>::add_fixes(Leaf& leaf, const Pose& T, const std::vector<AbsoluteFix<Pose>>& fixes) const {
+  for (const AbsoluteFix<Pose>& fix : fixes) {
+    const int rows = fix.rows();
+    const Eigen::VectorXd r = fix.residual(T).head(rows);
+    const Eigen::VectorXd weighted = fix.covariance().topLeftCorner(rows, rows).ldlt().solve(r);
+    leaf.cost += 0.5 * r.dot(weighted);
+    leaf.gradient.template segment<kDof>(leaf.order[kDof]) -= fix.jacobian(T).topRows(rows).transpose() * weighted;
+  }
+}
+
+template <class Pose>
+void SparseState<Pose>::place_private(Number number) {
+  const Leaf& leaf = leaves[number];
+  const Values at = values(number);
+  const Eigen::VectorXd residual = leaf.factor->residual(at);
+  const Eigen::VectorXd weighted = leaf.factor->weighted(residual);
+  const typename Factor::Points placed = leaf.factor->place_private(at, residual, weighted);
+  for (std::size_t i = 0; i < leaf.landmarks.size(); ++i) {
+    const Number landmark = leaf.landmarks[i];
+    if (landmark != kNone && !shared(landmark)) landmarks[landmark].position = placed.col(static_cast<Index>(i));
+  }
+}
+
+template <class Pose>
+double SparseState<Pose>::cost() const {
+  double sum = 0.0;
+  for (const Leaf& leaf : leaves) sum += leaf.cost;
+  return sum;
+}
+
+template <class Pose>
+std::size_t SparseState<Pose>::memory_bytes() const {
+  std::size_t bytes = solution.tree.memory_bytes();
+  for (const Leaf& leaf : leaves) bytes += leaf.factor->memory_bytes();
+  return bytes;
+}
+
+// What the leaf's factor exerts on its i-th shared landmark, in map axes.
+template <class Pose>
+typename SparseState<Pose>::Point SparseState<Pose>::force_on(const Leaf& leaf, Index i) const {
+  return leaf.turned * Point(leaf.gradient.template segment<kDim>(leaf.order[Factor::column(i)]));
+}
+
+template <class Pose>
+void SparseState<Pose>::refresh_base_covariance() {
+  Eigen::MatrixXd newest = solution.tree.last_covariance();
+  to_map_axes({base_variable(bases.size() - 1)}, newest);
+  solution.base_covariance = newest;
+}
+
+template struct SparseState<SE2>;
+template struct SparseState<SE3>;
+
+}  // namespace cairn

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of a sparse map: bases, landmarks and submaps, and the factor of the problem that they make up.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "geometry/embedding.hpp"
+#include "map/global_map.hpp"
+#include "map/join/sparse/elimination_tree.hpp"
+#include "map/join/sparse/sparse_anchors.hpp"
+#include "map/join/sparse/submap_factor.hpp"
+
+namespace cairn {
+
+// A copy is a state of its own; it shares what never changes. Submap j, the leaf j of the tree, leads from base j to
+// base j + 1.
+template <class Pose>
+struct SparseState {
+  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  using Point = typename Pose::Point;
+  using Rotation = typename Pose::Rotation;
+  using Square = typename Pose::Square;
+  using Data = SubmapData<Pose>;
+  using Factor = SubmapFactor<Pose>;
+  using Values = FactorValues<Pose>;
+  using Number = std::uint32_t;
+  static constexpr Number kNone = UINT32_MAX;
+
+  struct Landmark {
+    std::uint64_t id;
+    std::uint64_t count;
+    Point position;
+    std::vector<Number> submaps;  // that hold it
+    Number slot;                  // in `visible`, kNone once removed
+    Number saved;                 // the change that saved it last
+  };
+  struct Leaf {
+    TreeKey key;
+    std::shared_ptr<const Data> data;
+    std::vector<Number> landmarks;  // of the map, by the submap's; kNone: left out
+    std::shared_ptr<const Factor> factor;
+    std::vector<Variable> variables;  // ascending
+    std::vector<Index> states;        // where each begins
+    std::vector<Index> order;         // state of the variables by state of the factor
+    // Relative to the base, when the tree took the leaf's information: the end, the shared landmarks, the variables'
+    // axes.
+    Pose end_then;
+    std::vector<Point> landmarks_then;
+    std::vector<Rotation> axes_then;
+    double cost = 0.0;
+    Eigen::VectorXd gradient;  // in the order of `variables`, in map axes when it was evaluated
+    Rotation turned;           // how far it was turned since, carried along with other leaves
+    Number saved = 0;
+  };
+  // A change saves this part whole when it begins.
+  struct Solution {
+    Solution(const Pose& prior, const Square& covariance) : anchors(prior, covariance), base_covariance(covariance) {}
+
+    SparseAnchors<Pose> anchors;
+    EliminationTree<Pose> tree;
+    Square base_covariance;
+    // The units of a step: the smallest typical standard deviation of a landmark in its submap, and the turn that moves
+    // the submap's farthest landmark by as much.
+    double length_scale = std::numeric_limits<double>::infinity(), turn_scale = length_scale;
+    std::vector<Number> pending;  // leaves evaluated since the tree took their forces
+    bool settled = true;          // whether the last optimisation converged
+    std::vector<Number> stale;    // leaves to be linearised anew
+  };
+
+  explicit SparseState(const MapOptions<Pose>& map_options);
+
+  MapOptions<Pose> options;
+  Solution solution;
+  std::vector<Pose> bases;
+  std::vector<Number> base_saved;  // by base: the change that saved it last
+  std::vector<Landmark> landmarks;
+  std::vector<Leaf> leaves;
+  std::vector<Number> visible;  // landmarks, by the index that callers use
+  std::unordered_map<std::uint64_t, Number> ids;
+  Number change = 0;  // number of the last change
+
+  bool find(std::uint64_t id, std::size_t& index) const;
+  const Point& point(std::size_t index) const { return landmarks[visible[index]].position; }
+  bool shared(Number landmark) const { return landmarks[landmark].submaps.size() > 1; }
+  double cost() const;
+  std::size_t memory_bytes() const;
+
+  // Variables. Their errors are told in axes of their own, see axes().
+  static Index dimension(Variable v) { return cairn::dimension<Pose>(v); }
+  const Rotation& axes(Variable v) const;
+  const Point& place_of(Variable v) const {
+    const auto number = static_cast<Number>(v >> 1);
+    return is_landmark(v) ? landmarks[number].position : bases[number].translation();
+  }
+  void to_map_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& covariance) const;
+  void refresh_base_covariance();
+
+  // Leaves
+  Values values(Number leaf) const;
+  TreeKey key_of(Number leaf) const;
+  void shape(Leaf& leaf, Number number) const;
+  void evaluate(Number leaf);
+  void place_private(Number leaf);
+  Point force_on(const Leaf& leaf, Index shared_landmark) const;
+  void note_linearisation(Number leaf);
+  double strain(Number leaf) const;
+
+ private:
+  void add_fixes(Leaf& leaf, const Pose& end, const std::vector<AbsoluteFix<Pose>>& fixes) const;
+};
+
+extern template struct SparseState<SE2>;
+extern template struct SparseState<SE3>;
+
+}  // namespace cairn

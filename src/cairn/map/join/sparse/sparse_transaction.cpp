@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/join/sparse/sparse_transaction.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/chi_square.hpp"
+#include "core/error.hpp"
+#include "map/join/sparse/sparse_gate.hpp"
+#include "map/join/sparse/sparse_solver.hpp"
+
+namespace cairn {
+
+template <class Pose>
+SparseTransaction<Pose>::SparseTransaction(SparseState<Pose>& state, SpatialIndex& index)
+    : state_(state), index_(index), change_(std::in_place, state, index) {}
+
+template <class Pose>
+void SparseTransaction<Pose>::join(const Submap<Pose>& submap) {
+  solved_ = true;
+  const Number leaf = try_join(submap, std::vector<char>(submap.ids.size(), 0));
+  if (report_.rows == 0 || !may_contradict(state_, leaf, report_)) return;
+  // Something does not fit: the exact gates, which cost more, tell what.
+  change_.reset();
+  const std::vector<char> left_out = find_contradicting(state_, submap);
+  report_ = JoinReport();
+  change_.emplace(state_, index_);
+  try_join(submap, left_out);
+}
+
+// Adds the submap and solves; the report tells how well the fused landmarks agree.
+template <class Pose>
+typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::try_join(const Submap<Pose>& submap,
+                                                                           const std::vector<char>& left_out) {
+  const Number leaf = append(submap, left_out);
+  SparseSolver<Pose> solver(state_, *change_);
+  solver.optimise(report_);
+  report_.rows = kDim * report_.fused;
+  if (report_.rows == 0) return leaf;
+  // To first order the cost grows by half of what the fused landmarks' two estimates have against each other.
+  report_.threshold = chi_square_quantile(static_cast<double>(report_.rows), state_.options.joint_gate_probability);
+  report_.distance = 2.0 * change_->cost_growth();
+  if (report_.distance > report_.threshold && !state_.solution.settled) {  // it may be too early to tell
+    solver.optimise(report_);
+    report_.distance = 2.0 * change_->cost_growth();
+  }
+  return leaf;
+}
+
+// Appends the submap, its end and its new landmarks, and makes the factor anew where that reaches.
+template <class Pose>
+typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::append(const Submap<Pose>& submap,
+                                                                         const std::vector<char>& left_out) {
+  const auto number = static_cast<Number>(state_.leaves.size());
+  const Pose base = state_.bases.back();
+  change_->add_base(base * submap.T_base_end);
+  typename State::Leaf leaf = change_->new_leaf(std::make_shared<const SubmapData<Pose>>(submap));
+  TreeChanges changes;
+  std::vector<Number> reshaped;
+  EliminationTree<Pose>& tree = state_.solution.tree;
+  for (std::size_t i = 0; i < submap.ids.size(); ++i) {
+    const auto known = state_.ids.find(submap.ids[i]);
+    if (known != state_.ids.end() && left_out[i] != 0) {
+      leaf.landmarks.push_back(State::kNone);
+      ++report_.refused;
+      continue;
+    }
+    if (known == state_.ids.end()) {
+      const Number landmark = change_->add_landmark(base * submap.landmarks[i]);
+      state_.landmarks[landmark].count = submap.counts[i];
+      state_.landmarks[landmark].submaps = {number};
+      change_->show_landmark(landmark, submap.ids[i]);
+      leaf.landmarks.push_back(landmark);
+      ++report_.fresh;
+      continue;
+    }
+    const Number landmark = known->second;
+    change_->note_held_again(landmark, reshaped, changes);
+    change_->extend(landmark, number, submap.counts[i]);
+    leaf.landmarks.push_back(landmark);
+    ++report_.fused;
+    tree.set_degree(landmark_variable(landmark), static_cast<std::int32_t>(state_.landmarks[landmark].submaps.size()));
+  }
+  if (state_.visible.size() > state_.options.max_landmarks)
+    throw Error(ErrorCode::capacity, "submap: %zu new landmarks, and the map holds %zu of max_landmarks = %zu",
+                report_.fresh, change_->old_visible(), state_.options.max_landmarks);
+  state_.shape(leaf, number);
+  state_.leaves.push_back(std::move(leaf));
+  set_scales(submap);
+  state_.evaluate(number);
+  std::sort(reshaped.begin(), reshaped.end());
+  reshaped.erase(std::unique(reshaped.begin(), reshaped.end()), reshaped.end());
+  for (const Number old : reshaped) {
+    change_->save_leaf(old);
+    state_.shape(state_.leaves[old], old);
+    state_.evaluate(old);
+    changes.leaves.push_back(state_.leaves[old].key);
+  }
+  // A base is held by the submap that ends there and by the one that begins there. The newest one waits for the latter,
+  // and is eliminated last of all until then.
+  tree.set_degree(base_variable(number), number == 0 ? 1 : 2);
+  tree.set_degree(base_variable(number + 1), 2);
+  changes.leaves.push_back(state_.leaves[number].key);
+  SparseSolver<Pose>(state_, *change_).refactor(std::move(changes), report_);
+  return number;
+}
+
+template <class Pose>
+void SparseTransaction<Pose>::set_scales(const Submap<Pose>& submap) {
+  std::vector<double> sigmas;
+  double extent = 1.0;
+  for (Index i = 0; i < submap.size(); ++i) {
+    const PointSquare P = submap.covariance.template block<kDim, kDim>(kDof + kDim * i, kDof + kDim * i);
+    sigmas.push_back(std::sqrt(P.trace()));
+    extent = std::max(extent, submap.landmarks[i].norm());
+  }
+  if (sigmas.empty()) sigmas.push_back(std::sqrt(submap.covariance.template topLeftCorner<kDim, kDim>().trace()));
+  const auto median = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+  std::nth_element(sigmas.begin(), median, sigmas.end());
+  if (!(*median > 0.0)) return;
+  typename State::Solution& solution = state_.solution;
+  solution.length_scale = std::min(solution.length_scale, *median);
+  solution.turn_scale = std::min(solution.turn_scale, *median / extent);
+}
+
+template <class Pose>
+FixReport SparseTransaction<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold) {
+  if (solved_) state_.refresh_base_covariance();  // the fix is tested against the base after the join
+  FixReport report;
+  const int rows = fix.rows();
+  const Pose T = state_.bases.back();
+  if (!fix.defined(T)) return report;
+  const Eigen::MatrixXd J = fix.jacobian(T).topRows(rows);
+  const Eigen::VectorXd r = fix.residual(T).head(rows);
+  const Eigen::MatrixXd S =
+      J * state_.solution.base_covariance * J.transpose() + fix.covariance().topLeftCorner(rows, rows);
+  report.distance = r.dot(S.ldlt().solve(r));
+  report.accepted = report.distance <= threshold;
+  if (!report.accepted) return report;
+  if (state_.leaves.empty()) {
+    fix_prior(r, J, S);
+    report.iterations = 1;
+    return report;
+  }
+  solved_ = true;
+  JoinReport joined;
+  const auto leaf = static_cast<Number>(state_.leaves.size() - 1);
+  change_->save_leaf(leaf);
+  state_.solution.anchors.add(leaf + 1, fix);
+  state_.evaluate(leaf);
+  TreeChanges changes;
+  changes.leaves.push_back(state_.leaves[leaf].key);
+  SparseSolver<Pose> solver(state_, *change_);
+  solver.refactor(std::move(changes), joined);
+  solver.optimise(joined);
+  report.iterations = joined.iterations;
+  return report;
+}
+
+// Without a submap there is the prior only: one linearisation.
+template <class Pose>
+void SparseTransaction<Pose>::fix_prior(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& S) {
+  change_->save_base(0);
+  typename Pose::Square& P = state_.solution.base_covariance;
+  const Eigen::MatrixXd PJ = P * J.transpose();
+  const typename Pose::Tangent e = PJ * S.ldlt().solve(r);
+  const typename Pose::Square lower = P - PJ * S.ldlt().solve(PJ.transpose());
+  state_.bases[0] = retract(state_.bases[0], e);
+  P = lower.template selfadjointView<Eigen::Lower>();
+  state_.solution.anchors.set_prior(state_.bases[0], P);
+}
+
+template <class Pose>
+JoinReport SparseTransaction<Pose>::commit() {
+  if (solved_)
+    change_->finish(report_);
+  else
+    change_->keep();
+  return report_;
+}
+
+template class SparseTransaction<SE2>;
+template class SparseTransaction<SE3>;
+
+}  // namespace cairn

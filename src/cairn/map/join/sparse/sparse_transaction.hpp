@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A change of a sparse map, as its callers make it: a submap joins, a fix is applied.
+#pragma once
+
+#include <optional>
+
+#include "map/join/sparse/sparse_change.hpp"
+
+namespace cairn {
+
+template <class Pose>
+class SparseTransaction final : public MapTransaction<Pose> {
+ public:
+  SparseTransaction(SparseState<Pose>& state, SpatialIndex& index);
+
+  // Two tries: the first one fuses all known landmarks, and the second one, where something may not fit, only those
+  // that pass the exact gates.
+  void join(const Submap<Pose>& submap) override;
+  FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) override;
+  JoinReport commit() override;
+
+ private:
+  using State = SparseState<Pose>;
+  using Number = typename State::Number;
+  static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  using PointSquare = typename Pose::Rotation::Matrix;
+
+  Number try_join(const Submap<Pose>& submap, const std::vector<char>& left_out);
+  Number append(const Submap<Pose>& submap, const std::vector<char>& left_out);
+  void set_scales(const Submap<Pose>& submap);
+  void fix_prior(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& S);
+
+  State& state_;
+  SpatialIndex& index_;
+  std::optional<SparseChange<Pose>> change_;
+  JoinReport report_;
+  bool solved_ = false;  // whether the problem was solved anew, so that more follows from its solution
+};
+
+extern template class SparseTransaction<SE2>;
+extern template class SparseTransaction<SE3>;
+
+}  // namespace cairn

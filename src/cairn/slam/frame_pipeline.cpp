@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One frame, from its observations to the reviewed map.
+#include "slam/frame_pipeline.hpp"
+
+#include "core/error.hpp"
+
+namespace cairn {
+
+template <class Pose>
+FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
+                                   Thresholds& thresholds, FrameReport& report, const Log& log)
+    : options_(options),
+      map_(map),
+      report_(report),
+      sorted_(arena, options.max_observations),
+      sorter_(arena, options, map, report),
+      associator_(arena, options, map, thresholds, report, log),
+      updater_(arena, options, map, thresholds, report, log),
+      placer_(options, map, report),
+      review_(options, map, report) {}
+
+template <class Pose>
+void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
+  report_.start(frame.count());
+  sort(frame);
+  EkfUpdate<Pose> update = updater_.begin(frame, sorted_);
+  updater_.run(update, frame, sorted_);
+  placer_.place(update, frame, sorted_);
+  report_.finish();
+  review_.run(frame);
+}
+
+template <class Pose>
+void FramePipeline<Pose>::sort(const Frame<Pose>& frame) {
+  sorted_.clear();
+  if (options_.association == AssociationKind::known)
+    sorter_.sort_landmarks(frame, sorted_);
+  else
+    associator_.sort_landmarks(frame, sorted_);
+  sorter_.sort_companions(frame, sorted_);
+  check_room();
+}
+
+template <class Pose>
+void FramePipeline<Pose>::check_room() const {
+  const Index room = options_.local_landmarks(), held = map_.table().landmarks(), fresh = sorted_.new_ones();
+  if (held + fresh <= room) return;
+  if (!options_.single_map())
+    throw Error(ErrorCode::capacity,
+                "observations: %td new landmarks, and the open submap, which could not be closed, "
+                "holds %td of %td",
+                fresh, held, room);
+  throw Error(ErrorCode::capacity, "observations: %td new landmarks, and the map holds %td of max_landmarks = %td",
+              fresh, held, room);
+}
+
+template class FramePipeline<SE2>;
+template class FramePipeline<SE3>;
+
+}  // namespace cairn

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The way of one frame through a filter: sort, update, place, review.
+#pragma once
+
+#include "slam/frame_associator.hpp"
+#include "slam/frame_placer.hpp"
+#include "slam/frame_sorter.hpp"
+#include "slam/frame_update.hpp"
+#include "slam/landmark_review.hpp"
+
+namespace cairn {
+
+template <class Pose>
+class FramePipeline {
+ public:
+  FramePipeline(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map, Thresholds& thresholds,
+                FrameReport& report, const Log& log);
+
+  // Throws with nothing changed.
+  void run(const Frame<Pose>& frame);
+  void reserve_id(std::uint64_t id) { placer_.reserve_id(id); }
+
+ private:
+  void sort(const Frame<Pose>& frame);
+  void check_room() const;
+
+  const FilterOptions<Pose>& options_;
+  const LocalMap<Pose>& map_;
+  FrameReport& report_;
+  SortedFrame<Pose> sorted_;
+  FrameSorter<Pose> sorter_;
+  FrameAssociator<Pose> associator_;
+  FrameUpdate<Pose> updater_;
+  FramePlacer<Pose> placer_;
+  LandmarkReview<Pose> review_;
+};
+
+extern template class FramePipeline<SE2>;
+extern template class FramePipeline<SE3>;
+
+}  // namespace cairn

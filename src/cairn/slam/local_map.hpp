@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The landmarks of the open submap, or of the single map: the state, and the names of its points. All that moves slots
+// goes through this class, so that values and names move in step.
+#pragma once
+
+#include <vector>
+
+#include "ekf/ekf_update.hpp"
+#include "geometry/embedding.hpp"
+#include "map/landmarks.hpp"
+#include "slam/filter_options.hpp"
+#include "slam/landmark_table.hpp"
+
+namespace cairn {
+
+// The Landmarks are those that count. They speak of space for a vehicle in the plane, too.
+template <class Pose>
+class LocalMap final : public Landmarks {
+ public:
+  static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  using Square = typename Pose::Square;
+  using PointSquare = typename State<Pose>::PointSquare;
+
+  LocalMap(Arena& arena, const FilterOptions<Pose>& options);
+  void start(const Pose& pose, const Square& covariance);  // forgets all landmarks and companions
+
+  State<Pose>& state() { return state_; }
+  const State<Pose>& state() const { return state_; }
+  LandmarkTable& table() { return table_; }
+  const LandmarkTable& table() const { return table_; }
+
+  // --- landmarks ---
+  void name_placed(std::uint64_t id);  // names the landmark that the state got last
+  void count_from_now(Index deferred_slot);
+  void forget(Index slot);
+  // A landmark `fresh` that stands where `id` does, but for an error of its own.
+  void split(std::uint64_t id, std::uint64_t fresh, const PointSquare& covariance);
+  Index slot_at(std::uint64_t id) const;  // throws where there is none
+
+  // --- vehicles --- by the caller's names for them
+  bool has_vehicle(std::uint64_t id) const;
+  Index companion_at(std::uint64_t id) const;  // throws where there is none
+  // Its ordinary error is J_pose times that of the vehicle looked from, and noise.
+  void add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise);
+  void remove_vehicle(std::uint64_t id);  // not the one looked from
+  void look_from(std::uint64_t id);
+
+  // Of [pose; landmarks that count], ordinary errors, kDof + kDim count on a side, both triangles.
+  void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
+
+  // --- Landmarks ---
+  std::size_t size() const override { return static_cast<std::size_t>(table_.counting()); }
+  std::uint64_t id(std::size_t index) const override { return table_.id(slot_of(index)); }
+  std::uint64_t observations(std::size_t index) const override { return table_.observations(slot_of(index)); }
+  Vector3 position(std::size_t index) const override { return Embedding<Pose>::up(state_.landmark(slot_of(index))); }
+  Matrix3 covariance(std::size_t index) const override {
+    return Embedding<Pose>::up(state_.landmark_covariance(slot_of(index)));
+  }
+  bool find(std::uint64_t id, std::size_t& index) const override;
+  void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override;
+  bool planar() const override { return kDim == 2; }
+
+ private:
+  Index slot_of(std::size_t landmark) const { return table_.companions() + static_cast<Index>(landmark); }
+  void exchange(Index a, Index b);
+
+  const FilterOptions<Pose>& options_;
+  State<Pose> state_;
+  LandmarkTable table_;
+};
+
+extern template class LocalMap<SE2>;
+extern template class LocalMap<SE3>;
+
+}  // namespace cairn

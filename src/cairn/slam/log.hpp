@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The caller's log of a filter: lines of text, silent by default.
+#pragma once
+
+#include "core/error.hpp"
+
+namespace cairn {
+
+class Log {
+ public:
+  using Function = void (*)(void* payload, const char* line);
+
+  void set(Function function, void* payload) { function_ = function, payload_ = payload; }
+  void say(const char* format, ...) const __attribute__((format(printf, 2, 3)));
+
+  // Makes the call. A numerical error is worth a line in the log, for the caller may only look at the status.
+  template <class Call>
+  void watch(Call&& call) const {
+    try {
+      call();
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::numerical) say("%s", error.what());
+      throw;
+    }
+  }
+
+ private:
+  Function function_ = nullptr;
+  void* payload_ = nullptr;
+};
+
+}  // namespace cairn

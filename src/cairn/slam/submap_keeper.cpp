@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Closes submaps, and composes the pose of the vehicle from base and open submap.
+#include "slam/submap_keeper.hpp"
+
+#include <chrono>
+#include <new>
+#include <vector>
+
+#include "core/error.hpp"
+#include "map/join/dense/dense_map.hpp"
+#include "map/join/sparse/sparse_map.hpp"
+
+namespace cairn {
+namespace {
+
+// Up to this number of landmarks a dense closing is the cheaper one (docs/submaps.md).
+constexpr Index kDenseAtMost = 100;
+
+template <class Pose>
+NamingOptions naming_options(const FilterOptions<Pose>& options) {
+  NamingOptions naming;
+  naming.joint = options.association == AssociationKind::joint;
+  naming.nodes = options.association_nodes;
+  naming.support = options.association_support;
+  naming.gate_probability = options.gate_probability;
+  naming.joint_gate_probability = options.batch_gate_probability;
+  naming.new_probability = options.new_probability;
+  return naming;
+}
+
+}  // namespace
+
+template <class Pose>
+MapOptions<Pose> map_options(const FilterOptions<Pose>& options) {
+  MapOptions<Pose> map;
+  map.error = options.error;
+  map.max_landmarks = static_cast<std::size_t>(options.max_landmarks);
+  map.submap_capacity = static_cast<std::size_t>(options.local_landmarks());
+  map.iterations = options.iterations;
+  map.iteration_tolerance = options.iteration_tolerance;
+  map.gate_probability = options.gate_probability;
+  map.joint_gate_probability = options.batch_gate_probability;
+  map.step_tolerance = options.step_tolerance;
+  map.initial_pose = options.initial_pose;
+  map.initial_covariance = options.initial_covariance;
+  return map;
+}
+
+template <class Pose>
+bool FilterOptions<Pose>::sparse() const {
+  if (single_map()) return false;
+  return join == JoinKind::sparse || (join == JoinKind::automatic && max_landmarks > kDenseAtMost);
+}
+
+template <class Pose>
+SubmapKeeper<Pose>::SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, const Log& log)
+    : options_(options), local_(local), log_(log), policy_(options, local) {}
+
+template <class Pose>
+void SubmapKeeper<Pose>::make_map() {
+  if (options_.single_map()) return;
+  if (options_.sparse())
+    map_ = std::make_unique<SparseMap<Pose>>(map_options(options_));
+  else
+    map_ = std::make_unique<DenseMap<Pose>>(map_options(options_));
+}
+
+template <class Pose>
+std::size_t SubmapKeeper<Pose>::required_bytes(const FilterOptions<Pose>& options) {
+  if (options.single_map() || options.sparse()) return 0;
+  return DenseMap<Pose>::required_bytes(map_options(options));
+}
+
+template <class Pose>
+const Landmarks& SubmapKeeper<Pose>::landmarks() const {
+  if (map_ != nullptr) return *map_;
+  return local_;
+}
+
+template <class Pose>
+void SubmapKeeper<Pose>::remove_landmark(std::uint64_t id) {
+  const std::optional<Index> slot = local_.table().find(id);
+  std::size_t index = 0;
+  const bool mapped = map_ != nullptr && map_->find(id, index);
+  if (!slot && !mapped)
+    throw Error(ErrorCode::not_found, "id: the map has no landmark %llu", static_cast<unsigned long long>(id));
+  if (mapped) map_->remove(id);
+  if (slot) local_.forget(*slot);
+}
+
+template <class Pose>
+Submap<Pose> SubmapKeeper<Pose>::take_submap() const {
+  const State<Pose>& state = local_.state();
+  Submap<Pose> submap;
+  const Index count = local_.table().counting(), n = kDof + kDim * count;
+  submap.error = options_.error;
+  submap.T_base_end = state.pose();
+  std::vector<Index> slots;
+  slots.reserve(static_cast<std::size_t>(count));
+  submap.ids.reserve(slots.capacity());
+  submap.counts.reserve(slots.capacity());
+  submap.landmarks.reserve(slots.capacity());
+  for (Index slot = 0; slot < count; ++slot) {
+    slots.push_back(slot);
+    submap.ids.push_back(local_.table().id(slot));
+    submap.counts.push_back(local_.table().observations(slot));
+    submap.landmarks.push_back(state.landmark(slot));
+  }
+  submap.covariance.resize(n, n);
+  state.gather(slots.data(), count, submap.covariance.data(), n);
+  return submap;
+}
+
+// Closes the open submap, whatever it holds, and starts anew at the vehicle's pose (Mars paper, eq. 14-16). A fix is
+// applied to the new base: both or neither.
+template <class Pose>
+FixReport SubmapKeeper<Pose>::join(ClosedBy reason, const AbsoluteFix<Pose>* fix, double threshold) {
+  ClosingReport next;
+  const auto begin = std::chrono::steady_clock::now();
+  next.reason = reason;
+  next.landmarks = local_.table().counting();
+  Submap<Pose> submap = take_submap();
+  if (options_.association != AssociationKind::known) {
+    next.naming = name_landmarks(*map_, naming_options(options_), submap);
+    if (next.naming.exhausted)
+      log_.say("closing: association stopped at %td joint tests, with %zu of %td landmarks named", next.naming.nodes,
+               next.naming.named, next.landmarks);
+  }
+  FixReport fixed;
+  {
+    const auto transaction = map_->begin();
+    transaction->join(submap);
+    if (fix != nullptr) fixed = transaction->fix(*fix, threshold);
+    next.join = transaction->commit();
+  }
+  local_.start(Pose(), Square::Zero());  // deferred landmarks have to be found again
+  policy_.restart();
+  next.submaps = map_->submap_count();
+  next.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  closing_ = next;
+  if (next.join.refused > 0)
+    log_.say("closing: %zu of %zu known landmarks contradict the map and were left out", next.join.refused,
+             next.join.refused + next.join.fused);
+  return fixed;
+}
+
+template <class Pose>
+void SubmapKeeper<Pose>::close() {
+  if (map_ == nullptr)
+    throw Error(ErrorCode::state, "filter: it keeps a single map; create it with submap_landmarks to have submaps");
+  if (local_.table().counting() == 0)
+    throw Error(ErrorCode::state, "filter: the open submap holds no landmark; nothing to close");
+  join(ClosedBy::caller);
+}
+
+template <class Pose>
+void SubmapKeeper<Pose>::close_if_full() {
+  if (map_ == nullptr) return;
+  const ClosedBy reason = policy_.limit();
+  if (reason == ClosedBy::none || policy_.wait()) return;
+  ClosingReport failed;
+  failed.failed = true;
+  failed.submaps = map_->submap_count();
+  failed.reason = reason;
+  failed.landmarks = local_.table().counting();
+  try {
+    join(reason);
+    return;
+  } catch (const Error& error) {
+    failed.error = error.code();
+    log_.say("closing: put off: %s", error.what());
+  } catch (const std::bad_alloc&) {
+    failed.no_memory = true;
+    log_.say("closing: put off: memory could not be had");
+  }
+  closing_ = failed;
+  policy_.put_off();
+}
+
+template <class Pose>
+bool SubmapKeeper<Pose>::moved() const {
+  const State<Pose>& state = local_.state();
+  return state.size() > 0 || policy_.driven() > 0.0 || !state.pose_covariance().isZero(0.0) ||
+         !state.pose().rotation().matrix().isIdentity(0.0);
+}
+
+template <class Pose>
+FixReport SubmapKeeper<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold) {
+  return moved() ? join(ClosedBy::fix, &fix, threshold) : map_->fix(fix, threshold);
+}
+
+template <class Pose>
+typename SubmapKeeper<Pose>::Square SubmapKeeper<Pose>::pose_covariance() const {
+  const State<Pose>& state = local_.state();
+  if (map_ == nullptr) return state.pose_covariance();
+  return ProductJacobians(map_->base(), state.pose()).covariance(map_->base_covariance(), state.pose_covariance());
+}
+
+template <class Pose>
+void SubmapKeeper<Pose>::pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
+  const std::size_t size = kDof + kDim * count;
+  const auto n = static_cast<Eigen::Index>(size), landmarks = static_cast<Eigen::Index>(kDim * count);
+  Eigen::MatrixXd joint(n, n);
+  if (map_ == nullptr) {
+    local_.pose_joint_covariance(indices, count, joint.data());
+  } else {
+    const State<Pose>& state = local_.state();
+    map_->base_joint_covariance(indices, count, joint.data());
+    const ProductJacobians J(map_->base(), state.pose());
+    const Eigen::MatrixXd across = joint.bottomLeftCorner(landmarks, kDof) * J.by_a.transpose();
+    joint.topLeftCorner<kDof, kDof>() = J.covariance(joint.topLeftCorner<kDof, kDof>(), state.pose_covariance());
+    joint.bottomLeftCorner(landmarks, kDof) = across;
+    joint.topRightCorner(kDof, landmarks) = across.transpose();
+  }
+  with_pose<Pose>(joint.data(), count, matrix);
+}
+
+template <class Pose>
+double SubmapKeeper<Pose>::pose_nees(const Pose& truth) const {
+  if (map_ == nullptr) return local_.state().pose_nees(truth);
+  return State<Pose>::nees(options_.error, options_.initial_pose.translation(), truth, pose(), pose_covariance());
+}
+
+template MapOptions<SE2> map_options(const FilterOptions<SE2>&);
+template MapOptions<SE3> map_options(const FilterOptions<SE3>&);
+template bool FilterOptions<SE2>::sparse() const;
+template bool FilterOptions<SE3>::sparse() const;
+template class SubmapKeeper<SE2>;
+template class SubmapKeeper<SE3>;
+
+}  // namespace cairn

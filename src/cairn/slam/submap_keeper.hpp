@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The global map of a filter: closes submaps into it, and tells where the vehicle is in it. A filter with a single map
+// has no global map: its local map is the map that the caller sees.
+#pragma once
+
+#include <memory>
+
+#include "map/global_map.hpp"
+#include "map/naming.hpp"
+#include "slam/log.hpp"
+#include "slam/submap_policy.hpp"
+
+namespace cairn {
+
+// The last attempt to close a submap.
+struct ClosingReport {
+  bool failed = false;
+  ErrorCode error = ErrorCode::state;  // where it failed
+  bool no_memory = false;
+  std::size_t submaps = 0;
+  ClosedBy reason = ClosedBy::none;
+  Index landmarks = 0;
+  JoinReport join;
+  NamingReport naming;  // where observations bring no ids
+  double seconds = 0.0;
+};
+
+// The options of the map that a filter's submaps join.
+template <class Pose>
+MapOptions<Pose> map_options(const FilterOptions<Pose>& options);
+
+template <class Pose>
+class SubmapKeeper {
+ public:
+  static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  using Square = typename Pose::Square;
+
+  SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, const Log& log);
+  static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of the map, where that is known beforehand
+
+  const GlobalMap<Pose>* map() const { return map_.get(); }  // null: a single map
+  void use_map(std::unique_ptr<GlobalMap<Pose>> map) { map_ = std::move(map); }
+  void make_map();                     // as the options say
+  const Landmarks& landmarks() const;  // the map that the caller sees
+  void drive(double distance) { policy_.drive(distance); }
+  void remove_landmark(std::uint64_t id);
+
+  // --- closing --- throws with nothing changed
+  void close();
+  void close_if_full();  // a closing that fails leaves the submap open, and later frames try again
+  // The map's base gets an absolute fix. The open submap does not know where it lies in the map: it is closed, so that
+  // the vehicle's pose is the base.
+  FixReport fix(const AbsoluteFix<Pose>& fix, double threshold);
+  const ClosingReport& closing() const { return closing_; }
+
+  // --- the vehicle in the map that the caller sees --- base and open submap share nothing
+  Pose pose() const { return map_ != nullptr ? map_->base() * local_.state().pose() : local_.state().pose(); }
+  Square pose_covariance() const;
+  double pose_nees(const Pose& truth) const;
+  // Of [pose; landmarks of landmarks()], in space: 6 + 3 count on a side.
+  void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
+
+ private:
+  Submap<Pose> take_submap() const;
+  FixReport join(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
+  bool moved() const;
+
+  const FilterOptions<Pose>& options_;
+  LocalMap<Pose>& local_;
+  const Log& log_;
+  std::unique_ptr<GlobalMap<Pose>> map_;
+  SubmapPolicy<Pose> policy_;
+  ClosingReport closing_;
+};
+
+extern template class SubmapKeeper<SE2>;
+extern template class SubmapKeeper<SE3>;
+
+}  // namespace cairn

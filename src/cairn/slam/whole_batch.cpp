@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Updates that are accepted or refused as a whole.
+#include "slam/whole_batch.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "ekf/fix_rows.hpp"
+
+namespace cairn {
+
+template <class Pose>
+WholeBatchUpdate<Pose>::WholeBatchUpdate(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
+                                         SubmapKeeper<Pose>& submaps, const Thresholds& thresholds, FrameReport& report,
+                                         const Log& log)
+    : options_(options),
+      map_(map),
+      submaps_(submaps),
+      thresholds_(thresholds),
+      report_(report),
+      log_(log),
+      ids_(arena, static_cast<std::size_t>(options.max_observations)),
+      window_(arena.take<Index>(static_cast<std::size_t>(options.max_observations))) {}
+
+template <class Pose>
+template <class Fill>
+void WholeBatchUpdate<Pose>::run(EkfUpdate<Pose>& update, Index rows, int iterations, std::uint64_t landmark,
+                                 Fill&& fill) {
+  update.linearise(fill);
+  Match& match = report_.match(0);
+  match.landmark = landmark;
+  match.threshold = thresholds_.single(rows);
+  update.factor();
+  match.distance = update.nis();
+  if (!(match.distance <= match.threshold)) {
+    match.reason = Reason::gate;
+    log_.say("update: the gate refused a batch of %td rows, distance %g over %g", rows, match.distance,
+             match.threshold);
+  } else {
+    report_.update().nis = update.nis();
+    report_.update().iterations = update.iterate({iterations, options_.iteration_tolerance, false}, fill);
+    update.commit();
+    report_.update().rows = update.batch().rows();
+    match.decision = Decision::matched;
+  }
+  report_.finish();
+}
+
+template <class Pose>
+void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& fix) {
+  report_.start(1);
+  if (!fix.defined(submaps_.pose())) {
+    report_.match(0).reason = Reason::no_image;
+    log_.say("update: no heading, the body's x axis stands too steep");
+    return report_.finish();
+  }
+  if (submaps_.map() != nullptr) return fix_map(fix);
+  EkfUpdate<Pose> update = map_.state().begin({});
+  run(update, fix.rows(), options_.iterations, kNoId,
+      [&](double* residual_only) { return fill_fix(update, fix, residual_only); });
+}
+
+template <class Pose>
+void WholeBatchUpdate<Pose>::fix_map(const AbsoluteFix<Pose>& fix) {
+  Match& match = report_.match(0);
+  match.landmark = kNoId;
+  match.threshold = thresholds_.single(fix.rows());
+  const FixReport done = submaps_.fix(fix, match.threshold);
+  match.distance = done.distance;
+  if (done.accepted) {
+    match.decision = Decision::matched;
+    report_.update().rows = fix.rows();
+    report_.update().iterations = done.iterations;
+    report_.update().nis = done.distance;
+  } else {
+    match.reason = Reason::gate;
+    log_.say("update: the gate refused a fix, distance %g over %g", match.distance, match.threshold);
+  }
+  report_.finish();
+}
+
+template <class Pose>
+void WholeBatchUpdate<Pose>::find_window(const LinearRows& rows) {
+  ids_.clear();
+  for (Index k = 0; k < rows.count; ++k) {
+    const std::uint64_t id = rows.landmarks[k];
+    if (ids_.find(id) != IdTable::kAbsent)
+      throw Error(ErrorCode::argument, "landmarks: %llu comes twice", static_cast<unsigned long long>(id));
+    ids_.set(id, static_cast<std::int32_t>(k));
+    const std::optional<Index> slot = map_.table().find(id);
+    if (!slot)
+      throw Error(ErrorCode::not_found, "landmarks: the map has no landmark %llu", static_cast<unsigned long long>(id));
+    window_[k] = *slot;
+  }
+}
+
+template <class Pose>
+void WholeBatchUpdate<Pose>::rows(const LinearRows& linear) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  report_.start(1);
+  find_window(linear);
+  EkfUpdate<Pose> update = map_.state().begin({window_, linear.count, nullptr});
+  const Index rows = linear.rows;
+  run(update, rows, 1, linear.count > 0 ? linear.landmarks[0] : kNoId, [&](double*) {
+    update.batch().clear();
+    const Index row = update.batch().add_rows(rows);
+    std::copy_n(linear.residual, rows, update.batch().residual());
+    std::copy_n(linear.covariance, rows * rows, update.batch().add_noise(row, rows));
+    const auto J_pose = [&](Index r, Index c) {
+      return linear.J_pose != nullptr ? linear.J_pose[r * 6 + Embedding<Pose>::axis(c)] : 0.0;
+    };
+    const auto pose = update.add_pose_block(row, rows, J_pose, false);
+    if (linear.count == 0) return true;
+    const Eigen::Map<const RowMajor> J(linear.J_landmarks, rows, 3 * linear.count);
+    for (Index k = 0; k < linear.count; ++k)
+      update.add_landmark_block(row, rows, J.template middleCols<kDim>(3 * k), k, pose);
+    return true;
+  });
+  if (matched())
+    for (Index k = 0; k < linear.count; ++k) map_.table().add_observations(window_[k], 1);
+}
+
+// l_id - l_other = 0: an observation of both landmarks, exact but for a variance that keeps S positive definite.
+template <class Pose>
+void WholeBatchUpdate<Pose>::merge(std::uint64_t id, std::uint64_t other) {
+  using Square = Eigen::Matrix<double, kDim, kDim>;
+  constexpr double kExact = 1e-6;  // of the smaller variance
+  if (id == other) throw Error(ErrorCode::argument, "id: a landmark cannot be merged with itself");
+  if (options_.max_observations < 2)
+    throw Error(ErrorCode::capacity, "id: merging looks at two landmarks at once, and max_observations is 1");
+  const Index keep = map_.slot_at(id), gone = map_.slot_at(other);
+  report_.start(1);
+  window_[0] = keep;
+  window_[1] = gone;
+  State<Pose>& state = map_.state();
+  const double variance =
+      std::min(state.landmark_covariance(keep).trace(), state.landmark_covariance(gone).trace()) / kDim;
+  const typename Pose::Point apart = state.landmark(gone) - state.landmark(keep);
+  EkfUpdate<Pose> update = state.begin({window_, 2, nullptr});
+  run(update, kDim, 1, id, [&](double*) {
+    update.batch().clear();
+    const Index row = update.batch().add_rows(kDim);
+    std::copy_n(apart.data(), kDim, update.batch().residual());
+    Eigen::Map<Square>(update.batch().add_noise(row, kDim)) = kExact * variance * Square::Identity();
+    const Eigen::Matrix<double, kDim, kDof> J_pose = Eigen::Matrix<double, kDim, kDof>::Zero();
+    const auto pose = update.add_pose_block(row, kDim, J_pose, false);
+    const Square one = Square::Identity(), minus = -Square::Identity();
+    update.add_landmark_block(row, kDim, one, 0, pose);
+    update.add_landmark_block(row, kDim, minus, 1, pose);
+    return true;
+  });
+  if (!matched()) return;
+  map_.table().add_observations(keep, map_.table().observations(gone));
+  map_.forget(gone);
+}
+
+template class WholeBatchUpdate<SE2>;
+template class WholeBatchUpdate<SE3>;
+
+}  // namespace cairn

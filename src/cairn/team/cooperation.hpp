@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A way of cooperating: the filters that a vehicle runs, and how its teammates' packets update them (docs/team.md).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/error.hpp"
+#include "team/packet.hpp"
+#include "team/team_options.hpp"
+#include "team/vehicle_filter.hpp"
+
+namespace cairn {
+
+struct ScanCounts {
+  std::uint64_t matched = 0, placed = 0, rejected = 0;
+  std::uint64_t sightings_used = 0, sightings_refused = 0;  // of other vehicles: no pose known, or not of one time
+  std::uint64_t vehicles_found = 0;                         // whose start was solved from mutual sightings
+  std::uint64_t failed = 0;                                 // motions and scans that the filter refused
+};
+
+struct VehicleEstimate {
+  SE2 pose;
+  Matrix3 covariance;
+};
+
+class Cooperation {
+ public:
+  static std::unique_ptr<Cooperation> create(const TeamOptions& options);
+  virtual ~Cooperation() = default;
+
+  // --- teammates --- add throws with nothing changed
+  virtual void add(std::uint64_t /*vehicle*/) {}  // where it starts is not known
+  virtual void add(std::uint64_t /*vehicle*/, const SE2& /*start*/, const Matrix3& /*covariance*/) {}
+  // A teammate's motion was missed, or it left: where it is, is not known any more.
+  virtual void lose_sight(std::uint64_t /*vehicle*/) {}
+
+  // --- packets --- Takes the packets of one time, ordered by the vehicles' numbers. What a filter refuses is counted;
+  // of the own vehicle, own_error() keeps it.
+  void take(std::vector<Packet>& packets);
+  void forget_own_error() { own_error_.reset(); }
+  const std::optional<Error>& own_error() const { return own_error_; }
+
+  // --- queries ---
+  // As of the vehicle's last packet that was taken; throws not_found for a teammate whose pose is not known.
+  virtual VehicleEstimate estimate(std::uint64_t vehicle) const;
+  virtual const Filter<SE2>& filter() const = 0;                      // whose map the caller sees
+  const std::vector<Match>& matches() const { return own_matches_; }  // of the own scan that was taken last
+  const ScanCounts& counts() const { return counts_; }
+
+ protected:
+  explicit Cooperation(const TeamOptions& options) : options_(options) {}
+
+  virtual void take_turn(std::vector<Packet>& packets) = 0;
+
+  const TeamOptions& options() const { return options_; }
+  bool is_own(const Packet& packet) const { return packet.vehicle == options_.mail.vehicle; }
+  const Packet* own_packet(const std::vector<Packet>& packets) const;  // null where there is none
+  // The filter's vehicle moves as the packet tells.
+  void move(Filter<SE2>& filter, const Packet& packet);
+  // Updates the filter by a scan; the matches of an own one are kept.
+  void scan(VehicleFilter& filter, int sensor, const std::vector<Observation>& landmarks,
+            const std::vector<Observation>& vehicles, bool own);
+  // Moves and scans with the own radar.
+  void move_and_scan(VehicleFilter& filter, const Packet& packet);
+  ScanCounts& tally() { return counts_; }
+
+  // A refusal of what the own vehicle did is the caller's to hear of; a refusal of a teammate's is counted.
+  template <class Function>
+  bool attempt(bool own, Function&& function) {
+    try {
+      function();
+      return true;
+    } catch (const Error& error) {
+      ++counts_.failed;
+      if (own) own_error_.emplace(error);
+      return false;
+    }
+  }
+
+ private:
+  TeamOptions options_;
+  std::vector<Match> own_matches_;
+  std::optional<Error> own_error_;
+  ScanCounts counts_;
+};
+
+}  // namespace cairn

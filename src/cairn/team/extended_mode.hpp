@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Extended observations: a teammate's scan, seen through the mutual sighting, updates the filter of the own vehicle
+// (cooperative paper, section 2.1). The teammate is no state: the sighting and the scan are all that is used of it.
+#pragma once
+
+#include "team/cooperation.hpp"
+
+namespace cairn {
+
+class ExtendedMode final : public Cooperation {
+ public:
+  explicit ExtendedMode(const TeamOptions& options);
+
+  const Filter<SE2>& filter() const override { return own_.filter(); }
+
+ private:
+  void take_turn(std::vector<Packet>& packets) override;
+  void take_teammate(const Packet& own, const Packet& teammate);
+
+  bool full_;  // with the noise that a scan has in common through the sighting
+  VehicleFilter own_;
+  int extended_sensor_;
+};
+
+}  // namespace cairn

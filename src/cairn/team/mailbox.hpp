@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A vehicle's mailbox: its own steps become packets, its teammates' packets wait for their turn, and all that is of one
+// time comes out together, in an order that is the same at every vehicle. It knows packets, not filters.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "team/history.hpp"
+#include "team/mailbox_options.hpp"
+#include "team/member.hpp"
+#include "team/packet.hpp"
+
+namespace cairn {
+
+struct MailCounts {
+  std::uint64_t sent = 0, resent = 0, requested = 0;
+  // Packets that arrived, by what became of them; `faulty` by PacketFault.
+  std::uint64_t received = 0, taken = 0, reordered = 0, repeated = 0, own = 0, unknown = 0, past = 0, conflict = 0,
+                ignored = 0, full = 0, faulty[6] = {};
+  std::uint64_t lost = 0;  // packets that were given up after max_lag
+};
+
+// A packet that was stored: sender and number are its name.
+struct PacketName {
+  std::uint64_t vehicle = 0, number = 0;
+  PacketKind kind = PacketKind::data;
+};
+
+class Mailbox {
+ public:
+  explicit Mailbox(const MailboxOptions& options);
+
+  // --- members --- each throws with nothing changed
+  void add(std::uint64_t vehicle);
+  void undo_add() { members_.pop_back(); }  // of the member that was added last, before anything else happened
+  void remove(std::uint64_t vehicle);
+  std::vector<std::uint64_t> members() const;  // the own vehicle first
+
+  // --- the own vehicle --- each throws with nothing changed
+  void move(const Increment<SE2>& increment);
+  // Ends a step: motions since the last one and what was seen become a packet.
+  void observe(double time, std::vector<Observation> landmarks, std::vector<Observation> vehicles);
+  void leave();
+  std::size_t unsettled() const { return members_.front().size(); }  // own steps that wait for teammates' packets
+  // The own motions that no turn has given out yet, in their order.
+  template <class Function>
+  void for_each_unsettled_motion(Function&& function) const {
+    for (const auto& entry : members_.front().waiting())
+      for (const Increment<SE2>& motion : entry.second.motions) function(motion);
+    for (const Increment<SE2>& motion : pending_) function(motion);
+  }
+
+  // --- packets to be sent ---
+  // The next one; null where there is none.
+  const std::vector<std::uint8_t>* next_packet() const { return outgoing_.empty() ? nullptr : &outgoing_.front(); }
+  void drop_packet() { outgoing_.pop_front(); }
+  void ask();             // for all packets that are missing
+  void ask_if_missing();  // the same, where a gap or an own step that waits shows that something is missing
+
+  // --- packets that arrive ---
+  // `waiting` where the packet was stored under `name`: then turns may be due, and outcome() tells what became of it.
+  Arrival receive(const std::uint8_t* bytes, std::size_t size, PacketFault& fault, PacketName& name);
+  Arrival outcome(const PacketName& name);
+
+  // --- turns ---
+  // Gives up the packets of one teammate that were waited for in vain: its number, or nothing where no gap is overdue.
+  // To be called until there is none, before next_turn().
+  std::optional<std::uint64_t> skip_overdue_gap();
+  // Moves the packets of the earliest time into `packets`, ordered by the vehicles' numbers, without farewells. False
+  // where a teammate has to be waited for, or nothing waits.
+  bool next_turn(std::vector<Packet>& packets);
+  // Removes one vehicle whose farewell was consumed: its number, or nothing where there is none. To be called until
+  // there is none, after each turn.
+  std::optional<std::uint64_t> remove_departed();
+
+  const MailCounts& counts() const { return counts_; }
+
+ private:
+  // How the others stand to a member: they take its next packet, do not need it, have to wait for it, or have waited
+  // long enough for a gap to close.
+  enum class Readiness { ready, idle, awaited, overdue_gap };
+
+  Member* find(std::uint64_t vehicle);
+  Member& own() { return members_.front(); }
+  const Member& own() const { return members_.front(); }
+  bool is_own(const Member& member) const { return &member == &members_.front(); }
+  void drop(std::deque<Member>::iterator member);
+  Readiness readiness(Member& member);
+  void send(const Packet& packet);
+  Arrival count(Arrival arrival);
+  Arrival answer(const Packet& request);
+  Arrival store(Packet&& packet);
+
+  MailboxOptions options_;
+  std::deque<Member> members_;                      // the own vehicle first
+  std::map<std::uint64_t, Member> former_;          // removed or left: what was consumed once is not taken again
+  std::vector<Increment<SE2>> pending_;             // own motions since the last packet
+  double newest_ = 0.0;                             // time of the newest own step
+  bool left_ = false;                               // the own vehicle sent its farewell
+  History history_;                                 // own packets
+  std::deque<std::vector<std::uint8_t>> outgoing_;  // packets to be sent
+  MailCounts counts_;
+};
+
+}  // namespace cairn

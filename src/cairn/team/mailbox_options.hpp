@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a mailbox is created with.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace cairn {
+
+struct MailboxOptions {
+  std::uint64_t vehicle = 0;       // the own number
+  std::size_t max_vehicles = 8;    // the own vehicle among them
+  std::size_t max_waiting = 4096;  // packets of one teammate that may wait for their turn
+  std::size_t history = 1024;      // own packets that are kept for teammates that miss them
+  double max_lag = 30.0;           // s: for so long a teammate's missing packet is waited for
+  double time_tolerance = 0.01;    // s: packets that are no farther apart are of one time
+  bool listens = true;             // teammates' packets are used
+  bool named = true;               // landmarks have ids: a packet with a landmark without one is refused
+};
+
+}  // namespace cairn

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Teams: cairn simulate usv, and cairn run of a MRCLAM folder.
+#include <cstdio>
+
+#include "program/commands/commands.hpp"
+#include "program/commands/usv_compare.hpp"
+#include "program/drives/fleet_drive.hpp"
+#include "program/options/team_options.hpp"
+#include "program/output/progress.hpp"
+#include "program/output/team_output.hpp"
+
+namespace cairn::program {
+namespace {
+
+// Runs the team in its mode and, if `beside` is given, each vehicle without the others.
+std::vector<Figure> run_team(TeamDrive& drive, TeamDrive* beside, const TeamChoices& choices, const std::string& folder,
+                             Progress& progress) {
+  std::optional<TeamOutput> output;
+  if (!folder.empty()) output.emplace(drive, folder);
+  TeamRunner runner(drive, choices);
+  const TeamResult result = runner.run([&](const TeamStep& step, const std::vector<VehicleEstimate>& estimates) {
+    if (output) output->add(step, estimates);
+    progress.advance();
+  });
+  std::optional<TeamResult> alone;
+  if (beside != nullptr) {
+    TeamChoices mono = choices;
+    mono.mode = CAIRN_TEAM_MONO;
+    alone = TeamRunner(*beside, mono).run([&](const TeamStep&, const std::vector<VehicleEstimate>&) {
+      progress.advance();
+    });
+  }
+  const std::vector<Figure> figures = team_figures(drive, result, alone ? &*alone : nullptr);
+  if (output) output->finish(runner, figures);
+  return figures;
+}
+
+std::string title(const std::string& what, const TeamChoices& choices) {
+  return what + ", mode " + kModeNames[static_cast<std::size_t>(choices.mode)] + "\n";
+}
+
+}  // namespace
+
+void simulate_team_command(const std::vector<std::string>& arguments) {
+  const UsvOptions options = parse_usv_options(arguments);
+  if (options.common.help) return write_help();
+  if (options.compare) {
+    if (!options.common.output.empty()) create_folder(options.common.output);
+    std::string table, object, rows;
+    {
+      Progress progress(compared_runs(options), options.common.quiet);
+      compare_modes(
+          options, [&] { progress.advance(); }, table, object, rows);
+    }
+    if (!options.common.output.empty()) {
+      OutputFile file(options.common.output, "team_compare.csv");
+      file.text(rows);
+      file.close();
+      OutputFile summary(options.common.output, "summary.json");
+      summary.text(object + "\n");
+      summary.close();
+    }
+    return write_stdout(options.common.json ? object + "\n" : table);
+  }
+  std::vector<std::vector<Figure>> runs;
+  std::optional<Progress> progress;
+  for (std::uint32_t run = 0; run < options.runs; ++run) {
+    cairn_fleet_options fleet = options.fleet;
+    fleet.seed = options.common.seed + run;
+    FleetDrive drive(fleet), beside(fleet);
+    if (!progress) progress.emplace(2 * drive.steps() * options.runs, options.common.quiet);
+    runs.push_back(run_team(drive, &beside, options.team, run == 0 ? options.common.output : "", *progress));
+  }
+  progress.reset();
+  const std::vector<Figure> figures = runs.size() == 1 ? runs.front() : means(runs);
+  write_stdout(options.common.json ? json(figures) + "\n" : title("usv", options.team) + text(figures));
+}
+
+void run_team_command(const std::vector<std::string>& arguments) {
+  const MrclamOptions options = parse_mrclam_options(arguments);
+  if (options.common.help) return write_help();
+  const logs::MrclamLog log = logs::read_mrclam(options.folder);
+  if (!options.common.quiet)
+    for (const std::string& note : log.notes) std::fprintf(stderr, "cairn: note: %s\n", note.c_str());
+  MrclamDrive drive(log, options.noise);
+  std::vector<Figure> figures;
+  {
+    Progress progress(drive.steps(), options.common.quiet);
+    figures = run_team(drive, nullptr, options.team, options.common.output, progress);
+  }
+  write_stdout(options.common.json ? json(figures) + "\n"
+                                   : title(options.folder + ": " + log.format, options.team) + text(figures));
+}
+
+}  // namespace cairn::program

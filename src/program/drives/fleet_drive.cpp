@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program/drives/fleet_drive.hpp"
+
+#include <cmath>
+
+#include "program/library.hpp"
+
+namespace cairn::program {
+namespace {
+
+std::vector<cairn_observation> observations_of(const cairn_fleet_sighting* sightings, std::size_t count) {
+  std::vector<cairn_observation> out(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    out[i].id = sightings[i].id;
+    out[i].z[0] = sightings[i].range;
+    out[i].z[1] = sightings[i].bearing;
+  }
+  return out;
+}
+
+}  // namespace
+
+FleetDrive::FleetDrive(const cairn_fleet_options& options) : options_(options), fleet_(nullptr, &cairn_fleet_destroy) {
+  cairn_fleet* fleet = nullptr;
+  check_sim(cairn_fleet_create(&options, &fleet));
+  fleet_.reset(fleet);
+  check_sim(cairn_fleet_steps(fleet, &steps_));
+  std::size_t count = 0;
+  check_sim(cairn_fleet_features(fleet, nullptr, 0, &count));
+  features_.resize(2 * count);
+  if (count > 0) check_sim(cairn_fleet_features(fleet, features_.data(), count, &count));
+  step_.struct_size = sizeof step_;
+  taken_ = take();
+  for (std::size_t v = 0; v < step_.vehicle_count; ++v) {
+    numbers_.push_back(v + 1);
+    starts_.push_back(planar_pose(step_.vehicles[v].x, step_.vehicles[v].y, step_.vehicles[v].heading));
+  }
+}
+
+bool FleetDrive::take() {
+  const cairn_status status = cairn_fleet_next(fleet_.get(), &step_);
+  if (status == CAIRN_ERROR_STATE) return false;
+  check_sim(status);
+  return true;
+}
+
+cairn_range_bearing FleetDrive::radar() const {
+  cairn_range_bearing radar;
+  check(cairn_range_bearing_init(&radar, sizeof radar));
+  if (options_.range_sigma > 0) radar.range_sigma = options_.range_sigma;
+  if (options_.bearing_sigma > 0) radar.bearing_sigma = options_.bearing_sigma;
+  return radar;
+}
+
+bool FleetDrive::next(TeamStep& step) {
+  if (!taken_ && !take()) return false;
+  taken_ = false;
+  step.time = step_.time;
+  step.vehicles.resize(step_.vehicle_count);
+  for (std::size_t v = 0; v < step_.vehicle_count; ++v) {
+    const cairn_fleet_vehicle& from = step_.vehicles[v];
+    VehicleStep& to = step.vehicles[v];
+    to.motions.clear();
+    if (step_.dt > 0)
+      to.motions.push_back({step_.dt, from.speed, from.rate, options_.speed_sigma, options_.rate_sigma});
+    to.landmarks = observations_of(from.features, from.feature_count);
+    to.vehicles = observations_of(from.vehicles, from.vehicle_count);
+    to.truth = planar_pose(from.x, from.y, from.heading);
+  }
+  return true;
+}
+
+bool FleetDrive::true_landmark(std::uint64_t id, double position[2]) const {
+  if (id == 0 || 2 * id > features_.size()) return false;
+  position[0] = features_[2 * (id - 1)];
+  position[1] = features_[2 * (id - 1) + 1];
+  return true;
+}
+
+}  // namespace cairn::program

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The filter that a command line asks for.
+#pragma once
+
+#include <cairn/cairn.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "program/options/option.hpp"
+
+namespace cairn::program {
+
+constexpr std::uint32_t kUsualSubmap = 60;  // landmarks
+
+// One member for each option of the filter that is a number or a choice, with its name in cairn_filter_options. An
+// option that is not set keeps the library's default, or gets the value that the drive needs.
+struct FilterChoices {
+#define FILTER_CHOICE(field, constants, words, flag) std::optional<std::int32_t> field;
+#define FILTER_WHOLE(field, initial, lower, upper, flag) std::optional<std::uint32_t> field;
+#define FILTER_REAL(field, initial, bounds, flag) std::optional<double> field;
+#include "options/filter_options.def"
+
+  std::uint64_t forget_after = 0;  // frames; 0: never
+
+  // Writes the options that are set.
+  void apply(cairn_filter_options& options) const;
+  bool names_known() const {
+    return association.value_or(CAIRN_ASSOCIATION_KNOWN) == CAIRN_ASSOCIATION_KNOWN;
+  }
+};
+
+// `choices` has to live as long as the group.
+OptionGroup filter_options(FilterChoices& choices);
+
+}  // namespace cairn::program

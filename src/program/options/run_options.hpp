@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line of `cairn run` of a log.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "program/drives/log_drive.hpp"
+#include "program/logs/log.hpp"
+#include "program/options/common_options.hpp"
+#include "program/options/filter_choices.hpp"
+
+namespace cairn::program {
+
+struct RunOptions {
+  CommonChoices common;
+  FilterChoices filter;
+  CameraChoices camera;
+  std::string log;
+  logs::NoiseOverride noise;
+};
+
+// Of the sensors of a log. `options` has to live as long as the group.
+OptionGroup log_options(RunOptions& options);
+
+// `arguments` are the words after the command. Throws UsageError.
+RunOptions parse_run_options(const std::vector<std::string>& arguments);
+
+}  // namespace cairn::program

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command lines of teams: `cairn simulate usv`, and `cairn run` of a MRCLAM folder.
+#pragma once
+
+#include <cairn/fleet.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/drives/mrclam_drive.hpp"
+#include "program/options/common_options.hpp"
+#include "program/runners/team_runner.hpp"
+
+namespace cairn::program {
+
+struct UsvOptions {
+  CommonChoices common;
+  TeamChoices team;
+  cairn_fleet_options fleet;  // all but its seed
+  bool compare = false;
+  std::uint32_t runs = 1;
+};
+
+struct MrclamOptions {
+  CommonChoices common;
+  TeamChoices team;
+  MrclamNoise noise;
+  std::optional<double> range_noise, bearing_noise;  // as asked for; `noise` holds the values that count
+  std::string folder;
+};
+
+// Throws LibraryError.
+UsvOptions default_usv_options();
+
+// The argument has to live as long as the group, and holds the defaults that its texts tell.
+OptionGroup team_options(TeamChoices& team);
+OptionGroup boat_options(UsvOptions& options);
+OptionGroup robot_options(MrclamOptions& options);
+
+// `arguments` are the words after the command. Throw UsageError.
+UsvOptions parse_usv_options(const std::vector<std::string>& arguments);
+MrclamOptions parse_mrclam_options(const std::vector<std::string>& arguments);
+
+}  // namespace cairn::program

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The folder of --output of a team: trajectories and maps of all vehicles.
+#pragma once
+
+#include <string>
+
+#include "program/output/csv_output.hpp"
+#include "program/runners/team_runner.hpp"
+
+namespace cairn::program {
+
+class TeamOutput {
+ public:
+  // Creates the files, and the folder if it does not exist. Throws UsageError.
+  TeamOutput(const TeamDrive& drive, const std::string& folder);
+
+  void add(const TeamStep& step, const std::vector<VehicleEstimate>& estimates);
+  void finish(const TeamRunner& runner, const std::vector<Figure>& figures);
+
+ private:
+  const TeamDrive& drive_;
+  std::string folder_;
+  OutputFile trajectories_;
+  std::uint64_t step_ = 0;
+};
+
+}  // namespace cairn::program

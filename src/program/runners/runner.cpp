@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program/runners/runner.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "program/library.hpp"
+
+namespace cairn::program {
+namespace {
+
+constexpr std::size_t kLandmarkMargin = 8;
+constexpr std::size_t kMostLandmarks = 10000000, kMostObservations = 4096;  // limits of the library
+
+}  // namespace
+
+Runner::Runner(Drive& drive, const FilterChoices& choices) : drive_(drive), choices_(choices) {
+  create();
+}
+
+void Runner::check(cairn_status status) const {
+  if (status == CAIRN_OK) return;
+  program::check(status, started_ ? "step " + std::to_string(step_.number) + ": " : "");
+}
+
+void Runner::create() {
+  cairn_filter_options options;
+  check(cairn_filter_options_init(&options, sizeof options));
+  const std::size_t needed =
+      std::min(kMostLandmarks, drive_.landmarks_at_once(choices_.forget_after) + kLandmarkMargin);
+  // Without known ids some landmarks may be placed twice.
+  const std::size_t room = std::min(kMostLandmarks, choices_.names_known() ? needed : 2 * needed);
+  options.max_landmarks = static_cast<std::uint32_t>(room);
+  options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
+  // A submap that one frame fills costs more to close than it saves.
+  constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
+  options.submap_landmarks = std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations));
+  choices_.apply(options);
+  has_submaps_ = options.submap_landmarks > 0;
+  options.initial_pose = drive_.start();
+  cairn_filter* filter = nullptr;
+  check(cairn_filter_create(&options, &filter));
+  filter_.reset(filter);
+  sensor_ = drive_.equip(filter);
+}
+
+void Runner::run(const Observer& observe) {
+  while (drive_.next(step_)) {
+    started_ = true;
+    result_.matches.resize(step_.count);
+    if (step_.noise) check(cairn_filter_set_twist_noise(filter_.get(), &*step_.noise));
+    if (drive_.has_mount()) check(cairn_filter_point_head(filter_.get(), sensor_, step_.pan, step_.stick));
+    const auto begin = std::chrono::steady_clock::now();
+    predict();
+    update();
+    forget();
+    const auto end = std::chrono::steady_clock::now();
+    result_.seconds = std::chrono::duration<double>(end - begin).count();
+    report();
+    observe(filter_.get(), step_, result_);
+  }
+}
+
+void Runner::predict() {
+  if (step_.increment != nullptr) {
+    check(cairn_filter_predict_increment(filter_.get(), &step_.increment->T_before_after,
+                                         step_.increment->covariance.data()));
+  }
+  for (const logs::Twist& twist : step_.twists) {
+    check(cairn_filter_predict_twist(filter_.get(), twist.dt, twist.velocity.data(), twist.rate.data()));
+  }
+  for (const WheelTurn& turn : step_.wheel_turns) {
+    check(cairn_filter_predict_wheels(filter_.get(), turn.dt, turn.left, turn.right));
+  }
+}
+
+void Runner::update() {
+  if (step_.count == 0) return;
+  check(cairn_filter_update(filter_.get(), sensor_, step_.observations, step_.count, result_.matches.data()));
+}
+
+// A refused observation does not count. A landmark whose observations are all refused is removed; its track may then
+// place it anew.
+void Runner::forget() {
+  if (choices_.forget_after == 0) return;
+  for (const cairn_match& match : result_.matches) {
+    if (match.result != CAIRN_REJECTED) last_seen_[match.landmark] = step_.index;
+  }
+  for (auto entry = last_seen_.begin(); entry != last_seen_.end();) {
+    if (step_.index - entry->second >= choices_.forget_after) {
+      const cairn_status status = cairn_filter_remove_landmark(filter_.get(), entry->first);
+      // A closing may have refused the landmark before.
+      if (status != CAIRN_ERROR_NOT_FOUND || !has_submaps_) check(status);
+      entry = last_seen_.erase(entry);
+    } else {
+      ++entry;
+    }
+  }
+}
+
+void Runner::report() {
+  result_.report = cairn_update_report{};
+  result_.report.struct_size = sizeof result_.report;
+  if (step_.count > 0) check(cairn_filter_last_update(filter_.get(), &result_.report));
+  check(cairn_filter_pose(filter_.get(), &result_.pose, result_.covariance));
+  check(cairn_filter_local_pose(filter_.get(), nullptr, result_.local_covariance));
+  check(cairn_map_size(cairn_filter_map(filter_.get()), &result_.landmarks));
+  check(cairn_map_size(cairn_filter_local_map(filter_.get()), &result_.filter_landmarks));
+  result_.closing = new_closing();
+  if (result_.closing) result_.filter_landmarks += result_.closing->landmarks;
+}
+
+std::optional<cairn_closing_report> Runner::new_closing() {
+  std::size_t closings = 0;
+  check(cairn_filter_submap_count(filter_.get(), &closings));
+  if (closings == closings_) return std::nullopt;
+  closings_ = closings;
+  cairn_closing_report report{};
+  report.struct_size = sizeof report;
+  check(cairn_filter_last_closing(filter_.get(), &report));
+  return report;
+}
+
+std::optional<cairn_closing_report> Runner::finish() {
+  if (!has_submaps_) return std::nullopt;
+  std::size_t open = 0;
+  check(cairn_map_size(cairn_filter_local_map(filter_.get()), &open));
+  if (open == 0) return std::nullopt;
+  check(cairn_filter_close_submap(filter_.get()));
+  return new_closing();
+}
+
+}  // namespace cairn::program

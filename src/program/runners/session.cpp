@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program/runners/session.hpp"
+
+#include <chrono>
+#include <optional>
+
+#include "program/output/csv_output.hpp"
+#include "program/output/summary.hpp"
+#include "program/runners/runner.hpp"
+
+namespace cairn::program {
+
+std::vector<Figure> run_drive(Drive& drive, const FilterChoices& choices, const Session& session) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::optional<CsvOutput> output;
+  if (!session.output.empty()) output.emplace(drive, session.output);
+  Runner runner(drive, choices);
+  Summary summary(drive, choices.names_known());
+  runner.run([&](const cairn_filter* filter, const DriveStep& step, const StepResult& result) {
+    const std::optional<PoseScore> score = score_pose(filter, step, result.pose);
+    summary.add(step, result, score);
+    if (output) output->add(step, result, score);
+    session.on_step();
+  });
+  const std::optional<cairn_closing_report> last_closing = runner.finish();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  summary.finish(runner.filter(), last_closing, session.seconds_before + seconds.count());
+  if (output) output->finish(runner.filter(), last_closing, summary);
+  return summary.figures();
+}
+
+}  // namespace cairn::program

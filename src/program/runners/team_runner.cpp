@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program/runners/team_runner.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "program/library.hpp"
+
+namespace cairn::program {
+
+const std::vector<const char*> kModeNames = {"mono", "eo_diagonal", "eo_full", "joint", "submaps"};
+
+double VehicleScore::rmse() const {
+  return std::sqrt(square_error / static_cast<double>(steps));
+}
+double VehicleScore::landmark_rmse() const {
+  return std::sqrt(landmark_square / static_cast<double>(landmarks_known));
+}
+double VehicleScore::anees() const {
+  return nees / (3.0 * static_cast<double>(nees_steps));
+}
+void VehicleScore::add(const VehicleScore& other) {
+  steps += other.steps;
+  nees_steps += other.nees_steps;
+  claimed += other.claimed;
+  square_error += other.square_error;
+  nees += other.nees;
+  landmark_square += other.landmark_square;
+  landmarks += other.landmarks;
+  landmarks_known += other.landmarks_known;
+  paired += other.paired;
+  paired_wrongly += other.paired_wrongly;
+}
+
+TeamRunner::TeamRunner(TeamDrive& drive, const TeamChoices& choices)
+    : drive_(drive), choices_(choices), votes_(drive.vehicles().size()) {
+  const std::vector<std::uint64_t>& numbers = drive.vehicles();
+  for (std::size_t v = 0; v < numbers.size(); ++v) teams_.push_back(create(v));
+  for (std::size_t v = 0; v < numbers.size(); ++v)
+    for (std::size_t other = 0; other < numbers.size(); ++other) {
+      if (other == v || choices.mode == CAIRN_TEAM_MONO) continue;
+      const cairn_pose start = drive.start(other);
+      check(cairn_team_add(teams_[v].get(), numbers[other], &start, nullptr));
+    }
+}
+
+TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
+  const FilterChoices& choices = choices_.filter;
+  cairn_team_options options;
+  check(cairn_team_options_init(&options, sizeof options));
+  options.mode = choices_.mode;
+  options.vehicle = drive_.vehicles()[vehicle];
+  options.max_vehicles = static_cast<std::uint32_t>(drive_.vehicles().size());
+  options.time_tolerance = 0;
+  cairn_filter_options filter;
+  check(cairn_filter_options_init(&filter, sizeof filter));
+  filter.vehicle = CAIRN_VEHICLE_PLANAR;
+  // Without names some landmarks may be placed twice.
+  const std::uint32_t room = drive_.landmarks() * (choices.names_known() ? 1 : 4);
+  filter.max_landmarks = std::max<std::uint32_t>(1, room);
+  filter.max_observations = std::max<std::uint32_t>(1, drive_.largest_frame());
+  choices.apply(filter);
+  filter.initial_pose = drive_.start(vehicle);
+  if (choices_.mode == CAIRN_TEAM_SUBMAPS) {
+    // By the way driven: one frame may hold all landmarks that there are.
+    if (!choices.submap_landmarks) filter.submap_landmarks = std::min<std::uint32_t>(4096, 2 * room + 1);
+    if (!(filter.submap_distance > 0)) filter.submap_distance = drive_.submap_distance();
+    filter.join = CAIRN_JOIN_DENSE;
+  } else {
+    filter.submap_landmarks = 0;
+    filter.submap_distance = filter.submap_extent = filter.submap_sigma = 0;
+  }
+  const cairn_range_bearing radar = drive_.radar();
+  cairn_team* team = nullptr;
+  check(cairn_team_create(&options, &filter, &radar, &team));
+  return Team(team, &cairn_team_destroy);
+}
+
+void TeamRunner::step(const TeamStep& step) {
+  for (std::size_t v = 0; v < teams_.size(); ++v) {
+    cairn_team* team = teams_[v].get();
+    const VehicleStep& own = step.vehicles[v];
+    for (const TeamMotion& motion : own.motions) {
+      cairn_twist_noise noise{};
+      noise.struct_size = sizeof noise;
+      noise.velocity_sigma[0] = motion.speed_sigma;
+      noise.rate_sigma[2] = motion.rate_sigma;
+      const double velocity[3] = {motion.speed, 0, 0}, rate[3] = {0, 0, motion.rate};
+      check(cairn_team_predict_twist(team, motion.dt, velocity, rate, &noise));
+    }
+    check(cairn_team_observe(team, step.time, own.landmarks.data(), own.landmarks.size(), own.vehicles.data(),
+                             own.vehicles.size()));
+  }
+  exchange();
+}
+
+void TeamRunner::exchange() {
+  std::vector<std::uint8_t> packet;
+  for (std::size_t from = 0; from < teams_.size(); ++from) {
+    for (;;) {
+      std::size_t size = 0;
+      check(cairn_team_take_packet(teams_[from].get(), nullptr, 0, &size));
+      if (size == 0) break;
+      packet.resize(size);
+      check(cairn_team_take_packet(teams_[from].get(), packet.data(), size, &size));
+      if (choices_.mode == CAIRN_TEAM_MONO) continue;
+      for (std::size_t to = 0; to < teams_.size(); ++to)
+        if (to != from) check(cairn_team_receive(teams_[to].get(), packet.data(), size, nullptr));
+    }
+  }
+}
+
+// The library numbers what it has no names for; each number is a landmark by the observations that are its.
+void TeamRunner::note_pairs(std::size_t vehicle, const VehicleStep& step, VehicleScore& score) {
+  std::size_t count = 0;
+  check(cairn_team_decisions(teams_[vehicle].get(), nullptr, 0, &count));
+  std::vector<cairn_match> matches(count);
+  if (count > 0) check(cairn_team_decisions(teams_[vehicle].get(), matches.data(), count, &count));
+  for (std::size_t i = 0; i < std::min(count, step.landmarks.size()); ++i) {
+    if (matches[i].result == CAIRN_REJECTED) continue;
+    auto& votes = votes_[vehicle][matches[i].landmark];
+    if (matches[i].result == CAIRN_MATCHED) {
+      ++score.paired;
+      score.paired_wrongly += !votes.empty() && name_of(vehicle, matches[i].landmark) != step.landmarks[i].id;
+    }
+    ++votes[step.landmarks[i].id];
+  }
+}
+
+std::uint64_t TeamRunner::name_of(std::size_t vehicle, std::uint64_t landmark) const {
+  if (choices_.filter.names_known()) return landmark;
+  const auto votes = votes_[vehicle].find(landmark);
+  if (votes == votes_[vehicle].end()) return CAIRN_ID_NONE;  // teammates alone saw it
+  return std::max_element(votes->second.begin(), votes->second.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+// Returns the step's normalised error squared, NaN where the covariance is singular.
+double TeamRunner::score(std::size_t vehicle, const cairn_pose& truth, VehicleScore& score) {
+  cairn_team* team = teams_[vehicle].get();
+  cairn_pose pose;
+  double P[36];
+  check(cairn_team_pose(team, drive_.vehicles()[vehicle], &pose, P));
+  ++score.steps;
+  score.claimed += std::sqrt(P[0] * P[0] + 2 * P[1] * P[1] + P[7] * P[7]);
+  score.square_error +=
+      std::pow(truth.position[0] - pose.position[0], 2) + std::pow(truth.position[1] - pose.position[1], 2);
+  double nees = 0;
+  const cairn_status status = cairn_team_pose_nees(team, &truth, &nees);
+  if (status == CAIRN_ERROR_NUMERICAL) return std::numeric_limits<double>::quiet_NaN();
+  check(status);
+  ++score.nees_steps;
+  score.nees += nees;
+  return nees;
+}
+
+std::vector<cairn_landmark> TeamRunner::map(std::size_t vehicle) const {
+  const cairn_map* map = cairn_team_map(teams_[vehicle].get());
+  std::size_t count = 0;
+  check(cairn_map_size(map, &count));
+  std::vector<cairn_landmark> landmarks(count);
+  if (count > 0) check(cairn_map_landmarks(map, landmarks.data(), count, &count));
+  for (cairn_landmark& landmark : landmarks) landmark.id = name_of(vehicle, landmark.id);
+  return landmarks;
+}
+
+TeamResult TeamRunner::run(const Observer& observe) {
+  TeamResult result;
+  result.vehicles.resize(teams_.size());
+  const double first = choices_.score_from * static_cast<double>(drive_.steps());
+  std::vector<VehicleEstimate> estimates(teams_.size());
+  TeamStep next;
+  for (std::size_t number = 0; drive_.next(next); ++number) {
+    const auto begin = std::chrono::steady_clock::now();
+    step(next);
+    result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.recursions += teams_.size();
+    double nees = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t v = 0; v < teams_.size(); ++v) {
+      if (!choices_.filter.names_known()) note_pairs(v, next.vehicles[v], result.vehicles[v]);
+      check(cairn_team_pose(teams_[v].get(), drive_.vehicles()[v], &estimates[v].pose, estimates[v].covariance));
+      if (!next.vehicles[v].truth || static_cast<double>(number) < first) continue;
+      const double own = score(v, *next.vehicles[v].truth, result.vehicles[v]);
+      if (v == 0) nees = own;
+    }
+    result.nees_by_step.push_back(nees);
+    if (observe) observe(next, estimates);
+  }
+  for (std::size_t v = 0; v < teams_.size(); ++v) {
+    for (const cairn_landmark& landmark : map(v)) {
+      ++result.vehicles[v].landmarks;
+      double truth[2];
+      if (!drive_.true_landmark(landmark.id, truth)) continue;
+      ++result.vehicles[v].landmarks_known;
+      result.vehicles[v].landmark_square +=
+          std::pow(landmark.position[0] - truth[0], 2) + std::pow(landmark.position[1] - truth[1], 2);
+    }
+  }
+  // Where all take everything in, one of them tells of all.
+  const bool all = choices_.mode == CAIRN_TEAM_JOINT || choices_.mode == CAIRN_TEAM_SUBMAPS;
+  for (std::size_t v = 0; v < (all ? 1 : teams_.size()); ++v) {
+    cairn_team_report report{};
+    report.struct_size = sizeof report;
+    check(cairn_team_last_report(teams_[v].get(), &report));
+    result.rejected += report.rejected;
+  }
+  return result;
+}
+
+std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& result, const TeamResult* alone) {
+  std::vector<Figure> figures;
+  const auto measure = [&](const std::string& key, double value) {
+    if (std::isfinite(value)) figures.push_back({key, value, false});
+  };
+  const auto count = [&](const std::string& key, std::size_t value) {
+    figures.push_back({key, static_cast<double>(value), true});
+  };
+  const auto mean = [&](auto&& figure) {
+    double sum = 0;
+    for (const VehicleScore& score : result.vehicles) sum += figure(score);
+    return sum / static_cast<double>(result.vehicles.size());
+  };
+  count("vehicles", result.vehicles.size());
+  count("steps", result.recursions / result.vehicles.size());
+  count("landmarks", result.vehicles[0].landmarks);
+  count("rejected", result.rejected);
+  measure("recursion_ms_mean", 1e3 * result.seconds / static_cast<double>(result.recursions));
+  measure("pose_rmse_m", mean([](const VehicleScore& s) { return s.rmse(); }));
+  measure("landmark_rmse_m", mean([](const VehicleScore& s) { return s.landmark_rmse(); }));
+  measure("pose_anees_per_dof", mean([](const VehicleScore& s) { return s.anees(); }));
+  std::size_t paired = 0, wrongly = 0;
+  for (const VehicleScore& score : result.vehicles) paired += score.paired, wrongly += score.paired_wrongly;
+  if (paired > 0) {
+    count("paired", paired);
+    count("wrong_pairings", wrongly);
+  }
+  if (alone != nullptr) {
+    const VehicleScore &with = result.vehicles[0], &without = alone->vehicles[0];
+    measure("claimed_improvement", 1 - with.claimed / without.claimed);
+    measure("true_improvement", 1 - with.square_error / without.square_error);
+  }
+  for (std::size_t v = 0; v < result.vehicles.size(); ++v) {
+    const std::string prefix = "vehicle_" + std::to_string(drive.vehicles()[v]) + "_";
+    measure(prefix + "pose_rmse_m", result.vehicles[v].rmse());
+    measure(prefix + "landmark_rmse_m", result.vehicles[v].landmark_rmse());
+    measure(prefix + "pose_anees_per_dof", result.vehicles[v].anees());
+  }
+  return figures;
+}
+
+}  // namespace cairn::program

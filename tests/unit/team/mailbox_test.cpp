@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mailbox without any filter: turns by time and number, gaps, farewells, returns, and answers to requests.
+#include "team/mailbox.hpp"
+
+#include <doctest/doctest.h>
+
+#include "core/error.hpp"
+
+using namespace cairn;
+
+namespace {
+
+MailboxOptions options_of(std::uint64_t vehicle) {
+  MailboxOptions options;
+  options.vehicle = vehicle;
+  options.max_lag = 10.0;
+  return options;
+}
+
+Packet step_of(std::uint64_t vehicle, std::uint64_t number, double time) {
+  Packet packet;
+  packet.vehicle = vehicle, packet.number = number, packet.time = time;
+  return packet;
+}
+
+Packet farewell_of(std::uint64_t vehicle, std::uint64_t number, double time) {
+  Packet packet = step_of(vehicle, number, time);
+  packet.kind = PacketKind::leave;
+  return packet;
+}
+
+Arrival give(Mailbox& mailbox, const Packet& packet) {
+  const std::vector<std::uint8_t> bytes = encode(packet);
+  PacketFault fault = PacketFault::none;
+  PacketName name;
+  return mailbox.receive(bytes.data(), bytes.size(), fault, name);
+}
+
+// The next packet to be sent, decoded.
+Packet sent(Mailbox& mailbox) {
+  Packet packet;
+  REQUIRE(mailbox.next_packet() != nullptr);
+  REQUIRE(decode(mailbox.next_packet()->data(), mailbox.next_packet()->size(), packet) == PacketFault::none);
+  mailbox.drop_packet();
+  return packet;
+}
+
+// Vehicles of the next turn; empty where there is none.
+std::vector<std::uint64_t> turn(Mailbox& mailbox) {
+  std::vector<Packet> packets;
+  std::vector<std::uint64_t> vehicles;
+  if (mailbox.next_turn(packets))
+    for (const Packet& packet : packets) vehicles.push_back(packet.vehicle);
+  return vehicles;
+}
+
+using Vehicles = std::vector<std::uint64_t>;
+
+}  // namespace
+
+TEST_CASE("mailbox: packets of one time come out together, by the vehicles' numbers") {
+  Mailbox mailbox(options_of(5));
+  mailbox.add(9);
+  mailbox.add(2);
+  mailbox.observe(1.0, {}, {});
+  CHECK(give(mailbox, step_of(9, 0, 1.005)) == Arrival::waiting);
+  CHECK(turn(mailbox).empty());  // vehicle 2 was not heard of
+  CHECK(give(mailbox, step_of(2, 0, 0.5)) == Arrival::waiting);
+  CHECK(turn(mailbox) == Vehicles{2});
+  CHECK(turn(mailbox).empty());
+  CHECK(mailbox.unsettled() == 1);
+  CHECK(give(mailbox, step_of(2, 1, 1.0)) == Arrival::waiting);
+  CHECK(turn(mailbox) == Vehicles{2, 5, 9});
+  CHECK(mailbox.unsettled() == 0);
+  CHECK(mailbox.counts().taken == 3);
+}
+
+TEST_CASE("mailbox: a teammate that is ahead waits for the own step") {
+  Mailbox mailbox(options_of(1));
+  mailbox.add(2);
+  give(mailbox, step_of(2, 0, 1.0));
+  CHECK(turn(mailbox).empty());
+  mailbox.observe(1.0, {}, {});
+  CHECK(turn(mailbox) == Vehicles{1, 2});
+}
+
+TEST_CASE("mailbox: a gap is given up after max_lag, and told once") {
+  Mailbox mailbox(options_of(1));
+  mailbox.add(2);
+  give(mailbox, step_of(2, 3, 1.0));
+  mailbox.observe(11.0, {}, {});
+  CHECK_FALSE(mailbox.skip_overdue_gap());
+  CHECK(turn(mailbox).empty());
+  mailbox.observe(11.1, {}, {});
+  CHECK(mailbox.skip_overdue_gap() == std::optional<std::uint64_t>(2));
+  CHECK_FALSE(mailbox.skip_overdue_gap());
+  CHECK(mailbox.counts().lost == 3);
+  CHECK(turn(mailbox) == Vehicles{2});
+}
+
+TEST_CASE("mailbox: whoever is waited for comes before an overdue gap of a later member") {
+  Mailbox mailbox(options_of(1));
+  mailbox.add(2);
+  mailbox.add(3);
+  give(mailbox, step_of(3, 1, 0.0));
+  give(mailbox, step_of(2, 1, 8.0));
+  mailbox.observe(12.0, {}, {});
+  CHECK_FALSE(mailbox.skip_overdue_gap());  // vehicle 2's is not overdue
+  CHECK(mailbox.counts().lost == 0);
+}
+
+TEST_CASE("mailbox: a farewell has its turn, and the vehicle is no member after it") {
+  Mailbox mailbox(options_of(1));
+  mailbox.add(2);
+  CHECK(give(mailbox, farewell_of(2, 1, 1.0)) == Arrival::waiting);
+  CHECK(give(mailbox, step_of(2, 0, 1.0)) == Arrival::waiting);
+  mailbox.observe(1.0, {}, {});
+  CHECK(turn(mailbox) == Vehicles{1, 2});
+  CHECK_FALSE(mailbox.remove_departed());
+  std::vector<Packet> packets;
+  CHECK(mailbox.next_turn(packets));
+  CHECK(packets.empty());
+  CHECK(mailbox.remove_departed() == std::optional<std::uint64_t>(2));
+  CHECK_FALSE(mailbox.remove_departed());
+  CHECK(mailbox.members() == Vehicles{1});
+  CHECK(give(mailbox, step_of(2, 2, 2.0)) == Arrival::unknown);
+}
+
+TEST_CASE("mailbox: what was consumed once is not taken again after a return") {
+  Mailbox mailbox(options_of(1));
+  mailbox.add(2);
+  give(mailbox, step_of(2, 0, 1.0));
+  mailbox.observe(1.0, {}, {});
+  CHECK(turn(mailbox) == Vehicles{1, 2});
+  give(mailbox, step_of(2, 2, 3.0));
+  mailbox.remove(2);
+  CHECK_THROWS_AS(mailbox.remove(2), Error);
+  CHECK_THROWS_AS(mailbox.remove(1), Error);
+  for (int round = 0; round < 2; ++round) {
+    mailbox.add(2);
+    if (round == 0) mailbox.undo_add();  // which forgets nothing
+  }
+  CHECK_THROWS_AS(mailbox.add(2), Error);
+  CHECK(give(mailbox, step_of(2, 0, 1.0)) == Arrival::repeated);
+  CHECK(give(mailbox, step_of(2, 0, 1.5)) == Arrival::conflict);
+  CHECK(give(mailbox, step_of(2, 2, 3.0)) == Arrival::waiting);  // what waited was forgotten
+  CHECK(mailbox.counts().conflict == 1);
+}
+
+TEST_CASE("mailbox: requests name what is missing, and are answered from the history") {
+  MailboxOptions options = options_of(1);
+  options.history = 3;
+  Mailbox asking(options_of(2)), answering(options);
+  asking.add(1);
+  answering.add(2);
+  for (int k = 0; k < 5; ++k) answering.observe(k, {}, {});
+  std::vector<Packet> steps;
+  for (int k = 0; k < 5; ++k) steps.push_back(sent(answering));
+  give(asking, steps[4]);
+  asking.ask_if_missing();
+  const Packet request = sent(asking);
+  CHECK(request.kind == PacketKind::request);
+  CHECK((request.subject == 1 && request.first == 0 && request.count == 4));
+  CHECK(give(answering, request) == Arrival::request);
+  CHECK(sent(answering).number == 2);  // numbers 0 and 1 are kept no more
+  CHECK(sent(answering).number == 3);
+  CHECK(answering.next_packet() == nullptr);
+  CHECK(answering.counts().resent == 2);
+}
+
+TEST_CASE("mailbox: the own packet that comes back is told from another vehicle's") {
+  Mailbox mailbox(options_of(1));
+  mailbox.observe(1.0, {}, {});
+  CHECK(give(mailbox, step_of(1, 0, 1.0)) == Arrival::own);
+  CHECK(give(mailbox, step_of(1, 0, 2.0)) == Arrival::conflict);
+  CHECK(give(mailbox, step_of(1, 1, 2.0)) == Arrival::conflict);
+}
+
+TEST_CASE("mailbox: motions are unsettled until their turn") {
+  Mailbox mailbox(options_of(1));
+  mailbox.add(2);
+  const auto unsettled = [&] {
+    std::vector<double> moved;
+    mailbox.for_each_unsettled_motion(
+        [&](const Increment<SE2>& motion) { moved.push_back(motion.T_before_after.translation().x()); });
+    return moved;
+  };
+  for (int k = 1; k <= 3; ++k) {
+    mailbox.move({SE2(SO2(), Vector2(k, 0.0)), Matrix3::Zero()});
+    if (k < 3) mailbox.observe(k, {}, {});
+  }
+  CHECK(unsettled() == std::vector<double>{1, 2, 3});
+  give(mailbox, step_of(2, 0, 1.0));
+  CHECK(turn(mailbox) == Vehicles{1, 2});
+  CHECK(unsettled() == std::vector<double>{2, 3});
+  mailbox.leave();
+  CHECK_THROWS_AS(mailbox.observe(9.0, {}, {}), Error);
+  CHECK_THROWS_AS(mailbox.leave(), Error);
+}
