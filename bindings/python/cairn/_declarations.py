@@ -42,13 +42,16 @@ def find_include_dir():
 
 
 def pkg_config(variable):
-    """A variable of cairn.pc, or None if there is none."""
+    """A variable of cairn.pc that names a folder, or None where there is none."""
     try:
         done = subprocess.run(["pkg-config", f"--variable={variable}", "cairn"], stdout=subprocess.PIPE,
                               stderr=subprocess.DEVNULL, text=True, check=True)
     except (OSError, subprocess.CalledProcessError):
         return None
-    return done.stdout.strip() or None
+    told = done.stdout.strip()
+    if not os.path.isdir(told):
+        told = " ".join(shlex.split(told))  # pkgconf escapes a space for the shell, other implementations do not
+    return told or None
 
 
 def _preprocess(source, *options):
