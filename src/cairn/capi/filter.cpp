@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Life, sensors, motion and queries of a filter. Its observations: filter_update.cpp.
+// Life, sensors and queries of a filter. Motion: motion.cpp; observations: filter_update.cpp.
 #include "capi/convert.hpp"
 #include "capi/filter_handle.hpp"
 
@@ -118,53 +118,6 @@ cairn_status cairn_filter_set_view(cairn_filter* filter, int32_t sensor, const d
           throw Error(ErrorCode::argument, "lower[%d] is %g, and must be below upper[%d], %g", i, lower[i], i,
                       upper[i]);
       f.set_view(sensor, Vector3(lower), Vector3(upper));
-    });
-  });
-}
-
-cairn_status cairn_filter_set_wheels(cairn_filter* filter, const cairn_wheels* wheels) {
-  return guard([&] { with_filter(filter, [&](auto& f) { f.set_wheels(read_wheels(wheels)); }); });
-}
-
-cairn_status cairn_filter_set_twist_noise(cairn_filter* filter, const cairn_twist_noise* noise) {
-  return guard([&] { with_filter(filter, [&](auto& f) { f.set_twist_noise(read_twist_noise(noise)); }); });
-}
-
-cairn_status cairn_filter_predict_wheels(cairn_filter* filter, double dt, double left_rad_per_s,
-                                         double right_rad_per_s) {
-  return guard([&] {
-    with_filter(filter, [&](auto& f) {
-      check_positive(dt, "dt");
-      check_finite(left_rad_per_s, "left_rad_per_s");
-      check_finite(right_rad_per_s, "right_rad_per_s");
-      f.predict_wheels(dt, left_rad_per_s, right_rad_per_s);
-    });
-  });
-}
-
-cairn_status cairn_filter_predict_twist(cairn_filter* filter, double dt, const double velocity[3],
-                                        const double rate[3]) {
-  return guard([&] {
-    with_filter(filter, [&](auto& f) {
-      check_positive(dt, "dt");
-      check_pointer(velocity, "velocity");
-      check_finite(velocity, 3, "velocity");
-      check_pointer(rate, "rate");
-      check_finite(rate, 3, "rate");
-      f.predict_twist(dt, Vector3(velocity), Vector3(rate));
-    });
-  });
-}
-
-cairn_status cairn_filter_predict_increment(cairn_filter* filter, const cairn_pose* T_before_after,
-                                            const double covariance[36]) {
-  return guard([&] {
-    with_filter(filter, [&](auto& f) {
-      using Pose = PoseOf<decltype(f)>;
-      Increment<Pose> increment;
-      increment.T_before_after = read_pose_of<Pose>(T_before_after, "T_before_after");
-      increment.covariance = read_pose_covariance<Pose>(covariance, "covariance");
-      f.propagate(increment);
     });
   });
 }

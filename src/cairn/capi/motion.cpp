@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C structs of cairn/motion.h: defaults and checks of wheels and twist noise.
+// Motion: the structs of cairn/motion.h with their defaults and checks, and the functions that move a filter.
 #include "motion/motion.hpp"
 
 #include "capi/convert.hpp"
-#include "capi/guard.hpp"
+#include "capi/filter_handle.hpp"
 
 namespace cairn {
 namespace capi {
@@ -70,6 +70,7 @@ TwistNoise read_twist_noise(const cairn_twist_noise* user) {
 }  // namespace capi
 }  // namespace cairn
 
+using namespace cairn;
 using namespace cairn::capi;
 
 extern "C" {
@@ -80,6 +81,53 @@ cairn_status cairn_wheels_init(cairn_wheels* wheels, size_t struct_size) {
 
 cairn_status cairn_twist_noise_init(cairn_twist_noise* noise, size_t struct_size) {
   return guard([&] { init_options(noise, struct_size, default_twist_noise(), "noise"); });
+}
+
+cairn_status cairn_filter_set_wheels(cairn_filter* filter, const cairn_wheels* wheels) {
+  return guard([&] { with_filter(filter, [&](auto& f) { f.set_wheels(read_wheels(wheels)); }); });
+}
+
+cairn_status cairn_filter_set_twist_noise(cairn_filter* filter, const cairn_twist_noise* noise) {
+  return guard([&] { with_filter(filter, [&](auto& f) { f.set_twist_noise(read_twist_noise(noise)); }); });
+}
+
+cairn_status cairn_filter_predict_wheels(cairn_filter* filter, double dt, double left_rad_per_s,
+                                         double right_rad_per_s) {
+  return guard([&] {
+    with_filter(filter, [&](auto& f) {
+      check_positive(dt, "dt");
+      check_finite(left_rad_per_s, "left_rad_per_s");
+      check_finite(right_rad_per_s, "right_rad_per_s");
+      f.predict_wheels(dt, left_rad_per_s, right_rad_per_s);
+    });
+  });
+}
+
+cairn_status cairn_filter_predict_twist(cairn_filter* filter, double dt, const double velocity[3],
+                                        const double rate[3]) {
+  return guard([&] {
+    with_filter(filter, [&](auto& f) {
+      check_positive(dt, "dt");
+      check_pointer(velocity, "velocity");
+      check_finite(velocity, 3, "velocity");
+      check_pointer(rate, "rate");
+      check_finite(rate, 3, "rate");
+      f.predict_twist(dt, Vector3(velocity), Vector3(rate));
+    });
+  });
+}
+
+cairn_status cairn_filter_predict_increment(cairn_filter* filter, const cairn_pose* T_before_after,
+                                            const double covariance[36]) {
+  return guard([&] {
+    with_filter(filter, [&](auto& f) {
+      using Pose = PoseOf<decltype(f)>;
+      Increment<Pose> increment;
+      increment.T_before_after = read_pose_of<Pose>(T_before_after, "T_before_after");
+      increment.covariance = read_pose_covariance<Pose>(covariance, "covariance");
+      f.propagate(increment);
+    });
+  });
 }
 
 }  // extern "C"
