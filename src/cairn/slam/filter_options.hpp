@@ -18,46 +18,55 @@ struct FilterDefaults {
 #include "options/filter_options.def"
 };
 
-template <class Pose>
-struct FilterOptions {
-  using PoseType = Pose;
-  ErrorKind error = ErrorKind::invariant;
-  Pose initial_pose;
-  typename Pose::Square initial_covariance = Pose::Square::Zero();
-
-  // Capacities.
+struct CapacityOptions {
   Index max_landmarks = FilterDefaults::max_landmarks;
   Index max_observations = FilterDefaults::max_observations;
   Index max_sensors = FilterDefaults::max_sensors;
   Index max_companions = 0;  // poses of other vehicles in the state of a single map
+};
 
-  // An update: linearisations, chi-square gates, and the number of consecutive observations of a landmark whose errors
-  // are fully correlated. Updates multiply the noise by this number; association and the placing of landmarks do not.
+// An update: linearisations, chi-square gates, and the number of consecutive observations of a landmark whose errors
+// are fully correlated. Updates multiply the noise by this number; association and the placing of landmarks do not.
+struct UpdateOptions {
   int iterations = FilterDefaults::iterations;
   double iteration_tolerance = FilterDefaults::iteration_tolerance;
   double gate_probability = FilterDefaults::gate_probability;
   double batch_gate_probability = FilterDefaults::batch_gate_probability;
   double error_persistence = FilterDefaults::error_persistence;
+};
 
-  // Submaps: the limits at which one is closed (0: no limit), and how it joins the map.
+// The limits at which a submap is closed (0: no limit), and how it joins the map.
+struct SubmapOptions {
   Index submap_landmarks = FilterDefaults::submap_landmarks;  // 0: a single map
   double submap_distance = FilterDefaults::submap_distance;
   double submap_extent = FilterDefaults::submap_extent;
   double submap_sigma = FilterDefaults::submap_sigma;
   JoinKind join = JoinKind::automatic;
   double step_tolerance = 1e-2;  // of the sparse joining, see MapOptions
+};
 
-  // Association; with any but `known` the filter does not read the ids of observations.
+// With any association but `known` the filter does not read the ids of observations.
+struct AssociationOptions {
   AssociationKind association = AssociationKind::known;
   Index association_nodes = FilterDefaults::association_nodes;  // joint tests of one frame, at most
   Index association_support = 3;  // doubtful pairs of a frame are accepted if there are at least this many
   double new_probability = FilterDefaults::new_probability;  // a new landmark is farther than this from all others
   bool by_likelihood = false;  // nearest neighbour: compare d^2 + log det S instead of d^2
+};
 
-  // The life of a landmark.
+// The life of a landmark.
+struct LandmarkOptions {
   Index deferred_sightings = FilterDefaults::deferred_sightings;  // it counts after this many observations
   Index deferred_frames = FilterDefaults::deferred_frames;        // it is removed if it does not count by then
   Index missed_frames = FilterDefaults::missed_frames;  // it is removed if in view and not seen this often; 0: never
+};
+
+template <class Pose>
+struct FilterOptions : CapacityOptions, UpdateOptions, SubmapOptions, AssociationOptions, LandmarkOptions {
+  using PoseType = Pose;
+  ErrorKind error = ErrorKind::invariant;
+  Pose initial_pose;
+  typename Pose::Square initial_covariance = Pose::Square::Zero();
 
   bool single_map() const { return submap_landmarks == 0; }
   bool sparse() const;
