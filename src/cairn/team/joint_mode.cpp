@@ -24,7 +24,7 @@ class NearestObservers {
     std::size_t unused = 0;
     for (const Packet& packet : packets)
       for (const Observation& o : packet.landmarks)
-        if (!filter.find(o.id, unused)) {
+        if (!filter.local_landmarks().find(o.id, unused)) {
           const auto entry = nearest_.emplace(o.id, Observer{o.z[0], packet.vehicle}).first;
           if (o.z[0] < entry->second.range) entry->second = {o.z[0], packet.vehicle};
         }
@@ -37,7 +37,8 @@ class NearestObservers {
     std::size_t unused = 0;
     const auto waits = [&](const Observation& o) {
       const auto entry = nearest_.find(o.id);
-      return entry != nearest_.end() && entry->second.vehicle != packet.vehicle && !filter_.find(o.id, unused);
+      return entry != nearest_.end() && entry->second.vehicle != packet.vehicle &&
+             !filter_.local_landmarks().find(o.id, unused);
     };
     std::copy_if(packet.landmarks.begin(), packet.landmarks.end(), std::back_inserter(deferred), waits);
     packet.landmarks.erase(std::remove_if(packet.landmarks.begin(), packet.landmarks.end(), waits),
