@@ -45,7 +45,7 @@ class DenseTransaction<Pose>::Fusing {
   template <class Bound>
   bool consistent(Bound&& bound) {
     update_->factor();
-    return update_->nis() <= bound(kDim * count());
+    return count() == 0 || update_->nis() <= bound(kDim * count());  // no rows have no bound
   }
   InverseInnovation invert() { return update_->invert(); }
   void refactor() { update_->factor(); }
