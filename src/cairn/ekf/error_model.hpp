@@ -46,6 +46,13 @@ class ErrorModel {
     }
   }
 
+  // The invariant retraction of a point: Exp(xi_R) x + J_l(xi_R) xi_x. `R` is the rotation Exp(xi_R) or its matrix, `V`
+  // the translation Jacobian of xi_R.
+  template <class AnyRotation>
+  static Point move_point(const AnyRotation& R, const PointSquare& V, const Point& x, const Point& error) {
+    return R * x + V * error;
+  }
+
   // The retraction of points, for all points of one update: `turn` is the pose's xi_R.
   class PointRetraction {
    public:
@@ -56,7 +63,7 @@ class ErrorModel {
     }
     Point operator()(const Point& x, const Point& error) const {
       if (!invariant_) return x + error;
-      return R_ * x + V_ * error;
+      return move_point(R_, V_, x, error);
     }
 
    private:

@@ -131,10 +131,14 @@ void DenseTransaction<Pose>::hand_over(const Submap<Pose>& submap, typename Stat
                                        const Eigen::VectorXd& shift) {
   const Eigen::VectorXd error = handover.K * shift;
   const typename Rotation::Tangent turn = error.segment<kTurn>(kDim);
-  const ErrorModel<Pose> model(submap.error);
-  const typename ErrorModel<Pose>::PointRetraction move_point(model, turn);
-  handover.T_base_end = Pose(Rotation::exp(turn) * submap.T_base_end.rotation(),
-                             move_point(submap.T_base_end.translation(), error.head<kDim>()));
+  const Rotation R = Rotation::exp(turn);
+  const typename Rotation::Matrix V = Rotation::translation_jacobian(turn);
+  const bool invariant = submap.error == ErrorKind::invariant;
+  const auto move_point = [&](const Point& x, const Point& e) -> Point {
+    return invariant ? ErrorModel<Pose>::move_point(R, V, x, e) : Point(x + e);
+  };
+  handover.T_base_end =
+      Pose(R * submap.T_base_end.rotation(), move_point(submap.T_base_end.translation(), error.head<kDim>()));
   std::vector<Index> slots;
   for (const Pair& pair : pairs_) slots.push_back(pair.slot);
   std::vector<Point> landmarks;
