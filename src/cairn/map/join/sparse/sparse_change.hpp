@@ -36,7 +36,7 @@ class SparseChange {
   typename State::Leaf new_leaf(std::shared_ptr<const SubmapData<Pose>> data) const;  // of the next number
   // Another submap holds a landmark that existed before, and observed it so often.
   void extend(Number landmark, Number submap, std::uint64_t count);
-  // Appends the number of the first submap of a landmark, or what tells the tree that one submap more holds it.
+  // Before extend(): notes what changes with it, the landmark's only submap so far or the fronts that eliminated it.
   void note_held_again(Number landmark, std::vector<Number>& reshaped, TreeChanges& changes) const;
 
   std::size_t old_visible() const { return visible_; }
