@@ -57,9 +57,16 @@ class DeclarationsTest(unittest.TestCase):
             self.assertIn("cairn_later", dir(opened))
             self.assertEqual(opened.CAIRN_LATER, 12)
 
+    @staticmethod
+    def has_size(name):  # a handle has none; cffi 2 aborts where it is asked for the fields of one
+        try:
+            return cairn.ffi.sizeof(name) > 0
+        except (ValueError, cairn.ffi.error):
+            return False
+
     def test_struct_sizes_are_the_compilers(self):
         structs = sorted(name for name in cairn.ffi.list_types()[0] if cairn.ffi.typeof(name).kind == "struct"
-                         and cairn.ffi.typeof(name).fields is not None)
+                         and self.has_size(name))
         self.assertLessEqual({"cairn_filter_options", "cairn_team_options", "cairn_team_report", "cairn_range_bearing",
                               "cairn_fleet_options"}, set(structs))
         with tempfile.TemporaryDirectory() as folder:
