@@ -102,7 +102,7 @@ static void convert(const cairn_fleet_sighting *sightings, size_t count, cairn_o
   }
 }
 
-/* The own part of a step: the commanded motion, then the scan of the radar. */
+/* This boat's part of a step: the commanded motion, then the scan of the radar. */
 static void tell_step(boat *b) {
   const cairn_fleet_vehicle *own = &b->now.vehicles[me - 1];
   if (b->now.dt > 0.0) {

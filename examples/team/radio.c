@@ -27,7 +27,7 @@ struct radio {
   radio_handler handler;
   void *user;
   int connected;
-  int done_mid; /* id of the own "done" message, once it was sent */
+  int done_mid; /* id of this boat's "done" message, once it was sent */
   int done_sent;
   unsigned char *done; /* by vehicle - 1 */
   held *waiting;

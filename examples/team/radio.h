@@ -36,7 +36,7 @@ void radio_listen(radio *r);
 /* Tells all others that this boat is done. It may be called repeatedly. */
 void radio_say_done(radio *r);
 
-/* Number of boats that are not known to be done. The own boat counts until the broker has its message. */
+/* Number of boats that are not known to be done. This boat counts until the broker has its message. */
 uint64_t radio_busy(const radio *r);
 int radio_is_busy(const radio *r, uint64_t vehicle);
 int radio_is_connected(const radio *r);

@@ -31,11 +31,11 @@ enum {
 typedef struct cairn_team_options {
   uint32_t struct_size;  /**< sizeof(cairn_team_options) of the caller */
   int32_t mode;          /**< CAIRN_TEAM_...; default CAIRN_TEAM_JOINT */
-  uint64_t vehicle;      /**< number of the own vehicle; unique in the team; not CAIRN_ID_NONE; default 0 */
-  uint32_t max_vehicles; /**< vehicles of the team, the own included, 1 to 256; default 8 */
-  uint32_t baseline;     /**< 1: a second filter uses only the own vehicle's data, for comparison by
+  uint64_t vehicle;      /**< number of this vehicle; unique in the team; not CAIRN_ID_NONE; default 0 */
+  uint32_t max_vehicles; /**< vehicles of the team, this one included, 1 to 256; default 8 */
+  uint32_t baseline;     /**< 1: a second filter uses only this vehicle's data, for comparison by
                               \ref cairn_team_score; default 0 */
-  double max_lag;        /**< how long the team waits for a missing packet of a teammate, by the times of the own
+  double max_lag;        /**< how long the team waits for a missing packet of a teammate, by the times of its own
                               packets, s, > 0; default 30 */
   double time_tolerance; /**< packets whose times differ by at most this belong to the same time, s, >= 0; default
                               0.01 */
@@ -49,7 +49,7 @@ CAIRN_API cairn_status cairn_team_options_init(cairn_team_options *options, size
 
 /** Creates a vehicle's view of its team. The caller destroys it with \ref cairn_team_destroy. `filter` holds the
  *  options of the filter that the team runs: `vehicle` must be CAIRN_VEHICLE_PLANAR, `initial_pose` is the start of
- *  the own vehicle in the frame of the team, and `submap_landmarks` must be greater than 0 in mode CAIRN_TEAM_SUBMAPS
+ *  this vehicle in the frame of the team, and `submap_landmarks` must be greater than 0 in mode CAIRN_TEAM_SUBMAPS
  *  and 0 in all other modes. `radar` is the sensor of all vehicles. With extended observations it must be mounted at
  *  the body's origin. On an error `*team` is not written.
  *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY. \since 0.1.0 */
@@ -69,34 +69,34 @@ CAIRN_API cairn_status cairn_team_add(cairn_team *team, uint64_t vehicle, const 
                                       const double covariance[36]);
 
 /** Removes a teammate: the team neither waits for it nor uses its packets any more. The information from its earlier
- *  packets stays. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (the own vehicle), CAIRN_ERROR_NOT_FOUND.
+ *  packets stays. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (this vehicle), CAIRN_ERROR_NOT_FOUND.
  *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_remove(cairn_team *team, uint64_t vehicle);
 
-/** Numbers of the vehicles of the team, the own number first. NULL with capacity 0 asks for how many there are.
+/** Numbers of the vehicles of the team, this vehicle's number first. NULL with capacity 0 asks for how many there are.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_members(const cairn_team *team, uint64_t *vehicles, size_t capacity, size_t *needed);
 
-/** Moves the own vehicle by a relative pose, like \ref cairn_filter_predict_increment. The teammates learn of this
+/** Moves this vehicle by a relative pose, like \ref cairn_filter_predict_increment. The teammates learn of this
  *  motion by the packet of the next \ref cairn_team_observe. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT,
  *  CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_CAPACITY (65535 motions without an observation). \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_predict_increment(cairn_team *team, const cairn_pose *T_before_after,
                                                     const double covariance[36]);
 
-/** Moves the own vehicle by its body velocity (m/s) and body rate (rad/s) over `dt` seconds (> 0). `noise` NULL: that
+/** Moves this vehicle by its body velocity (m/s) and body rate (rad/s) over `dt` seconds (> 0). `noise` NULL: that
  *  of
  *  \ref cairn_twist_noise_init. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL,
  *  CAIRN_ERROR_CAPACITY. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_predict_twist(cairn_team *team, double dt, const double velocity[3],
                                                 const double rate[3], const cairn_twist_noise *noise);
 
-/** Ends a step of the own vehicle at `time` with its scan. `time` is in s, by a clock that all vehicles share, and
+/** Ends a step of this vehicle at `time` with its scan. `time` is in s, by a clock that all vehicles share, and
  *  must be later than the last one. The scan is ranges and bearings of `landmarks`, by their ids, and of `vehicles`,
  *  by their numbers; both may be empty. Motion and scan become a packet for \ref cairn_team_take_packet. The filter
  *  is updated by the step when the packets of all teammates up to this time have arrived; the order is the same at
- *  every vehicle. If the update by the own scan fails, the call fails, but the packet is sent all the same.
+ *  every vehicle. If the update by this vehicle's scan fails, the call fails, but the packet is sent all the same.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also a time in the past, an id or a number twice,
- *  CAIRN_ID_NONE, the own number), CAIRN_ERROR_CAPACITY, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (the vehicle has
+ *  CAIRN_ID_NONE, this vehicle's number), CAIRN_ERROR_CAPACITY, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (the vehicle has
  *  left the team). Complexity: O(n^2 m) for n states and m rows of each vehicle. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_observe(cairn_team *team, double time, const cairn_observation *landmarks,
                                           size_t landmark_count, const cairn_observation *vehicles,
@@ -161,7 +161,8 @@ CAIRN_API cairn_status cairn_team_receive(cairn_team *team, const uint8_t *packe
 CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle, cairn_pose *pose,
                                        double covariance[36]);
 
-/** Normalised estimation error squared (NEES) of the own pose, which \ref cairn_team_pose returns, against the true pose,
+/** Normalised estimation error squared (NEES) of this vehicle's pose, which \ref cairn_team_pose returns, against
+ *  the true pose,
  *  in the error coordinates of the filter. A consistent filter has 3 on average. On an error `*nees` is not written.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL (the covariance of the
  *  own pose is singular, as at a known start). \since 0.1.1 */
@@ -210,7 +211,7 @@ typedef struct cairn_team_report {
   uint64_t scored;            /**< calls of \ref cairn_team_score */
   uint64_t scored_nees;       /**< scored steps with a covariance that is not singular (at a known start it is
                                    singular): the steps of `anees_per_dof` */
-  double position_rmse;       /**< root mean square position error of the own vehicle, m */
+  double position_rmse;       /**< root mean square position error of this vehicle, m */
   double anees_per_dof;       /**< average NEES of its pose over the degrees of freedom: 1 for an honest covariance */
   double claimed_improvement; /**< (||C_mono|| - ||C||) / ||C_mono||: Frobenius norms of the position's covariance,
                                    summed over all scored steps (cooperative paper, section 3); 0 without `baseline` */

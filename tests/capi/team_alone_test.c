@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A team of one vehicle is the ordinary filter, and the own pose is as of now. */
+/* A team of one vehicle is the ordinary filter, and this vehicle's pose is as of now. */
 #include "teams.h"
 
 #define ALONE_LANDMARKS 9
@@ -149,7 +149,7 @@ static void a_twist_moves_a_team_as_it_moves_a_filter(void** state) {
   }
 }
 
-/* What waits for teammates is told of the own pose as far as it is motion. */
+/* What waits for teammates is told of this vehicle's pose as far as it is motion. */
 static void the_own_pose_is_as_of_now(void** state) {
   const cairn_pose start = pose_at(0.5, -1, 0, 0, 0, 0.3);
   cairn_filter_options options = planar_options(&start);

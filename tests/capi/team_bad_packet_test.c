@@ -125,7 +125,7 @@ static void heads_that_do_not_fit(void** state) {
   assert_int_equal(give_changed(&s, AT_VEHICLE, 3, 8), CAIRN_PACKET_UNKNOWN);
   assert_int_equal(give_changed(&s, AT_VEHICLE, CAIRN_ID_NONE, 8), CAIRN_PACKET_UNKNOWN);
   unchanged(&s);
-  /* By the own number: another vehicle of that name. (Its sighting of 1 would be of itself: nonsense first.) */
+  /* By this vehicle's number: another vehicle of that name. (Its sighting of 1 would be of itself: nonsense first.) */
   const int32_t own = give_changed(&s, AT_VEHICLE, 1, 8);
   assert_true(own == CAIRN_PACKET_CONFLICT || own == CAIRN_PACKET_NONSENSE);
   /* Numbers that were here, with another content. */
@@ -164,7 +164,7 @@ static void two_vehicles_of_one_number(void** state) {
   }
   assert_int_equal(report_of(s.a).conflict, UNDER_WAY);
   cairn_team_destroy(impostor);
-  /* And one that goes by the own number. */
+  /* And one that goes by this vehicle's number. */
   const cairn_team_options own = team_options(CAIRN_TEAM_JOINT, 1);
   impostor = boat_open(&other, &own);
   boat_step(impostor, &other, 1, 0);

@@ -14,7 +14,7 @@ static void whoever_is_never_heard_of_is_given_up(void** state) {
   crew_close(&c);
 }
 
-/* The own scan does not fit, and the caller hears of it, though a teammate's later packet shows a gap. */
+/* This vehicle's scan does not fit, and the caller hears of it, though a teammate's later packet shows a gap. */
 static void an_own_scan_that_fails_is_told(void** state) {
   (void)state;
   for (int gap = 0; gap < 2; ++gap) {
@@ -89,7 +89,7 @@ static void what_is_lost_for_good_is_given_up(void** state) {
   crew_close(&c);
 }
 
-/* p_b = p + r u(phi + theta), phi_b = phi + theta - theta' + pi: pose and covariance by hand, the own pose uncertain.
+/* p_b = p + r u(phi + theta), phi_b = phi + theta - theta' + pi: pose and covariance by hand, this vehicle's pose uncertain.
  */
 static void a_teammate_is_found_where_both_see_it(void** state) {
   const double x = 10, y = -4, phi = 0.7, r = 200, theta = 0.4, back = -1.1;

@@ -92,7 +92,7 @@ static void a_score_between_scans_compares_like_with_like(void** state) {
   cairn_team_destroy(team);
 }
 
-/* --- the normalised error of the own pose --- */
+/* --- the normalised error of this vehicle's pose --- */
 
 /* e^T P^-1 e in three dimensions, by the adjugate. */
 static double normalised3(const double P[3][3], const double e[3]) {

@@ -59,7 +59,7 @@ static void the_post_does_not_matter(void** state) {
   }
 }
 
-/* A teammate may be the first to look: its packet comes before the own scan of the same time. */
+/* A teammate may be the first to look: its packet comes before this vehicle's scan of the same time. */
 static void a_packet_that_comes_before_the_own_scan_waits_for_it(void** state) {
   const weather fair = {0, 0, 0, false};
   crew expected, c;
@@ -88,7 +88,7 @@ static void a_packet_that_comes_before_the_own_scan_waits_for_it(void** state) {
   crew_close(&c);
 }
 
-/* The same of extended observations, which need the own sighting of that time. */
+/* The same of extended observations, which need this vehicle's sighting of that time. */
 static void extended_observations_wait_for_the_own_scan(void** state) {
   (void)state;
   for (int32_t mode = CAIRN_TEAM_EO_DIAGONAL; mode <= CAIRN_TEAM_EO_FULL; ++mode) {

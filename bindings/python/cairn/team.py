@@ -34,7 +34,7 @@ class Team(Handle):
         filter_settings = _structs.new("cairn_filter_options", {"vehicle": "planar", **(filter or {})})
         created = ffi.new("cairn_team **")
         check(lib.cairn_team_create(settings, filter_settings, _structs.new("cairn_range_bearing", radar or {}), created))
-        self.vehicle = settings.vehicle  # number of the own vehicle
+        self.vehicle = settings.vehicle  # number of this vehicle
         super().__init__(created[0], lib.cairn_team_destroy)
 
     def _call(self, function, *arguments):
@@ -58,28 +58,28 @@ class Team(Handle):
         self._call(lib.cairn_team_remove, vehicle)
 
     def members(self):
-        """Numbers of the team's vehicles; the own vehicle is the first."""
+        """Numbers of the team's vehicles; this vehicle is the first."""
         with self._use() as handle:
             return _structs.filled("uint64_t", lambda *buffer: lib.cairn_team_members(handle, *buffer))
 
-    # The own vehicle.
+    # This vehicle.
 
     def predict_increment(self, T_before_after, covariance):
-        """Moves the own vehicle by a relative pose, (position, quaternion), with the covariance of its error (6 x
+        """Moves this vehicle by a relative pose, (position, quaternion), with the covariance of its error (6 x
         6)."""
         covariance = _structs.array("covariance", covariance, (6, 6))
         self._call(lib.cairn_team_predict_increment, _structs.new_pose("T_before_after", T_before_after),
                    _structs.doubles(covariance))
 
     def predict_twist(self, dt, velocity, rate, **noise):
-        """Moves the own vehicle by its body velocity (3, m/s) and body rate (3, rad/s) over dt (s). noise: fields of
+        """Moves this vehicle by its body velocity (3, m/s) and body rate (3, rad/s) over dt (s). noise: fields of
         cairn_twist_noise."""
         velocity, rate = _structs.array("velocity", velocity, (3,)), _structs.array("rate", rate, (3,))
         self._call(lib.cairn_team_predict_twist, dt, _structs.doubles(velocity), _structs.doubles(rate),
                    _structs.new("cairn_twist_noise", noise))
 
     def observe(self, time, landmarks=None, vehicles=None):
-        """Ends a step of the own vehicle at `time` (s, on a clock that all vehicles share) with its scan. `landmarks`
+        """Ends a step of this vehicle at `time` (s, on a clock that all vehicles share) with its scan. `landmarks`
         and `vehicles` are each None, (ids, z) or (ids, z, covariance) with z n x 2: range (m) and bearing (rad); or an
         array of observations, such as a Fleet's.
 
@@ -95,7 +95,7 @@ class Team(Handle):
         self._call(lib.cairn_team_observe, time, *arguments)
 
     def decisions(self):
-        """Matches of the own scan that was processed last, in the form of Filter.update: landmarks, then vehicles."""
+        """Matches of the last scan of this vehicle that was processed, as Filter.update gives them: landmarks, then vehicles."""
         with self._use() as handle:
             return _structs.filled("cairn_match", lambda *buffer: lib.cairn_team_decisions(handle, *buffer))
 
@@ -136,15 +136,16 @@ class Team(Handle):
     # Estimates.
 
     def pose(self, vehicle=None):
-        """Pose of a vehicle of the team, by default of the own vehicle: position (3, m), quaternion (4, w x y z),
+        """Pose of a vehicle of the team, by default of this vehicle: position (3, m), quaternion (4, w x y z),
         covariance of [dp; dtheta] (6 x 6). Raises CairnError (CAIRN_ERROR_NOT_FOUND) if the pose is not known."""
         pose, covariance = ffi.new("cairn_pose *"), np.zeros((6, 6))
         self._call(lib.cairn_team_pose, self.vehicle if vehicle is None else vehicle, pose, _structs.doubles(covariance))
         return (*Pose.of(pose), covariance)
 
     def pose_nees(self, truth):
-        """Normalised estimation error squared of the own pose against a true one, (position, quaternion): about 3 on average.
-        CairnError (CAIRN_ERROR_NUMERICAL) where the covariance of the own pose is singular."""
+        """Normalised estimation error squared of this vehicle's pose against a true one, (position, quaternion):
+        about 3 on average.
+        CairnError (CAIRN_ERROR_NUMERICAL) where the covariance of this vehicle's pose is singular."""
         nees = ffi.new("double *")
         self._call(lib.cairn_team_pose_nees, _structs.new_pose("truth", truth), nees)
         return nees[0]

@@ -71,14 +71,14 @@ class ErrorModel {
     PointSquare R_, V_;
   };
 
-  // The own error of an estimate. Both poses are counted from the filter's origin.
+  // The filter's own error of an estimate. Both poses are counted from the filter's origin.
   Tangent error(const Pose& truth, const Pose& estimate) const {
     Tangent error = (truth * estimate.inverse()).log();
     if (!invariant()) error.template head<kDim>() = truth.translation() - estimate.translation();
     return error;
   }
 
-  // Covariance of the own error of a pose that stands at `position`, from that of the ordinary error:
+  // Covariance of the filter's own error of a pose that stands at `position`, from that of the ordinary error:
   // xi_p = e_p - G(p) e_R.
   Square own(const Square& ordinary, const Point& position) const {
     if (!invariant()) return ordinary;

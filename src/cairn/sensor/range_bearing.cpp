@@ -44,8 +44,8 @@ Matrix3 polar_noise(const RangeBearingParameters& parameters) {
   return Vector3(parameters.range_sigma, parameters.bearing_sigma, 1.0).cwiseAbs2().asDiagonal();
 }
 
-// Jacobian of a point, fixed to the teammate at `arm` (in the own body axes), by the errors of the sighting: B_j of the
-// extended observation (docs/team.md).
+// Jacobian of a point, fixed to the teammate at `arm` (in this vehicle's body axes), by the errors of the sighting: B_j
+// of the extended observation (docs/team.md).
 Eigen::Matrix<double, 2, 3> point_by_sighting(const MutualSighting& sighting, const Vector3& error,
                                               const Vector2& arm) {
   const Matrix3 J = mate_jacobian(sighting, error);

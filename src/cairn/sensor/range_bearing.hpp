@@ -30,19 +30,19 @@ class RangeBearing final : public Sensor<SE2> {
 
 // A mutual sighting: two vehicles measured each other at the same time (cooperative paper, section 2.2).
 struct MutualSighting {
-  double range = 0.0;    // r_0: from the own vehicle to the teammate, m
-  double bearing = 0.0;  // theta_0: of the teammate as the own vehicle sees it, rad
-  double back = 0.0;     // theta_0': of the own vehicle as the teammate sees it, rad
+  double range = 0.0;    // r_0: from this vehicle to the teammate, m
+  double bearing = 0.0;  // theta_0: of the teammate as this vehicle sees it, rad
+  double back = 0.0;     // theta_0': of this vehicle as the teammate sees it, rad
   Matrix3 covariance = Matrix3::Zero();
 };
 
-// Pose of the teammate in the own body frame: position r_0 u(theta_0), orientation delta = theta_0 - theta_0' + pi.
-// `error` is added to the values of the sighting; it is zero except while an update iterates.
+// Pose of the teammate in this vehicle's body frame: position r_0 u(theta_0), orientation delta = theta_0 - theta_0' +
+// pi. `error` is added to the values of the sighting; it is zero except while an update iterates.
 SE2 mate_in_body(const MutualSighting& sighting, const Vector3& error = Vector3::Zero());
-// Jacobian of the teammate's [dp; dtheta] in the own body axes by (r_0, theta_0, theta_0').
+// Jacobian of the teammate's [dp; dtheta] in this vehicle's body axes by (r_0, theta_0, theta_0').
 Matrix3 mate_jacobian(const MutualSighting& sighting, const Vector3& error = Vector3::Zero());
 
-// Extended observation: the radar of a teammate observes landmarks for the own vehicle; the mutual sighting connects
+// Extended observation: the radar of a teammate observes landmarks for this vehicle; the mutual sighting connects
 // both (cooperative paper, section 2.2; docs/team.md). The teammate is the mount of the sensor, and all observations of
 // the frame share the errors of the sighting. With `shared` = false every observation has its own independent errors,
 // which corresponds to the diagonal R^e of the paper.

@@ -91,7 +91,9 @@ void LocalMap<Pose>::add_vehicle(std::uint64_t id, const Pose& pose, const Squar
     throw Error(ErrorCode::argument, "vehicle: there is one of number %llu already",
                 static_cast<unsigned long long>(id));
   if (table_.companions() == options_.max_companions)
-    throw Error(ErrorCode::capacity, "vehicle: there is room for %td beside the own", options_.max_companions);
+    throw Error(ErrorCode::capacity,
+                "vehicle: there is room for %td others, and all are taken; create the filter with more",
+                options_.max_companions);
   if (!state_.add_companion(pose, J_pose, noise))
     throw Error(ErrorCode::numerical, "vehicle: its pose or covariance would not be finite; nothing was changed");
   table_.add_companion(id);

@@ -37,7 +37,7 @@ class Cooperation {
   virtual void lose_sight(std::uint64_t /*vehicle*/) {}
 
   // --- packets --- Takes the packets of one time, ordered by the vehicles' numbers. What a filter refuses is counted;
-  // of the own vehicle, own_error() keeps it.
+  // of this vehicle, own_error() keeps it.
   void take(std::vector<Packet>& packets);
   void forget_own_error() { own_error_.reset(); }
   const std::optional<Error>& own_error() const { return own_error_; }
@@ -46,7 +46,7 @@ class Cooperation {
   // As of the vehicle's last packet that was taken; throws not_found for a teammate whose pose is not known.
   virtual VehicleEstimate estimate(std::uint64_t vehicle) const;
   virtual const Filter<SE2>& filter() const = 0;                      // whose map the caller sees
-  const std::vector<Match>& matches() const { return own_matches_; }  // of the own scan that was taken last
+  const std::vector<Match>& matches() const { return own_matches_; }  // of this vehicle's scan that was taken last
   const ScanCounts& counts() const { return counts_; }
 
  protected:
@@ -62,11 +62,11 @@ class Cooperation {
   // Updates the filter by a scan; the matches of an own one are kept.
   void scan(VehicleFilter& filter, int sensor, const std::vector<Observation>& landmarks,
             const std::vector<Observation>& vehicles, bool own);
-  // Moves and scans with the own radar.
+  // Moves and scans with this vehicle's radar.
   void move_and_scan(VehicleFilter& filter, const Packet& packet);
   ScanCounts& tally() { return counts_; }
 
-  // A refusal of what the own vehicle did is the caller's to hear of; a refusal of a teammate's is counted.
+  // A refusal of what this vehicle did is the caller's to hear of; a refusal of a teammate's is counted.
   template <class Function>
   bool attempt(bool own, Function&& function) {
     try {

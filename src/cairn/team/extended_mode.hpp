@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Extended observations: a teammate's scan, seen through the mutual sighting, updates the filter of the own vehicle
+// Extended observations: a teammate's scan, seen through the mutual sighting, updates the filter of this vehicle
 // (cooperative paper, section 2.1). The teammate is no state: the sighting and the scan are all that is used of it.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The last packets that the own vehicle sent, kept for teammates that miss some of them.
+// The last packets that this vehicle sent, kept for teammates that miss some of them.
 #pragma once
 
 #include <cstddef>

@@ -47,7 +47,10 @@ void Mailbox::remove(std::uint64_t vehicle) {
       std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.id() == vehicle; });
   if (member == members_.end())
     throw Error(ErrorCode::not_found, "vehicle: %llu is not of the team", static_cast<unsigned long long>(vehicle));
-  if (is_own(*member)) throw Error(ErrorCode::argument, "vehicle: the own one cannot be removed");
+  if (is_own(*member))
+    throw Error(ErrorCode::argument,
+                "vehicle: %llu is this vehicle itself, which cannot be removed; use cairn_team_leave to leave the team",
+                static_cast<unsigned long long>(vehicle));
   drop(member);
   former_.at(vehicle).forget_waiting();
 }
@@ -63,7 +66,7 @@ void Mailbox::drop(std::deque<Member>::iterator member) {
   members_.erase(member);
 }
 
-// --- the own vehicle ---
+// --- this vehicle ---
 
 void Mailbox::move(const Increment<SE2>& increment) {
   const SE2& T = increment.T_before_after;
@@ -84,7 +87,8 @@ void Mailbox::observe(double time, std::vector<Observation> landmarks, std::vect
   check_names(vehicles, "vehicles");
   for (const Observation& o : vehicles)
     if (o.id == options_.vehicle)
-      throw Error(ErrorCode::argument, "vehicles: number %llu is the own one", static_cast<unsigned long long>(o.id));
+      throw Error(ErrorCode::argument, "vehicles: number %llu is this vehicle itself, which it cannot see",
+                  static_cast<unsigned long long>(o.id));
   Packet packet;
   packet.vehicle = options_.vehicle;
   packet.number = own().end();
@@ -190,7 +194,7 @@ Arrival Mailbox::receive(const std::uint8_t* bytes, std::size_t size, PacketFaul
     return Arrival::refused;
   }
   if (packet.kind == PacketKind::request) return count(answer(packet));
-  if (packet.vehicle == options_.vehicle)  // a transport's echo, or another vehicle with the own number
+  if (packet.vehicle == options_.vehicle)  // a transport's echo, or another vehicle with this vehicle's number
     return count(history_.holds(packet.number, bytes, size) ? Arrival::own : Arrival::conflict);
   if (find(packet.vehicle) == nullptr) return count(Arrival::unknown);
   if (!options_.listens) return count(Arrival::ignored);
@@ -257,8 +261,8 @@ bool Mailbox::next_turn(std::vector<Packet>& packets) {
     if (state == Readiness::ready) earliest = std::min(earliest, member.first().time);
   }
   if (earliest == std::numeric_limits<double>::infinity()) return false;
-  // A teammate that is ahead waits for the own step, just as the own step waits for the teammate at every other
-  // vehicle: otherwise each vehicle would take the packets in an order of its own.
+  // A teammate that is ahead waits for this vehicle's step, just as this vehicle's step waits for the teammate at every
+  // other vehicle: otherwise each vehicle would take the packets in an order of its own.
   const bool looked = own().started() || !own().empty();
   if (options_.listens && !left_ && !(looked && earliest <= newest_ + options_.time_tolerance)) return false;
 

@@ -37,15 +37,15 @@ class Mailbox {
   void add(std::uint64_t vehicle);
   void undo_add() { members_.pop_back(); }  // of the member that was added last, before anything else happened
   void remove(std::uint64_t vehicle);
-  std::vector<std::uint64_t> members() const;  // the own vehicle first
+  std::vector<std::uint64_t> members() const;  // this vehicle first
 
-  // --- the own vehicle --- each throws with nothing changed
+  // --- this vehicle --- each throws with nothing changed
   void move(const Increment<SE2>& increment);
   // Ends a step: motions since the last one and what was seen become a packet.
   void observe(double time, std::vector<Observation> landmarks, std::vector<Observation> vehicles);
   void leave();
   std::size_t unsettled() const { return members_.front().size(); }  // own steps that wait for teammates' packets
-  // The own motions that no turn has given out yet, in their order.
+  // This vehicle's motions that no turn has given out yet, in their order.
   template <class Function>
   void for_each_unsettled_motion(Function&& function) const {
     for (const auto& entry : members_.front().waiting())
@@ -95,11 +95,11 @@ class Mailbox {
   Arrival store(Packet&& packet);
 
   MailboxOptions options_;
-  std::deque<Member> members_;                      // the own vehicle first
+  std::deque<Member> members_;                      // this vehicle first
   std::map<std::uint64_t, Member> former_;          // removed or left: what was consumed once is not taken again
   std::vector<Increment<SE2>> pending_;             // own motions since the last packet
   double newest_ = 0.0;                             // time of the newest own step
-  bool left_ = false;                               // the own vehicle sent its farewell
+  bool left_ = false;                               // this vehicle sent its farewell
   History history_;                                 // own packets
   std::deque<std::vector<std::uint8_t>> outgoing_;  // packets to be sent
   MailCounts counts_;

@@ -8,8 +8,8 @@
 namespace cairn {
 
 struct MailboxOptions {
-  std::uint64_t vehicle = 0;       // the own number
-  std::size_t max_vehicles = 8;    // the own vehicle among them
+  std::uint64_t vehicle = 0;       // this vehicle's number
+  std::size_t max_vehicles = 8;    // this vehicle among them
   std::size_t max_waiting = 4096;  // packets of one teammate that may wait for their turn
   std::size_t history = 1024;      // own packets that are kept for teammates that miss them
   double max_lag = 30.0;           // s: for so long a teammate's missing packet is waited for

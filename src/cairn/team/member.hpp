@@ -38,14 +38,14 @@ class Member {
   // Sorts a packet in that arrived; `waiting`, or the reason against it. `late`: a packet with a higher number was
   // first.
   Arrival insert(Packet&& packet, std::size_t capacity, bool& late);
-  // Adds the own vehicle's newest packet, which has the number end().
+  // Adds this vehicle's newest packet, which has the number end().
   void append(Packet&& packet);
   // Removes the next packet, which has to be here, and counts it as consumed.
   Packet consume();
   // Gives up the packets that are missing before the first one that waits.
   void skip_gap();
 
-  // Time since which a vehicle is waited for: of its last packet, or of the own step `now` of the first call.
+  // Time since which a vehicle is waited for: of its last packet, or of this vehicle's step `now` of the first call.
   double silent_since(double now);
 
   // --- membership ---
@@ -61,7 +61,7 @@ class Member {
   bool started_ = false;
   bool left_ = false;
   double time_ = 0.0;
-  std::optional<double> waited_from_;         // where nothing ever arrived: time of the own step that waited first
+  std::optional<double> waited_from_;  // where nothing ever arrived: time of this vehicle's step that waited first
   std::map<std::uint64_t, Packet> waiting_;   // by number; none below next_
   std::deque<std::uint32_t> last_checksums_;  // of the packets that were consumed last
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// No cooperation: one filter of the own vehicle, to compare with.
+// No cooperation: one filter of this vehicle, to compare with.
 #pragma once
 
 #include "team/cooperation.hpp"

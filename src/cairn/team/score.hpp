@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a team is worth to a vehicle: what its covariance claims, and what the truth says. The comparison is with a
-// filter of the own vehicle only, which runs beside the team.
+// filter of this vehicle only, which runs beside the team.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace cairn {
 
-// A filter of the own vehicle only. Errors of this comparison filter are ignored.
+// A filter of this vehicle only. Errors of this comparison filter are ignored.
 class Baseline {
  public:
   explicit Baseline(const TeamOptions& options);

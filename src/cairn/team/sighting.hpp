@@ -30,8 +30,9 @@ inline Matrix2 sighting_noise(const Observation& o, const RangeBearingParameters
   return Vector2(radar.range_sigma, radar.bearing_sigma).cwiseAbs2().asDiagonal();
 }
 
-// Two vehicles saw each other at one time: `there` is the own sighting, `back` that of the teammate. Together they tell
-// the teammate's position and heading. The range is the mean of both, weighted by their variances, or only the own one.
+// Two vehicles saw each other at one time: `there` is this vehicle's sighting, `back` that of the teammate. Together
+// they tell the teammate's position and heading. The range is the mean of both, weighted by their variances, or only
+// this vehicle's.
 inline MutualSighting mutual_sighting(const Observation& there, const Matrix2& noise, const Observation& back,
                                       const Matrix2& noise_back, bool both_ranges) {
   MutualSighting sighting;

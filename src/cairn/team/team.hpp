@@ -22,12 +22,12 @@ class Team {
   void add(std::uint64_t vehicle);  // its start is solved from mutual sightings
   void add(std::uint64_t vehicle, const SE2& start, const Matrix3& covariance);
   void remove(std::uint64_t vehicle);
-  std::vector<std::uint64_t> members() const { return mailbox_.members(); }  // the own vehicle first
+  std::vector<std::uint64_t> members() const { return mailbox_.members(); }  // this vehicle first
 
-  // --- the own vehicle --- each throws with nothing changed, and nothing sent
+  // --- this vehicle --- each throws with nothing changed, and nothing sent
   void propagate(const Increment<SE2>& increment) { mailbox_.move(increment); }
   // Ends a step with what is seen at `time`: it becomes a packet, and all turns that are due are taken. The answer is
-  // the reason where the filter refused the own scan; that is sent to the team all the same.
+  // the reason where the filter refused this vehicle's scan; that is sent to the team all the same.
   std::optional<Error> observe(double time, std::vector<Observation> landmarks, std::vector<Observation> vehicles);
   void leave();
 
@@ -39,12 +39,14 @@ class Team {
   void ask() { mailbox_.ask(); }  // for all packets that are missing
 
   // --- queries ---
-  // The own pose is as of now: it includes the own motions that no turn has taken yet.
+  // This vehicle's pose is as of now: it includes this vehicle's motions that no turn has taken yet.
   VehicleEstimate estimate(std::uint64_t vehicle) const;
-  // Normalised error squared of the own pose; negative where its covariance is singular.
+  // Normalised error squared of this vehicle's pose; negative where its covariance is singular.
   double pose_nees(const SE2& truth) const;
   const Landmarks& landmarks() const { return cooperation_->filter().landmarks(); }
-  const std::vector<Match>& matches() const { return cooperation_->matches(); }  // of the own scan that was taken last
+  const std::vector<Match>& matches() const {
+    return cooperation_->matches();
+  }                                                               // of this vehicle's scan that was taken last
   std::size_t unsettled() const { return mailbox_.unsettled(); }  // own steps that wait for teammates' packets
   const MailCounts& mail_counts() const { return mailbox_.counts(); }
   const ScanCounts& scan_counts() const { return cooperation_->counts(); }

@@ -13,7 +13,7 @@ enum class TeamMode { mono, eo_diagonal, eo_full, joint, submaps };
 struct TeamOptions {
   TeamMode mode = TeamMode::joint;
   MailboxOptions mail;        // `listens` and `named` follow from the other options
-  FilterOptions<SE2> filter;  // its start is that of the own vehicle
+  FilterOptions<SE2> filter;  // its start is that of this vehicle
   RangeBearingParameters radar;
 };
 

@@ -346,7 +346,7 @@ void looking_from_another_changes_no_ordinary_covariance() {
     }
 }
 
-// A companion seen from the own vehicle, then driven: by hand, without the reference.
+// A companion seen from this vehicle, then driven: by hand, without the reference.
 template <class Pose>
 void a_companion_that_was_seen() {
   constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
@@ -386,7 +386,7 @@ void a_companion_that_was_seen() {
     CHECK((joint.template bottomLeftCorner<kDim, kDof>() - (J * moved).template topRows<kDim>()).norm() <
           1e-12 * moved.norm() * J.norm());
 
-    // The own vehicle goes on: the companion's pose does not change, nor its covariance.
+    // This vehicle goes on: the companion's pose does not change, nor its covariance.
     const Square seen = state.companion_covariance(0);
     REQUIRE(state.propagate(step));
     CHECK(Both<Pose>::relative(state.companion_covariance(0), seen) < 1e-12);
@@ -408,7 +408,7 @@ void a_companion_that_was_seen() {
   }
 }
 
-// A vehicle that is told where it stands, exactly, while the own heading is not known: it can be looked from, and what
+// A vehicle that is told where it stands, exactly, while this vehicle's heading is not known: it can be looked from, and what
 // it sees is taken in.
 template <class Pose>
 void a_companion_that_is_known_exactly() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The own error against the ordinary one: e_x = xi_x + G(x) xi_R (docs/invariant_error.md), by differences through the
+// The filter's own error against the ordinary one: e_x = xi_x + G(x) xi_R (docs/invariant_error.md), by differences through the
 // retraction, at poses without a turn, with one of 1e-8, with any and with half a turn.
 #include "ekf/error_model.hpp"
 

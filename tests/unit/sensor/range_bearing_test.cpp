@@ -138,7 +138,7 @@ TEST_CASE("extended observation: Jacobians") {
         const double back = random.uniform(-kPi, kPi);
         const ExtendedObservation extended({}, sighting_of(range, bearing, back), true);
         for (double z : kBearings) {
-          // Not so near to the teammate that a rotation of the own vehicle by the step of the differences leads past
+          // Not so near to the teammate that a rotation of this vehicle by the step of the differences leads past
           // it.
           const double distance = std::max(std::pow(10.0, random.uniform(-0.5, 3)), range / 20);
           check_sensor(extended, T, Vector3(distance, z, 0), kNone);
@@ -208,7 +208,7 @@ TEST_CASE("extended observation: nothing is seen near the teammate") {
   Prediction<SE2> seen;
   Placement<SE2> placed;
   CHECK_FALSE(extended.predict(SE2(), Vector2(10.1, 0), kNone, seen));
-  CHECK(extended.predict(SE2(), Vector2(0.1, 0), kNone, seen));  // near the own vehicle, far from the teammate
+  CHECK(extended.predict(SE2(), Vector2(0.1, 0), kNone, seen));  // near this vehicle, far from the teammate
   CHECK_FALSE(extended.place(SE2(), Vector3(0.1, 0, 0), kNone, placed));
 }
 

@@ -75,7 +75,7 @@ TEST_CASE("mailbox: packets of one time come out together, by the vehicles' numb
   CHECK(mailbox.counts().taken == 3);
 }
 
-TEST_CASE("mailbox: a teammate that is ahead waits for the own step") {
+TEST_CASE("mailbox: a teammate that is ahead waits for this vehicle's step") {
   Mailbox mailbox(options_of(1));
   mailbox.add(2);
   give(mailbox, step_of(2, 0, 1.0));
@@ -168,7 +168,7 @@ TEST_CASE("mailbox: requests name what is missing, and are answered from the his
   CHECK(answering.counts().resent == 2);
 }
 
-TEST_CASE("mailbox: the own packet that comes back is told from another vehicle's") {
+TEST_CASE("mailbox: this vehicle's packet that comes back is told from another vehicle's") {
   Mailbox mailbox(options_of(1));
   mailbox.observe(1.0, {}, {});
   CHECK(give(mailbox, step_of(1, 0, 1.0)) == Arrival::own);
