@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** \file
- *  Teams of planar vehicles that exchange packets of measurements and map together (docs/team.md). The *own vehicle* is
+ *  Teams of planar vehicles that exchange packets of measurements and map together (docs/team.md). *This vehicle* is
  *  the vehicle that a handle belongs to. The other vehicles are its *teammates*. */
 #ifndef CAIRN_TEAM_H
 #define CAIRN_TEAM_H
@@ -102,7 +102,7 @@ CAIRN_API cairn_status cairn_team_observe(cairn_team *team, double time, const c
                                           size_t landmark_count, const cairn_observation *vehicles,
                                           size_t vehicle_count);
 
-/** Matches of the last own scan that updated the filter: those of landmarks, then those of vehicles, by their ids, in
+/** Matches of the last scan of this vehicle that updated the filter: those of landmarks, then those of vehicles, by their ids, in
  *  the order in which they were processed. NULL with capacity 0 asks for how many there are. Threads: as any const
  *  query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_decisions(const cairn_team *team, cairn_match *matches, size_t capacity,
@@ -114,13 +114,13 @@ CAIRN_API cairn_status cairn_team_decisions(const cairn_team *team, cairn_match 
  *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_leave(cairn_team *team);
 
-/** Takes the next packet that is to be sent to all teammates: an own step, a repetition that a teammate asked for, or a
+/** Takes the next packet that is to be sent to all teammates: a step of this vehicle, a repetition that a teammate asked for, or a
  *  request for missing packets. `*needed` gets its size in bytes, 0 if there is no packet. The packet leaves the queue
  *  when it was copied. NULL with capacity 0 asks for its size.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_take_packet(cairn_team *team, uint8_t *packet, size_t capacity, size_t *needed);
 
-/** Asks the teammates for all missing packets. The team does so itself when it finds a gap at an own step; call this
+/** Asks the teammates for all missing packets. The team does so itself when it finds a gap at a step of this vehicle; call this
  *  function at the end of a mission or after a long silence. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT.
  *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_ask(cairn_team *team);
@@ -161,18 +161,17 @@ CAIRN_API cairn_status cairn_team_receive(cairn_team *team, const uint8_t *packe
 CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle, cairn_pose *pose,
                                        double covariance[36]);
 
-/** Normalised estimation error squared (NEES) of this vehicle's pose, which \ref cairn_team_pose returns, against
- *  the true pose,
- *  in the error coordinates of the filter. A consistent filter has 3 on average. On an error `*nees` is not written.
- *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL (the covariance of the
- *  own pose is singular, as at a known start). \since 0.1.1 */
+/** Normalised estimation error squared (NEES) of this vehicle's pose against the true pose, in the error coordinates of
+ *  the filter. The pose is the one that \ref cairn_team_pose returns. A consistent filter has 3 on average. On an error
+ *  `*nees` is not written. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT,
+ *  CAIRN_ERROR_NUMERICAL (the covariance of this pose is singular, as it is at a known start). \since 0.1.1 */
 CAIRN_API cairn_status cairn_team_pose_nees(const cairn_team *team, const cairn_pose *truth, double *nees);
 
 /** The team's map. The team owns this map; it lives as long as the team and follows it. Fails only for NULL, and then
  *  returns NULL. Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
 CAIRN_API const cairn_map *cairn_team_map(const cairn_team *team);
 
-/** Compares the present own pose with the true pose. With the option `baseline` it compares the pose of the second
+/** Compares the present pose of this vehicle with the true pose. With the option `baseline` it compares the pose of the second
  *  filter, too. \ref cairn_team_last_report returns the means. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT.
  *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_score(cairn_team *team, const cairn_pose *truth);
