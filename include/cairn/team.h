@@ -90,21 +90,21 @@ CAIRN_API cairn_status cairn_team_predict_increment(cairn_team *team, const cair
 CAIRN_API cairn_status cairn_team_predict_twist(cairn_team *team, double dt, const double velocity[3],
                                                 const double rate[3], const cairn_twist_noise *noise);
 
-/** Ends a step of this vehicle at `time` with its scan. `time` is in s, by a clock that all vehicles share, and
- *  must be later than the last one. The scan is ranges and bearings of `landmarks`, by their ids, and of `vehicles`,
- *  by their numbers; both may be empty. Motion and scan become a packet for \ref cairn_team_take_packet. The filter
- *  is updated by the step when the packets of all teammates up to this time have arrived; the order is the same at
- *  every vehicle. If the update by this vehicle's scan fails, the call fails, but the packet is sent all the same.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also a time in the past, an id or a number twice,
- *  CAIRN_ID_NONE, this vehicle's number), CAIRN_ERROR_CAPACITY, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (the vehicle has
- *  left the team). Complexity: O(n^2 m) for n states and m rows of each vehicle. \since 0.1.0 */
+/** Ends a step of this vehicle at `time` with its scan. `time` is in s, by a clock that all vehicles share, and must
+ *  be later than the last one. The scan is ranges and bearings of `landmarks`, by their ids, and of `vehicles`, by
+ *  their numbers; both may be empty. Motion and scan become a packet for \ref cairn_team_take_packet. The filter is
+ *  updated by the step when the packets of all teammates up to this time have arrived; the order is the same at every
+ *  vehicle. If the update by this vehicle's scan fails, the call fails, but the packet is sent all the same. Threads:
+ *  one a handle. Errors: CAIRN_ERROR_ARGUMENT (also a time in the past, an id or a number twice, CAIRN_ID_NONE, this
+ *  vehicle's number), CAIRN_ERROR_CAPACITY, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (the vehicle has left the team).
+ *  Complexity: O(n^2 m) for n states and m rows of each vehicle. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_observe(cairn_team *team, double time, const cairn_observation *landmarks,
                                           size_t landmark_count, const cairn_observation *vehicles,
                                           size_t vehicle_count);
 
-/** Matches of the last scan of this vehicle that updated the filter: those of landmarks, then those of vehicles, by their ids, in
- *  the order in which they were processed. NULL with capacity 0 asks for how many there are. Threads: as any const
- *  query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
+/** Matches of the last scan of this vehicle that updated the filter: those of landmarks, then those of vehicles, by
+ *  their ids, in the order in which they were processed. NULL with capacity 0 asks for how many there are. Threads: as
+ *  any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_decisions(const cairn_team *team, cairn_match *matches, size_t capacity,
                                             size_t *needed);
 
@@ -114,15 +114,15 @@ CAIRN_API cairn_status cairn_team_decisions(const cairn_team *team, cairn_match 
  *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_leave(cairn_team *team);
 
-/** Takes the next packet that is to be sent to all teammates: a step of this vehicle, a repetition that a teammate asked for, or a
- *  request for missing packets. `*needed` gets its size in bytes, 0 if there is no packet. The packet leaves the queue
- *  when it was copied. NULL with capacity 0 asks for its size.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
+/** Takes the next packet that is to be sent to all teammates: a step of this vehicle, a repetition that a teammate
+ *  asked for, or a request for missing packets. `*needed` gets its size in bytes, 0 if there is no packet. The packet
+ *  leaves the queue when it was copied. NULL with capacity 0 asks for its size. Threads: one a handle. Errors:
+ *  CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_take_packet(cairn_team *team, uint8_t *packet, size_t capacity, size_t *needed);
 
-/** Asks the teammates for all missing packets. The team does so itself when it finds a gap at a step of this vehicle; call this
- *  function at the end of a mission or after a long silence. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT.
- *  \since 0.1.0 */
+/** Asks the teammates for all missing packets. The team does so itself when it finds a gap at a step of this vehicle;
+ *  call this function at the end of a mission or after a long silence. Threads: one a handle. Errors:
+ *  CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_ask(cairn_team *team);
 
 /** Result of a received packet. */
@@ -171,9 +171,9 @@ CAIRN_API cairn_status cairn_team_pose_nees(const cairn_team *team, const cairn_
  *  returns NULL. Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
 CAIRN_API const cairn_map *cairn_team_map(const cairn_team *team);
 
-/** Compares the present pose of this vehicle with the true pose. With the option `baseline` it compares the pose of the second
- *  filter, too. \ref cairn_team_last_report returns the means. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT.
- *  \since 0.1.0 */
+/** Compares the present pose of this vehicle with the true pose. With the option `baseline` it compares the pose of
+ *  the second filter, too. \ref cairn_team_last_report returns the means. Threads: one a handle. Errors:
+ *  CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_score(cairn_team *team, const cairn_pose *truth);
 
 /** Report of a team. */
