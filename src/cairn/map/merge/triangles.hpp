@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "map/merge/correspondence.hpp"
+#include "map/merge/point_set.hpp"
 #include "map/spatial_index.hpp"
 
 namespace cairn {

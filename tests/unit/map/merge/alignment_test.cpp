@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/chi_square.hpp"
+#include "map/merge/compatible_alignment.hpp"
 #include "numerical.hpp"
 
 using namespace cairn;
