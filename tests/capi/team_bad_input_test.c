@@ -277,22 +277,22 @@ static void observations(void** state) {
   (void)state;
   stage_open(&s);
   const double later = s.v.time[UNDER_WAY] + 5;
-  cairn_observation many[FEATURES + BOATS + 1], o[3], mate[2];
-  memset(many, 0, sizeof many), memset(o, 0, sizeof o), memset(mate, 0, sizeof mate);
+  cairn_observation many[FEATURES + BOATS + 1], o[3], teammates[2];
+  memset(many, 0, sizeof many), memset(o, 0, sizeof o), memset(teammates, 0, sizeof teammates);
   for (size_t i = 0; i < 3; ++i) o[i].id = i + 1, o[i].z[0] = 1000, o[i].z[1] = 0.1 * (double)i;
   for (size_t i = 0; i < LENGTH(many); ++i) many[i].id = i, many[i].z[0] = 1000;
-  mate[0] = o[0], mate[0].id = 2;
-  mate[1] = o[0], mate[1].id = 3;
-#define LOOK(time, mates) cairn_team_observe(s.a, (time), o, 3, mate, (mates))
+  teammates[0] = o[0], teammates[0].id = 2;
+  teammates[1] = o[0], teammates[1].id = 3;
+#define LOOK(time, count) cairn_team_observe(s.a, (time), o, 3, teammates, (count))
   for (size_t n = 0; n < LENGTH(not_finite); ++n) {
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "time", LOOK(not_finite[n], 2));
     for (int k = 0; k < 2; ++k) {
       o[2].z[k] = not_finite[n];
       assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmarks[2].z", LOOK(later, 2));
       o[2].z[0] = 1000, o[2].z[1] = 0.2;
-      mate[1].z[k] = not_finite[n];
+      teammates[1].z[k] = not_finite[n];
       assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicles[1].z", LOOK(later, 2));
-      mate[1].z[0] = 1000, mate[1].z[1] = 0;
+      teammates[1].z[0] = 1000, teammates[1].z[1] = 0;
     }
     o[1].covariance[3] = not_finite[n], o[1].covariance[0] = 1;
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmarks[1].covariance", LOOK(later, 2));
@@ -300,9 +300,9 @@ static void observations(void** state) {
   }
   o[0].z[0] = -1e-9;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmarks[0].z", LOOK(later, 2));
-  o[0].z[0] = 1000, mate[0].z[0] = -1;
+  o[0].z[0] = 1000, teammates[0].z[0] = -1;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicles[0].z", LOOK(later, 2));
-  mate[0].z[0] = 1000;
+  teammates[0].z[0] = 1000;
   o[0].covariance[0] = 1, o[0].covariance[3] = -1;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmarks[0].covariance", LOOK(later, 2));
   o[0].covariance[3] = 0;
@@ -312,20 +312,20 @@ static void observations(void** state) {
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "observations", LOOK(later, 2));
   o[1].id = CAIRN_ID_NONE;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmarks[1].id", LOOK(later, 2));
-  o[1].id = 2, mate[1].id = 2;
+  o[1].id = 2, teammates[1].id = 2;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicles", LOOK(later, 2));
-  mate[1].id = CAIRN_ID_NONE;
+  teammates[1].id = CAIRN_ID_NONE;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicles[1].id", LOOK(later, 2));
-  mate[1].id = 1;
+  teammates[1].id = 1;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicles", LOOK(later, 2)); /* itself */
-  mate[1].id = 3;
+  teammates[1].id = 3;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "time", LOOK(s.v.time[UNDER_WAY], 2)); /* the last one again */
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "time", LOOK(s.v.time[UNDER_WAY] - 1e-9, 2));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "time", LOOK(-1e300, 2));
   assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_observations",
                  cairn_team_observe(s.a, later, many, FEATURES + BOATS + 1, NULL, 0));
   assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_observations",
-                 cairn_team_observe(s.a, later, many, FEATURES + BOATS - 1, mate, 2));
+                 cairn_team_observe(s.a, later, many, FEATURES + BOATS - 1, teammates, 2));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmarks", cairn_team_observe(s.a, later, NULL, 1, NULL, 0));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicles", cairn_team_observe(s.a, later, NULL, 0, NULL, 1));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_observe(NULL, later, o, 3, NULL, 0));

@@ -193,14 +193,15 @@ static void counters_count(void** state) {
   crew c;
   (void)state;
   crew_open(&c, 2, 5, 1e9, CAIRN_TEAM_JOINT);
-  post own = {NULL, 0, 0}, mates = {NULL, 0, 0};
+  post own = {NULL, 0, 0}, of_teammate = {NULL, 0, 0};
   for (size_t k = 0; k < 4; ++k)
     for (size_t b = 0; b < 2; ++b) boat_step(c.teams[b], &c.v, b + 1, k);
   (void)post_collect(&own, c.teams[0], 0);
-  (void)post_collect(&mates, c.teams[1], 0);
+  (void)post_collect(&of_teammate, c.teams[1], 0);
   const letter* by_number[4] = {NULL, NULL, NULL, NULL};
-  for (size_t i = 0; i < mates.count; ++i)
-    if (kind_of(&mates.letters[i]) == DATA) by_number[number_of(&mates.letters[i])] = &mates.letters[i];
+  for (size_t i = 0; i < of_teammate.count; ++i)
+    if (kind_of(&of_teammate.letters[i]) == DATA)
+      by_number[number_of(&of_teammate.letters[i])] = &of_teammate.letters[i];
   cairn_team* team = c.teams[0];
   assert_int_equal(hand_over(team, by_number[1]), CAIRN_PACKET_WAITING);
   assert_int_equal(hand_over(team, by_number[1]), CAIRN_PACKET_REPEATED);
@@ -210,9 +211,9 @@ static void counters_count(void** state) {
   assert_int_equal(report_of(team).unsettled, 2);
   assert_int_equal(hand_over(team, by_number[0]), CAIRN_PACKET_REPEATED);
   assert_int_equal(hand_over(team, &own.letters[0]), CAIRN_PACKET_OWN);
-  for (size_t i = 0; i < mates.count; ++i)
-    if (kind_of(&mates.letters[i]) == REQUEST) {
-      assert_int_equal(hand_over(team, &mates.letters[i]), CAIRN_PACKET_REQUEST);
+  for (size_t i = 0; i < of_teammate.count; ++i)
+    if (kind_of(&of_teammate.letters[i]) == REQUEST) {
+      assert_int_equal(hand_over(team, &of_teammate.letters[i]), CAIRN_PACKET_REQUEST);
       break;
     }
   post again = {NULL, 0, 0};
@@ -227,7 +228,7 @@ static void counters_count(void** state) {
   assert_int_equal(again.count, 4);
   assert_true(r.requested > 0);
   assert_true(r.matched + r.placed + r.rejected > 10);
-  post_free(&own), post_free(&mates), post_free(&again);
+  post_free(&own), post_free(&of_teammate), post_free(&again);
   crew_close(&c);
 }
 

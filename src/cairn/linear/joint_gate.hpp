@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The chi-square gates of a batch that is made of blocks of equal size: each block is judged by itself, then all blocks
+// The chi-square gates of a batch of blocks of equal size: each block is tested by itself, then all blocks
 // jointly. Frames and both joinings of submaps use this code (docs/update.md, "Gates").
 #pragma once
 
@@ -15,8 +15,8 @@ namespace cairn {
               "update: the covariance would not stay positive definite; nothing was changed. Is the noise realistic?");
 }
 
-// Squared Mahalanobis distance r^T S^-1 r of up to 3 values, from the lower triangle of S. The result is negative where
-// S is not positive definite.
+// Squared Mahalanobis distance r^T S^-1 r of up to 3 values, from the lower triangle of S. The result is negative if S
+// is not positive definite.
 inline double squared_distance(const double* residual, const double* covariance, Index ld, Index rows) {
   double L[9], x[3];
   for (Index c = 0; c < rows; ++c) {
@@ -34,7 +34,7 @@ inline double squared_distance(const double* residual, const double* covariance,
 // each time the block without which the distance falls most. Removing block i lowers the distance by
 // u_i^T (S^-1)_ii^-1 u_i. Inputs are the full S^-1, u = S^-1 r and the distance r^T u. Both arrays are overwritten.
 // `refused(block)` tells which blocks are gone; `refuse(block, distance before, bound)` is called for each new one.
-// `workspace` holds rows (rows + count rows) doubles. Returns how many blocks are left.
+// `workspace` holds rows (rows + count rows) doubles. Returns the number of blocks that are left.
 template <class Bound, class Refused, class Refuse>
 Index gate_by_inverse(double* inverse, Index count, Index rows, double* u, double distance, double* workspace,
                       Bound&& bound, Refused&& refused, Refuse&& refuse) {
@@ -59,7 +59,7 @@ Index gate_by_inverse(double* inverse, Index count, Index rows, double* u, doubl
 
 enum class Gate { single, joint };
 
-// A batch as the gates see it: S, the residual, and S^-1 where the whole contradicts.
+// The inverse innovation of a batch, which the joint gate needs if the batch is inconsistent.
 struct InverseInnovation {
   double* inverse;  // full S^-1
   double* u;        // S^-1 r
@@ -75,8 +75,8 @@ struct InverseInnovation {
 //   InverseInnovation invert()                 after consistent() was false
 //   void refactor()                            after the keep() that follows the joint gate
 //   Index* kept(); bool* refused()             scratch of count() entries each
-// and `refuse(gate, block, distance, bound)` hears of every block that goes, by its number at that moment. It is
-// called before keep().
+// `refuse(gate, block, distance, bound)` is called for every removed block, before keep(); the block's number is that
+// of the moment.
 template <class Batch, class Bound, class Refuse>
 void gate_blocks(Batch& batch, Index rows, double single, Bound&& bound, Refuse&& refuse) {
   Index* kept = batch.kept();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A symmetric matrix of which only the lower triangle is stored, in memory that somebody else owns.
+// A symmetric matrix in memory that the caller owns; only the lower triangle is stored.
 #pragma once
 
 #include <algorithm>
@@ -39,8 +39,8 @@ class LowerTriangle {
     std::swap(P(a, a), P(b, b));
   }
 
-  // Moves the last `count` rows and columns, which begin at `from`, by `by` along the diagonal, with all that they
-  // share with the rows before `from`.
+  // Moves the last `count` rows and columns, which begin at `from`, by `by` along the diagonal, together with their
+  // entries in the columns before `from`.
   void move_tail(Index from, Index count, Index by) {
     const auto move_column = [&](Index to_column, Index column, Index row) {
       std::memmove(this->column(to_column) + row + by, this->column(column) + row,

@@ -9,11 +9,11 @@
 namespace cairn {
 namespace {
 
-// Four doubles: one AVX2 register, two of SSE2. GCC's vectors keep the sums of a strip in registers, where a loop over
-// an array of them went through memory.
+// Four doubles: one AVX2 register, two of SSE2. With GCC's vectors the sums of a strip stay in registers; with a loop
+// over an array they went through memory.
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 constexpr int kFours = 3;            // registers for a column of a strip
-constexpr Index kRows = 4 * kFours;  // rows that the right solve takes at once
+constexpr Index kRows = 4 * kFours;  // rows that the right solve handles at once
 constexpr Index kPanel = 48;         // columns of a blocked Cholesky factor
 
 Four load(const double* p) {
@@ -84,7 +84,7 @@ void sum_strip(const double* strip, Index m, const RowSums& sums, Index first, I
   std::copy_n(out + kRows, rows, sums.products + first);
 }
 
-// Right-looking: kWidth columns are solved, then what follows them is updated by all of them in one pass.
+// Right-looking: kWidth columns are solved, then one pass updates all later columns by them.
 bool factor_small(double* S, Index ld, Index m) {
   constexpr Index kWidth = 4;
   for (Index first = 0; first < m; first += kWidth) {

@@ -98,7 +98,7 @@ struct Tile {
   static constexpr Index kVectors = kTileGroups * kColumns / kLanes;
   Vector sum[kColumns][kVectors];
 
-  // Loops over constants are unrolled by hand-written request: the sums must live in registers, at -O2 too.
+  // The loops over constants are unrolled explicitly: the sums must stay in registers, also at -O2.
   CAIRN_INLINE Tile(const double* a, const double* b, Index k) {
     CAIRN_UNROLL for (Index q = 0; q < kColumns; ++q) {
       CAIRN_UNROLL for (Index v = 0; v < kVectors; ++v) sum[q][v] = Vector{};
@@ -133,7 +133,7 @@ CAIRN_INLINE void add_full_tile(const double* a, const double* b, Index k, doubl
   }
 }
 
-// The first `rows` and `columns` of a tile; on the diagonal, only what is not above it.
+// The first `rows` and `columns` of a tile; on the diagonal, only the entries that are not above it.
 template <Index kTileGroups>
 void add_edge_tile(const double* a, const double* b, Index k, double* c, Index ldc, Index rows, Index columns,
                    bool diagonal) {

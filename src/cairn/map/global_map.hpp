@@ -14,7 +14,7 @@ namespace cairn {
 struct JoinReport {
   std::size_t fused = 0, fresh = 0, refused = 0;
   std::size_t relinearised = 0, refactored = 0;
-  std::size_t carried = 0;  // sparse: submaps that moved along with others, unvisited; summed over the solutions
+  std::size_t carried = 0;  // sparse: submaps that moved rigidly with others, unvisited; summed over the solutions
   int iterations = 0;
   std::size_t rows = 0;  // of the joint test of the fused landmarks
   double distance = 0.0, threshold = 0.0;
@@ -36,11 +36,11 @@ struct MapOptions {
   double iteration_tolerance = 0.1;
   double gate_probability = 0.99;  // of a single fused landmark
   double joint_gate_probability = 0.9999;
-  double step_tolerance = 1e-2;         // sparse: steps below so many standard deviations are not taken
-  double convergence_tolerance = 1e-2;  // sparse: and below so many are not followed by another
-  double cost_tolerance = 1e-3;         // sparse: nor where the cost falls by less
-  int most_iterations = 6;         // sparse: linear solutions of a closing; more where the joint test asks for them
-  std::size_t max_companions = 0;  // dense: other vehicles whose submaps join it too
+  double step_tolerance = 1e-2;         // sparse: smaller steps are not taken (standard deviations)
+  double convergence_tolerance = 1e-2;  // sparse: no step follows a smaller one (standard deviations)
+  double cost_tolerance = 1e-3;         // sparse: no step follows if the cost falls by less
+  int most_iterations = 6;              // sparse: linear solutions of a closing; the joint test may need more
+  std::size_t max_companions = 0;       // dense: other vehicles whose submaps join the map, too
   Pose initial_pose;
   typename Pose::Square initial_covariance = Pose::Square::Zero();  // ordinary
 };

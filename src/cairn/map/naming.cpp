@@ -14,7 +14,7 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kNearest = 12;  // of the map's landmarks that one of the submap is compared with
+constexpr std::size_t kNearest = 12;  // landmarks of the map that a landmark of the submap is compared with
 
 template <class Pose>
 class Naming final : public Innovations {
@@ -59,7 +59,7 @@ class Naming final : public Innovations {
     }
     return chosen;
   }
-  // Whether a landmark without a pair is far enough from all that the map knows.
+  // Whether a landmark without a pair is far enough from all landmarks of the map.
   bool fresh(std::size_t i) const { return nearest_[i] > new_; }
 
   Index rows() const override { return kDim; }
@@ -84,7 +84,7 @@ class Naming final : public Innovations {
 
   struct Known {
     std::size_t index;
-    Prediction<Pose> prediction;  // as a point seen from the base
+    Prediction<Pose> prediction;  // of the landmark, seen from the base
   };
 
   // Three values, as class Doubt takes them: in the plane the last one is zero.
@@ -100,8 +100,9 @@ class Naming final : public Innovations {
     return image_covariance(P_, known_[k].prediction, k, known_[l].prediction, l);
   }
 
-  // Finds the map's landmarks that those of the submap may be, and their joint covariance with the base. As a rule the
-  // map's landmarks are no less certain than the base: the search radius counts the base's uncertainty for both.
+  // Finds the candidates for each landmark of the submap among the landmarks of the map, and their joint covariance
+  // with the base. Usually the landmarks of the map are at least as certain as the base, so the search radius uses the
+  // uncertainty of the base for both.
   void find_known() {
     const Pose T = map_.base();
     const typename Pose::Square P = map_.base_covariance();
@@ -170,7 +171,7 @@ class Naming final : public Innovations {
   Eigen::MatrixXd noise_, P_;
   std::vector<Known> known_;
   std::vector<std::vector<Index>> near_;  // by landmark of the submap: numbers in known_, nearest first
-  std::vector<double> nearest_;           // by landmark of the submap: squared distance, where it is within the bound
+  std::vector<double> nearest_;           // by landmark of the submap: squared distance, if it is within the bound
   std::vector<PairCandidate> candidates_;
 };
 

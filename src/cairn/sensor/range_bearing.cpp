@@ -48,18 +48,18 @@ Matrix3 polar_noise(const RangeBearingParameters& parameters) {
 // of the extended observation (docs/team.md).
 Eigen::Matrix<double, 2, 3> point_by_sighting(const MutualSighting& sighting, const Vector3& error,
                                               const Vector2& arm) {
-  const Matrix3 J = mate_jacobian(sighting, error);
+  const Matrix3 J = teammate_jacobian(sighting, error);
   return J.topRows<2>() + SO2::turn(arm) * J.row(2);
 }
 
 }  // namespace
 
-SE2 mate_in_body(const MutualSighting& sighting, const Vector3& error) {
+SE2 teammate_in_body(const MutualSighting& sighting, const Vector3& error) {
   const double bearing = sighting.bearing + error[1], back = sighting.back + error[2];
   return SE2(SO2::from_angle(bearing - back + kPi), (sighting.range + error[0]) * direction(bearing));
 }
 
-Matrix3 mate_jacobian(const MutualSighting& sighting, const Vector3& error) {
+Matrix3 teammate_jacobian(const MutualSighting& sighting, const Vector3& error) {
   const Vector2 u = direction(sighting.bearing + error[1]);
   Matrix3 J;
   J << u, (sighting.range + error[0]) * SO2::turn(u), Vector2::Zero(), 0.0, 1.0, -1.0;
@@ -99,7 +99,7 @@ ExtendedObservation::ExtendedObservation(const RangeBearingParameters& radar, co
 
 bool ExtendedObservation::predict(const SE2& T_map_body, const Vector2& p_map, const Vector3& mount,
                                   Prediction<SE2>& out) const {
-  const SE2 T_body_teammate = mate_in_body(sighting_, mount);
+  const SE2 T_body_teammate = teammate_in_body(sighting_, mount);
   const Matrix2 R_teammate_body = T_body_teammate.rotation().inverse().matrix();
   const Vector2 y = T_body_teammate.inverse() * (T_map_body.inverse() * p_map);
   ByPoint J_z_y;
@@ -116,7 +116,7 @@ bool ExtendedObservation::place(const SE2& T_map_body, const Vector3& z, const V
   Vector2 y;
   ByObservation J_y_z;
   if (!from_polar(z, radar_.near_range, y, J_y_z)) return false;
-  const SE2 T_body_teammate = mate_in_body(sighting_, mount);
+  const SE2 T_body_teammate = teammate_in_body(sighting_, mount);
   const ByObservation J_body_z = T_body_teammate.rotation().matrix() * J_y_z;
   place_body_point(T_map_body, Vector2(T_body_teammate * y), J_body_z, out);
   out.J_landmark_mount =

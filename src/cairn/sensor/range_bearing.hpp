@@ -38,9 +38,9 @@ struct MutualSighting {
 
 // Pose of the teammate in this vehicle's body frame: position r_0 u(theta_0), orientation delta = theta_0 - theta_0' +
 // pi. `error` is added to the values of the sighting; it is zero except while an update iterates.
-SE2 mate_in_body(const MutualSighting& sighting, const Vector3& error = Vector3::Zero());
+SE2 teammate_in_body(const MutualSighting& sighting, const Vector3& error = Vector3::Zero());
 // Jacobian of the teammate's [dp; dtheta] in this vehicle's body axes by (r_0, theta_0, theta_0').
-Matrix3 mate_jacobian(const MutualSighting& sighting, const Vector3& error = Vector3::Zero());
+Matrix3 teammate_jacobian(const MutualSighting& sighting, const Vector3& error = Vector3::Zero());
 
 // Extended observation: the radar of a teammate observes landmarks for this vehicle; the mutual sighting connects
 // both (cooperative paper, section 2.2; docs/team.md). The teammate is the mount of the sensor, and all observations of

@@ -49,9 +49,9 @@ inline MutualSighting mutual_sighting(const Observation& there, const Matrix2& n
 
 // Adds a vehicle to the filter, placed by the mutual sighting with the vehicle that the filter looks from.
 inline void add_by_sighting(Filter<SE2>& filter, std::uint64_t id, const MutualSighting& seen) {
-  const SE2 T = filter.pose(), T_body_teammate = mate_in_body(seen);
+  const SE2 T = filter.pose(), T_body_teammate = teammate_in_body(seen);
   const ProductJacobians J(T, T_body_teammate);
-  const Matrix3 by_seen = mate_jacobian(seen);
+  const Matrix3 by_seen = teammate_jacobian(seen);
   filter.add_vehicle(id, T * T_body_teammate, J.by_a,
                      J.by_b * (by_seen * seen.covariance * by_seen.transpose()) * J.by_b.transpose());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Landmarks of a submap whose names nobody told, against both kinds of map.
+// Association of a submap's landmarks without ids, against both kinds of map.
 #include "map/naming.hpp"
 
 #include <doctest/doctest.h>
@@ -18,7 +18,7 @@ using Ids = std::vector<std::uint64_t>;
 
 constexpr double kSigma = 0.05;
 
-// Estimates of a submap that ends where it began, known by `end` standard deviations of position.
+// The estimates of a submap that ends where it began, with the standard deviation `end` of the position.
 template <class Pose>
 Submap<Pose> submap_of(ErrorKind error, const Ids& ids, const std::vector<Vector3>& landmarks, double end = 1e-3) {
   constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn;
@@ -59,8 +59,8 @@ TEST_CASE_TEMPLATE("naming: known ones get the map's names, new ones keep theirs
                    SE2) {
   for_each_map<Pose>([](GlobalMap<Pose>& map, ErrorKind error) {
     map.join(submap_of<Pose>(error, {1, 2, 3, 4, 5}, kPlaces));
-    // Squared distances by a variance of 2 x 0.05^2 and little more: 0.2, 18 (between 11.3 and 21.1, in the plane
-    // between 9.2 and 18.4) and very much.
+    // The squared distances with a variance of slightly more than 2 x 0.05^2 are 0.2, 18 (between 11.3 and 21.1, in the
+    // plane between 9.2 and 18.4) and very large.
     const std::vector<Vector3> seen{
         kPlaces[2] + Vector3(0.03, 0, 0), kPlaces[4] + Vector3(0, 0.3, 0), {-20, 9, 0}, kPlaces[0]};
     for (const bool joint : {false, true}) {

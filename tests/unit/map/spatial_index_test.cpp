@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Against a scan of all points, through additions, moves and removals.
+// The index against a scan of all points, through additions, moves and removals.
 #include "map/spatial_index.hpp"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ namespace {
 using Hits = std::vector<SpatialIndex::Hit>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The owner: points, and which of them are there.
+// The owner of the index: points, and which of them are present.
 struct World {
   std::vector<Vector3> points;
   std::vector<bool> there;
@@ -70,7 +70,7 @@ bool same(const Hits& a, const Hits& b) {
          });
 }
 
-// Every kind of query at one place; true where all agree with the scan.
+// Compares every kind of query at one place with the scan. Returns true if all agree.
 bool agrees(const World& world, const Vector3& centre, double reach) {
   Hits hits;
   std::vector<std::size_t> indices;
@@ -129,7 +129,7 @@ TEST_CASE("spatial index: batches, moves small and large, removals and returns")
           world.index.moved(one);
         } else if (world.there[one]) {
           world.remove(one);
-        } else {  // comes back, elsewhere
+        } else {  // comes back at another place
           world.points[one] = middle + in_box_of(random, half);
           world.there[one] = true;
           world.index.add(one);
@@ -170,7 +170,7 @@ TEST_CASE("spatial index: equal points and equal distances") {
   CHECK(agrees(world, Vector3(0, 0, 0), 2));
   CHECK(agrees(world, Vector3(1, 2, 3), 1));
   Hits hits;
-  world.index.nearest(Vector3::Zero(), 3, hits);  // the origin and its four neighbours, none before the others
+  world.index.nearest(Vector3::Zero(), 3, hits);  // the origin and its four neighbours, all equally near
   CHECK(hits.size() == 5);
 }
 

@@ -181,12 +181,12 @@ TEST_CASE("extended observation: equals the view of the teammate") {
   const RangeBearing radar;
   for (int n = 0; n < 200; ++n) {
     const SE2 own(SO2::from_angle(random.uniform(-kPi, kPi)), Vector2(300 * random.normal_vector<2>()));
-    const SE2 mate(SO2::from_angle(random.uniform(-kPi, kPi)), Vector2(300 * random.normal_vector<2>()));
+    const SE2 teammate(SO2::from_angle(random.uniform(-kPi, kPi)), Vector2(300 * random.normal_vector<2>()));
     const Vector2 landmark = 500 * random.normal_vector<2>();
     Prediction<SE2> there, back, direct, extended;
-    REQUIRE(radar.predict(own, mate.translation(), kNone, there));
-    REQUIRE(radar.predict(mate, own.translation(), kNone, back));
-    REQUIRE(radar.predict(mate, landmark, kNone, direct));
+    REQUIRE(radar.predict(own, teammate.translation(), kNone, there));
+    REQUIRE(radar.predict(teammate, own.translation(), kNone, back));
+    REQUIRE(radar.predict(teammate, landmark, kNone, direct));
     const ExtendedObservation sensor({}, sighting_of(there.z[0], there.z[1], back.z[1]), true);
     REQUIRE(sensor.predict(own, landmark, kNone, extended));
     CHECK(radar.residual(direct.z, extended.z).norm() < 1e-9);

@@ -81,10 +81,11 @@ Claims drive(ErrorKind error, unsigned seed) {
         T = T * SE2::exp(kPeriod * Vector3(speed + kSpeed * random.normal(), 0, rate + kRate * random.normal()));
       for (Boat* boat : all) boat->filter.propagate(integrate_twist<SE2>(v, w, kPeriod, noise));
     }
-    std::vector<Observation> own, mate;
+    std::vector<Observation> own, seen_by_teammate;
     for (std::size_t i = 0; i < features.size(); ++i) {
       if ((features[i] - truth[0].translation()).norm() < 5000) own.push_back(look(truth[0], features[i], i, random));
-      if ((features[i] - truth[1].translation()).norm() < 5000) mate.push_back(look(truth[1], features[i], i, random));
+      if ((features[i] - truth[1].translation()).norm() < 5000)
+        seen_by_teammate.push_back(look(truth[1], features[i], i, random));
     }
     const Observation there = look(truth[0], truth[1].translation(), 2, random),
                       back = look(truth[1], truth[0].translation(), 1, random);
@@ -94,12 +95,12 @@ Claims drive(ErrorKind error, unsigned seed) {
 
     for (Boat* boat : all) take(boat->filter, 0, own);
     diagonal.filter.set_sighting(by_diagonal, seen);
-    take(diagonal.filter, by_diagonal, mate);
+    take(diagonal.filter, by_diagonal, seen_by_teammate);
     full.filter.set_sighting(by_full, seen);
-    take(full.filter, by_full, mate);
+    take(full.filter, by_full, seen_by_teammate);
     add_by_sighting(flat.filter, 2, seen);
     flat.filter.look_from(2);
-    take(flat.filter, 0, mate);
+    take(flat.filter, 0, seen_by_teammate);
     flat.filter.look_from(1);
     flat.filter.remove_vehicle(2);
     CHECK(flat.filter.smallest_pivot() > -1e-12);  // the start is known, and the first noise has two directions

@@ -78,7 +78,7 @@ Pairs pairs_by_geometry(const Landmarks& map, const Landmarks& other, const Merg
   return found.pairs;
 }
 
-// Up to `most` numbers below `count`, evenly drawn, the first and the last among them.
+// Up to `most` numbers below `count`, evenly drawn, including the first and the last.
 std::vector<std::size_t> drawn(std::size_t count, std::size_t most) {
   std::vector<std::size_t> which(std::min(count, most));
   for (std::size_t i = 0; i < which.size(); ++i)
@@ -123,7 +123,7 @@ PairedPoints joint_points(const Landmarks& map, const Landmarks& other, const Pa
   }
 }
 
-// Squared distance of a pair that was not drawn, against the transform from the drawn pairs.
+// Squared distance of a pair that was not drawn, under the transform from the drawn pairs.
 double distance_of(const Landmarks& map, const Landmarks& other, const std::pair<std::size_t, std::size_t>& pair,
                    const Alignment& alignment) {
   const Matrix3 R = alignment.T_a_b.rotation().matrix();
@@ -160,7 +160,7 @@ void name(const Landmarks& map, const Landmarks& other, const MergeOptions& opti
   std::sort(homeless.begin(), homeless.end(), [&](std::size_t a, std::size_t b) { return other.id(a) < other.id(b); });
   std::uint64_t next = largest;
   for (const std::size_t j : homeless) {
-    do ++next;  // from the largest possible on to 0
+    do ++next;  // the largest possible id is followed by 0
     while (next == MergeReport::kNone || used.count(next) != 0);
     plan.ids[j] = next;
     used.insert(next);
@@ -203,7 +203,7 @@ MergePlan plan_merge(const Landmarks& map, const Landmarks& other, const MergeOp
   report.rows = static_cast<std::size_t>(alignment.dof);
   report.threshold = alignment.dof > 0 ? chi_square_quantile(alignment.dof, options.joint_gate_probability) : 0.0;
 
-  // Each pair's bound is such that all of them pass theirs with the probability asked for (Bonferroni).
+  // The bound of a pair is such that all pairs pass with the given probability (Bonferroni).
   const double miss = (1.0 - options.gate_probability) / static_cast<double>(plan.pairs.size());
   const double bound =
       options.gate_probability < 1.0 ? chi_square_quantile(3, 1.0 - miss) : std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plan by which two maps become one: which landmarks are the same, how the frames lie, whether both agree, and the
-// ids of the merged map. docs/map_merging.md derives it.
+// The plan of a merge of two maps: which landmarks are the same, the transform between the frames, whether the maps
+// agree, and the ids of the merged map. docs/map_merging.md derives it.
 #pragma once
 
 #include <cstdint>
@@ -43,15 +43,15 @@ struct MergePlan {
   Alignment alignment;
 };
 
-// Tests all pairs jointly, up to `joint_at_most` pairs; of more pairs, that many, evenly drawn, are tested jointly and
-// each of the others singly. Throws where the maps do not merge; `report` then tells how far it got.
+// Tests up to `joint_at_most` pairs jointly. If there are more pairs, it draws that many evenly for the joint test, and
+// tests each of the others by itself. Throws if the maps cannot be merged; `report` then says how far the merge got.
 MergePlan plan_merge(const Landmarks& map, const Landmarks& other, const MergeOptions& options,
                      std::size_t joint_at_most, MergeReport& report);
 
-// The new ids of the other's landmarks, by ascending old id.
+// The new ids of the other map's landmarks, by ascending old id.
 std::vector<MergedId> merged_ids(const Landmarks& other, const MergePlan& plan);
 
-// Throws that these two landmarks contradict each other, and names them in the report.
+// Throws an error that these two landmarks contradict each other, and names them in the report.
 [[noreturn]] void throw_contradiction(std::uint64_t id, std::uint64_t other_id, MergeReport& report);
 
 }  // namespace cairn

@@ -8,13 +8,13 @@
 namespace cairn {
 namespace {
 
-// The least height of a triangle, in standard deviations of a side, and in parts of its longest side. The plane of a
-// flatter triangle is too vague to lay another one onto.
+// The smallest height of a triangle, in standard deviations of a side, and in parts of its longest side. The plane of a
+// flatter triangle is too uncertain to lay another triangle onto it.
 constexpr double kLeastHeight = 4, kLeastShape = 0.15;
-// Leaves out triangles whose variances are this many times the usual: they would widen the search for all others.
+// In parts of the median: triangles with a larger variance are left out, because they would widen every search.
 constexpr double kMostVariance = 9;
 
-// Variances of the distances between `members`, [i][j]; with the joint covariance where there is one.
+// Variances of the distances between `members`, [i][j], from the joint covariance if there is one.
 class SideVariances {
  public:
   SideVariances(const PointSet& set, const std::vector<std::size_t>& members) : set_(set), members_(members) {
@@ -66,7 +66,8 @@ Triangles make_triangles(const PointSet& set, const SpatialIndex& index, std::si
     const SideVariances variance(set, members);
     for (std::size_t j = 1; j < members.size(); ++j)
       for (std::size_t k = j + 1; k < members.size(); ++k) {
-        // The same triangle from another of its points: the lowest index makes it, if the others are its neighbours.
+        // Each triangle appears at each of its points. The point with the lowest index that has the others as
+        // neighbours makes it.
         const auto makes = [&](std::size_t maker, std::size_t p, std::size_t q) {
           const auto& list = result.neighbours[maker];
           const auto end = list.begin() + static_cast<std::ptrdiff_t>(std::min(corners, list.size()));
@@ -115,7 +116,7 @@ Triangles make_triangles(const PointSet& set, const SpatialIndex& index, std::si
 
 std::vector<Matrix3> local_covariances(const PointSet& set, const SpatialIndex& index, std::size_t neighbours) {
   constexpr double kMostLeverage = 0.7;
-  if (!set.joint || set.points.size() < 6) return set.covariances;  // too few to tell a motion of all from their own
+  if (!set.joint || set.points.size() < 6) return set.covariances;  // too few to separate common and own errors
   std::vector<Matrix3> result;
   std::vector<SpatialIndex::Hit> hits;
   std::vector<std::size_t> members;
@@ -127,7 +128,7 @@ std::vector<Matrix3> local_covariances(const PointSet& set, const SpatialIndex& 
     const auto n = 3 * static_cast<Eigen::Index>(members.size());
     Eigen::MatrixXd Sigma(n, n);
     set.joint(members.data(), members.size(), Sigma.data());
-    // Rigid motions of the neighbourhood, an orthonormal basis of them, and what is left of point i's error without.
+    // The rigid motions of the neighbourhood, an orthonormal basis of them, and the rest of point i's error.
     Eigen::Matrix<double, Eigen::Dynamic, 6> motions(n, 6);
     for (Eigen::Index m = 0; m < n; m += 3)
       motions.middleRows<3>(m) << Matrix3::Identity(),
@@ -137,7 +138,7 @@ std::vector<Matrix3> local_covariances(const PointSet& set, const SpatialIndex& 
     Eigen::Matrix<double, 3, Eigen::Dynamic> rest = -Q.topRows<3>() * Q.transpose();
     const double leverage = std::min(-rest.leftCols<3>().trace() / 3, kMostLeverage);
     rest.leftCols<3>() += Matrix3::Identity();
-    // The motion that is taken out has seen this point too, and shrinks its error.
+    // The projected motion was estimated from this point, too. This reduces its error, which the factor corrects.
     const Matrix3 local = rest * Sigma * rest.transpose() / (1 - leverage);
     result.push_back(0.5 * (local + local.transpose()) + 1e-9 * set.covariances[i].trace() * Matrix3::Identity());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The dense map against the whole problem, where errors are so small that one linearisation does.
+// The dense map against the whole problem, with errors so small that one linearisation is sufficient.
 #include "map/join/dense/dense_map.hpp"
 
 #include <doctest/doctest.h>
@@ -27,7 +27,7 @@ TEST_CASE_TEMPLATE("dense map: the minimum of the whole problem, and its covaria
     options.initial_covariance *= 1e-6;
     DenseMap<Pose> map(options);
     std::vector<Submap<Pose>> submaps;
-    for (int i = 0; i < 12; ++i) {  // once and a half round
+    for (int i = 0; i < 12; ++i) {  // one and a half rounds
       submaps.push_back(ring.submap(i));
       const JoinReport report = map.join(submaps.back());
       CHECK(report.refused == 0);
@@ -49,7 +49,7 @@ TEST_CASE_TEMPLATE("dense map: the minimum of the whole problem, and its covaria
         for (Index d = 0; d < Pose::kDim; ++d) at.push_back(reference.states.at(id) + d);
         far = std::max(far, (map.position(index) - Space::up(position)).norm());
       }
-      CHECK(far <= 1e-7);  // a thousandth of what the submaps are wrong by
+      CHECK(far <= 1e-7);  // a thousandth of the errors of the submaps
       CHECK((map.base().translation() - reference.bases.back().translation()).norm() <= 1e-7);
       const Matrix whole = reference.covariance(), expected = whole(at, at);
       Matrix joint(expected.rows(), expected.cols());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The dense joining. On linear-Gaussian problems (the attitude known, points seen as they are) a filter in submaps must
-// equal one that keeps a single map, to rounding.
+// The dense joining. On linear-Gaussian problems (known attitude, points observed directly) a filter with submaps must
+// equal a filter with a single map, except for rounding.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ FilterOptions<Pose> options_of(ErrorKind error, Index submap_landmarks, JoinKind
   return options;
 }
 
-// A drive on a ring of landmarks, twice round; both filters get the same.
+// A drive of two rounds on a ring of landmarks; both filters get the same data.
 template <class Pose, class Visit>
 void drive(double turn_sigma, Visit&& visit) {
   constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn;
@@ -89,7 +89,9 @@ void feed(Filter<Pose>& filter, const Increment<Pose>& increment, const std::vec
   filter.update(0, seen.data(), static_cast<Index>(seen.size()));
 }
 
-double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return (a - b).norm() / (1e-300 + b.norm()); }
+double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return (a - b).norm() / (1e-300 + b.norm());
+}
 
 template <class Pose>
 void compare(ErrorKind error, JoinKind join, double tolerance) {
@@ -123,13 +125,21 @@ void compare(ErrorKind error, JoinKind join, double tolerance) {
 }  // namespace
 
 TEST_CASE_TEMPLATE("dense joining: equal to a single map on a linear-Gaussian problem", Pose, SE3, SE2) {
-  SUBCASE("invariant") { compare<Pose>(ErrorKind::invariant, JoinKind::dense, 1e-10); }
-  SUBCASE("standard") { compare<Pose>(ErrorKind::standard, JoinKind::dense, 1e-10); }
+  SUBCASE("invariant") {
+    compare<Pose>(ErrorKind::invariant, JoinKind::dense, 1e-10);
+  }
+  SUBCASE("standard") {
+    compare<Pose>(ErrorKind::standard, JoinKind::dense, 1e-10);
+  }
 }
 
 TEST_CASE_TEMPLATE("sparse joining: equal to a single map on a linear-Gaussian problem", Pose, SE3, SE2) {
-  SUBCASE("invariant") { compare<Pose>(ErrorKind::invariant, JoinKind::sparse, 1e-8); }
-  SUBCASE("standard") { compare<Pose>(ErrorKind::standard, JoinKind::sparse, 1e-8); }
+  SUBCASE("invariant") {
+    compare<Pose>(ErrorKind::invariant, JoinKind::sparse, 1e-8);
+  }
+  SUBCASE("standard") {
+    compare<Pose>(ErrorKind::standard, JoinKind::sparse, 1e-8);
+  }
 }
 
 TEST_CASE_TEMPLATE("joining: a single landmark's gate is that of so many coordinates", Pose, SE3, SE2) {
@@ -146,7 +156,7 @@ TEST_CASE_TEMPLATE("joining: a single landmark's gate is that of so many coordin
   };
   for (const ErrorKind error : {ErrorKind::invariant, ErrorKind::standard})
     for (const bool sparse : {false, true})
-      for (const double squared_distance : {8.5, 10.3, 12.0}) {  // bounds: 11.3, in the plane 9.2
+      for (const double squared_distance : {8.5, 10.3, 12.0}) {  // the bound is 11.3, in the plane 9.2
         CAPTURE(squared_distance);
         MapOptions<Pose> options;
         options.error = error;

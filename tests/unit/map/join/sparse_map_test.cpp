@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sparse map against Gauss-Newton over the whole problem; and what it does when a submap does not fit.
+// The sparse map against Gauss-Newton over the whole problem, and its behaviour when a submap does not fit.
 #include "map/join/sparse/sparse_map.hpp"
 
 #include <doctest/doctest.h>
@@ -32,7 +32,7 @@ Vector3 position_of(const SparseMap<Pose>& map, std::uint64_t id) {
   return map.position(index);
 }
 
-// All that a map shows, to the bit.
+// All outputs of a map, to the bit.
 template <class Pose>
 std::vector<double> everything(const SparseMap<Pose>& map) {
   std::vector<double> out{static_cast<double>(map.size()), static_cast<double>(map.submap_count()), map.cost()};
@@ -74,7 +74,7 @@ TEST_CASE_TEMPLATE("sparse map: the minimum of the whole problem", Pose, SE3, SE
       Ring<Pose> ring(11, error, 8, 12, rough ? Noise{0.4, 0.06} : Noise{0.05, 0.004});
       SparseMap<Pose> map(ring.options());
       std::vector<Submap<Pose>> submaps;
-      for (int i = 0; i < 18; ++i) {  // more than twice round
+      for (int i = 0; i < 18; ++i) {  // more than two rounds
         submaps.push_back(ring.submap(i));
         const JoinReport report = map.join(submaps.back());
         CHECK(report.refused == 0);
@@ -105,9 +105,9 @@ TEST_CASE_TEMPLATE("sparse map: a loop closed far from its start", Pose, SE3, SE
       submaps.push_back(ring.submap(i));
       const JoinReport report = map.join(submaps.back());
       CHECK(report.refused == 0);
-      if (i == 23) CHECK(report.moved_max > 0.3 * drift);  // the start's landmarks are seen again
+      if (i == 23) CHECK(report.moved_max > 0.3 * drift);  // the first landmarks are observed again
       if (i != 24 && i != 33) continue;
-      // A closing may leave some of the way to the next one; not much, and not for good.
+      // A closing may leave a small part of its steps to the next closing, but never forever.
       Reference<Pose> reference(ring.options(), submaps);
       reference.solve();
       const double settled = i == 33 ? 1e-6 : 1e-2;
@@ -119,7 +119,7 @@ TEST_CASE_TEMPLATE("sparse map: a loop closed far from its start", Pose, SE3, SE
       const Matrix P = reference.covariance();
       const Index newest = reference.states_of_bases() - Pose::kDof;
       CHECK(difference(map.base_covariance(), P.block<Pose::kDof, Pose::kDof>(newest, newest)) <=
-            0.1);  // of older linearisations
+            0.1);  // the factor contains older linearisations
     }
     CHECK(drift > 1.0);
   }
@@ -139,7 +139,7 @@ TEST_CASE_TEMPLATE("sparse map: what is carried along in a long loop lands where
     for (int i = 0; i < 200; ++i) {
       const Submap<Pose> submap = ring.submap(i);
       Submap<Pose> wrong = submap, without = submap;
-      if (i >= 160 && i % 8 == 0) {  // is taken in, then taken back, then taken in without the one that does not fit
+      if (i >= 160 && i % 8 == 0) {  // joins, is undone, then joins without the wrong landmark
         wrong.landmarks[2] += 5 * Pose::Point::Unit(Pose::kDim - 1);
         without = wrong;
         constexpr std::ptrdiff_t at = 2;
@@ -192,7 +192,7 @@ TEST_CASE_TEMPLATE("sparse map: covariances are the whole problem's", Pose, SE3,
       std::vector<Index> at;
       const Index newest = reference.states_of_bases() - Pose::kDof;
       for (Index d = 0; d < Pose::kDof; ++d) at.push_back(newest + d);
-      for (std::size_t k = 0; k < map.size(); k += 2) {  // private ones and shared ones
+      for (std::size_t k = 0; k < map.size(); k += 2) {  // private and shared landmarks
         indices.push_back(map.size() - 1 - k);
         for (Index d = 0; d < Pose::kDim; ++d) at.push_back(reference.states.at(map.id(indices.back())) + d);
       }
@@ -235,7 +235,7 @@ TEST_CASE_TEMPLATE("sparse map: a landmark that contradicts the map is left out,
     CHECK(report.rows == 6 * Pose::kDim);
     CHECK(report.distance <= report.threshold);
     CHECK((position_of(map, liar) - before).norm() <= 0.05);
-    // Equal to a submap that never saw it.
+    // Equal to a map whose submap never held it.
     poor = good;
     std::vector<Index> kept;
     const Index first = Pose::kDof + 3 * Pose::kDim;
@@ -249,7 +249,7 @@ TEST_CASE_TEMPLATE("sparse map: a landmark that contradicts the map is left out,
     CHECK(map.cost() == doctest::Approx(without.cost()).epsilon(1e-6));
     for (std::size_t k = 0; k < map.size(); ++k)
       CHECK((map.position(k) - position_of(without, map.id(k))).norm() <= 1e-4);
-    CHECK(map.join(ring.submap(10)).refused == 0);  // and the map goes on
+    CHECK(map.join(ring.submap(10)).refused == 0);  // and the map works as before
   }
 }
 
@@ -262,7 +262,7 @@ TEST_CASE_TEMPLATE("sparse map: a submap that can't be taken in changes nothing"
     for (int i = 0; i < 11; ++i) {
       const Submap<Pose> submap = ring.submap(i);
       const std::vector<double> before = everything(map);
-      Submap<Pose> crowd = submap;  // more than there is room for
+      Submap<Pose> crowd = submap;  // more landmarks than the capacity
       Ring<Pose> strangers(16, error, 24, 12, {0.05, 0.004});
       Ids ids = submap.ids;
       for (std::uint64_t id = 60; id < 101; ++id) ids.push_back(id);
@@ -275,7 +275,7 @@ TEST_CASE_TEMPLATE("sparse map: a submap that can't be taken in changes nothing"
       CHECK(everything(map) == before);
       map.join(submap);
       twin.join(submap);
-      CHECK(everything(map) == everything(twin));  // the same bits as if nothing had been
+      CHECK(everything(map) == everything(twin));  // the same bits as without the failed join
     }
   }
 }
@@ -301,7 +301,7 @@ TEST_CASE_TEMPLATE("sparse map: a transaction without commit changes nothing", P
     CHECK(everything(map) == before);
     map.join(submap);
     twin.join(submap);
-    CHECK(everything(map) == everything(twin));  // the same bits as if nothing had been
+    CHECK(everything(map) == everything(twin));  // the same bits as without the failed join
   }
 }
 
@@ -339,7 +339,7 @@ TEST_CASE_TEMPLATE("sparse map: a landmark removed is gone, and what it taught s
   CHECK(map.covariance(index) == kept);
   everything(map);  // checks that ids and indices agree
   CHECK(within(map, Vector3::Zero(), 1e6).size() == size - 2);
-  // Seen again it is a new landmark.
+  // When it is observed again, it is a new landmark.
   const JoinReport report = map.join(ring.submap(9));
   CHECK(report.refused == 0);
   CHECK(report.fresh + report.fused == 7);

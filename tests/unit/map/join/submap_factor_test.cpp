@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A closed submap as one observation: its error by its definition, its derivatives by differences, and what is left out
-// of it against the problem that leaves nothing out.
+// A closed submap as one observation: its error against the definition, its derivatives against differences, and the
+// elimination of its private landmarks against the complete problem.
 #include "map/join/sparse/submap_factor.hpp"
 
 #include <doctest/doctest.h>
@@ -8,8 +8,8 @@
 #include <Eigen/Cholesky>
 
 #include "core/error.hpp"
-#include "numerical.hpp"
 #include "map/join/submap_hessian.hpp"
+#include "numerical.hpp"
 
 namespace {
 
@@ -44,7 +44,7 @@ Pose random_pose(Random& random, double turn, double way) {
   return Pose(Pose::Rotation::exp(tangent), random_point<Pose>(random, way));
 }
 
-// Where a landmark of the submap stands in its covariance, and in the columns of a factor that shares it.
+// The position of a landmark in the covariance of the submap, and in the columns of a factor that shares it.
 template <class Pose>
 Index in_submap(Index landmark) {
   return Pose::kDof + Pose::kDim * landmark;
@@ -73,7 +73,7 @@ Submap<Pose> random_submap(Random& random, ErrorKind error, int landmarks) {
   return submap;
 }
 
-// Where the submap's own estimate puts everything, seen from a base.
+// The estimates of the submap, seen from a base.
 template <class Pose>
 FactorValues<Pose> own_values(const Submap<Pose>& submap, const Numbers& shared, const Pose& base) {
   FactorValues<Pose> values{base, base * submap.T_base_end, {}};
@@ -81,7 +81,7 @@ FactorValues<Pose> own_values(const Submap<Pose>& submap, const Numbers& shared,
   return values;
 }
 
-// Ordinary errors [base; end; shared].
+// The errors [base; end; shared] are ordinary.
 template <class Pose>
 FactorValues<Pose> moved(const FactorValues<Pose>& values, const Vector& e) {
   constexpr int kDof = Pose::kDof;
@@ -195,7 +195,7 @@ TEST_CASE_TEMPLATE("submap factor: derivatives against differences", Pose, SE3, 
         CHECK((out.gradient - WJ.transpose() * xi).norm() <= 1e-7 * WJ.norm() * (1e-3 + xi.norm()));
         const Matrix H = whole_hessian(factor, values);
         CHECK(difference(H, J.transpose() * WJ) <= 1e-7);
-        std::vector<typename Pose::Rotation> axes;  // each of its own
+        std::vector<typename Pose::Rotation> axes;  // a different one for each
         Matrix R = Matrix::Zero(H.rows(), H.rows());
         for (Index i = 0; i < 2 + factor.shared_count(); ++i) {
           axes.push_back(Pose::Rotation::exp(random_turn<Pose>(random)));
@@ -220,7 +220,7 @@ TEST_CASE_TEMPLATE("submap factor: what one landmark is known by", Pose, SE3, SE
   }
 }
 
-// The problem with all landmarks as variables is the yardstick: what was eliminated must not be missed.
+// The reference is the problem with all landmarks as variables: the elimination must not lose information.
 TEST_CASE_TEMPLATE("submap factor: private landmarks leave cost and gradient of the others as they are", Pose, SE3,
                    SE2) {
   Random random(6);
@@ -246,7 +246,7 @@ TEST_CASE_TEMPLATE("submap factor: private landmarks leave cost and gradient of 
         if (i == 4) expected = a.gradient.segment(in_factor<Pose>(1), Pose::kDim);
         CHECK((b.gradient.segment(in_factor<Pose>(i), Pose::kDim) - expected).norm() <= scale);
       }
-      for (const Index i : {0, 5}) {  // and nowhere else would cost less
+      for (const Index i : {0, 5}) {  // no other values have a smaller cost
         FactorValues<Pose> elsewhere = whole;
         elsewhere.shared[i] += random_point<Pose>(random, 0.01);
         CHECK(full.evaluate(elsewhere).cost > b.cost);
@@ -266,7 +266,7 @@ TEST_CASE_TEMPLATE("submap factor: covariances of private landmarks against the 
       const Pose base = random_pose<Pose>(random, 1, 10);
       const FactorValues<Pose> values = own_values(submap, shared, base);
       const FactorValues<Pose> whole = own_values(submap, all_of(submap), base);
-      // What else is known of base, end and shared landmarks.
+      // Other information about base, end and shared landmarks.
       const Index m = part.columns();
       Matrix root(m, m);
       for (Index i = 0; i < root.size(); ++i) root.data()[i] = 5 * random.normal();
@@ -308,12 +308,12 @@ TEST_CASE_TEMPLATE("submap factor: exact knowledge is no division by zero, and n
     const Index l = in_submap<Pose>(0);
     submap.covariance(l + 1, l + 1) = -1.0;
     CHECK_THROWS_AS(SubmapFactor<Pose>(std::make_shared<SubmapData<Pose>>(submap), {0, 1}), Error);
-    CHECK_THROWS_AS(SubmapFactor<Pose>(std::make_shared<SubmapData<Pose>>(submap), {1}),
-                    Error);  // whoever is shared so far
-    submap.covariance = Matrix::Ones(
-        submap.covariance.rows(), submap.covariance.rows());  // all one error: singular, which a grain of noise repairs
+    // Independent of the landmarks that are shared already.
+    CHECK_THROWS_AS(SubmapFactor<Pose>(std::make_shared<SubmapData<Pose>>(submap), {1}), Error);
+    // One common error: singular until a little noise is added.
+    submap.covariance = Matrix::Ones(submap.covariance.rows(), submap.covariance.rows());
     CHECK(whole_hessian(SubmapFactor<Pose>(std::make_shared<SubmapData<Pose>>(submap), {0, 1}), values).allFinite());
-    submap.covariance(l + 2, l + 1) = submap.covariance(l + 1, l + 2) = 2.0;  // no covariance
+    submap.covariance(l + 2, l + 1) = submap.covariance(l + 1, l + 2) = 2.0;  // not a covariance
     CHECK_THROWS_AS(SubmapFactor<Pose>(std::make_shared<SubmapData<Pose>>(submap), {0, 1}), Error);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A submap factor's information with both triangles.
+// The information of a submap factor, with both triangles.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ Eigen::MatrixXd whole_hessian(const SubmapFactor<Pose>& factor, const FactorValu
                               const std::vector<typename Pose::Rotation>& axes) {
   return factor.hessian(values, axes).template selfadjointView<Eigen::Lower>();
 }
-// By errors in the axes of the map.
+// The errors are in the axes of the map.
 template <class Pose>
 Eigen::MatrixXd whole_hessian(const SubmapFactor<Pose>& factor, const FactorValues<Pose>& values) {
   return whole_hessian(factor, values, std::vector<typename Pose::Rotation>(2 + factor.shared().size()));

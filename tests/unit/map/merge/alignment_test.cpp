@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/chi_square.hpp"
+#include "map/merge/compatible_alignment.hpp"
 #include "numerical.hpp"
 
 using namespace cairn;
@@ -27,7 +28,7 @@ DenseVector normal_of(Random& random, Eigen::Index n) {
   return x;
 }
 
-// What a map of k points drawn from a drive is like: each point's own error, and what all have in common.
+// The covariance of k points of a map from a drive: independent errors, and errors that all points have in common.
 Dense joint_covariance(Random& random, const Points& points, double own, double common) {
   const auto n = 3 * static_cast<Eigen::Index>(points.size());
   Dense root(n, n + 6);
@@ -89,7 +90,7 @@ struct Scene {
     disturb(random, Sigma_b, pairs.b);
   }
 
-  // The distance at a transform, by the definition.
+  // The distance at a transform, by definition.
   double distance(const SE3& T) const {
     const auto n = Sigma_a.rows();
     Dense R = Dense::Zero(n, n);
@@ -106,7 +107,7 @@ double error_norm(const SE3& truth, const SE3& estimate) {
   return pose_error(truth, estimate).norm();
 }
 
-// Bounds that a mean of `runs` chi-squares of `dof` leaves once in a million.
+// Bounds that a mean of `runs` chi-squares of `dof` exceeds once in a million.
 bool is_mean_chi_square(double mean, int runs, int dof) {
   const double n = static_cast<double>(runs) * dof;
   return runs * mean > chi_square_quantile(n, 5e-7) && runs * mean < chi_square_quantile(n, 1 - 5e-7);
@@ -146,7 +147,7 @@ TEST_CASE("alignment: the distance is at its minimum, and bends as the covarianc
     const Alignment alignment = align(scene.pairs);
     REQUIRE(alignment.ok());
     CHECK(std::abs(scene.distance(alignment.T_a_b) - alignment.distance) < 1e-8 * (1 + alignment.distance));
-    // In steps of one standard deviation of each unknown.
+    // Steps of one standard deviation of each unknown.
     const Matrix6 L = alignment.covariance.llt().matrixL();
     const auto f = [&](const Vector6& x) { return Vector1(scene.distance(retract(alignment.T_a_b, L * x))); };
     const Eigen::Matrix<double, 1, 6> gradient = test::jacobian_at_zero<6>(f);
@@ -233,7 +234,7 @@ TEST_CASE("alignment: independent points in blocks and in one matrix are the sam
 
 TEST_CASE("alignment: over many draws distance and error are chi-square") {
   constexpr int kRuns = 400;
-  for (int kind = 0; kind < 4; ++kind) {  // correlated, independent, with a prior, with one that is exact
+  for (int kind = 0; kind < 4; ++kind) {  // correlated, independent, with a prior, with an exact prior
     CAPTURE(kind);
     Random random(60 + static_cast<unsigned>(kind));
     Scene scene(random, 8, 0.05, 0.2, kind != 1);
@@ -287,7 +288,7 @@ TEST_CASE("alignment: wrong pairs are found, and no others") {
     Random random(80 + static_cast<unsigned>(kind));
     for (int run = 0; run < 10; ++run) {
       Scene scene(random, 14, 0.05, 1.0, kind % 2 == 0);
-      const double size = kind % 2 == 0 ? 3.0 : 20.0;  // far less than what the points have in common, if one knows it
+      const double size = kind % 2 == 0 ? 3.0 : 20.0;  // if correlated: far smaller than the common errors
       scene.pairs.a[3] += size * Vector3(1, 1, 0);
       scene.pairs.b[9] += 2 * size * Vector3(0, 1, -1);
       const TransformPrior given{scene.T_a_b, some_covariance(random, 0.1, 0.01)};
@@ -310,7 +311,7 @@ TEST_CASE("alignment: among many pairs each is held against the others") {
     CAPTURE(correlated);
     Random random(85);
     Scene scene(random, 60, 0.05, 0.1, correlated);
-    // Wrong enough to be told by itself, not beside the sum of 174 squares.
+    // Wrong enough to fail its own test, but hidden in the sum of 174 squares.
     double fall = 0;
     while (fall < 45) {
       scene.pairs.a[10].y() += 0.02;
@@ -332,7 +333,7 @@ TEST_CASE("alignment: what no transform can do is said") {
   CHECK(align(select_pairs(scene.pairs, {0, 1, 2})).ok());
   CHECK(align_compatible(select_pairs(scene.pairs, {0, 1}), 0.99, 0.999).kept.empty());
 
-  PairedPoints line;  // exactly on a line, then by their covariances only, then all on one spot
+  PairedPoints line;  // exactly on a line, then on a line only within their covariances, then all at one place
   for (double noise : {0.0, 0.05}) {
     line = PairedPoints{};
     for (int i = 0; i < 30; ++i) {

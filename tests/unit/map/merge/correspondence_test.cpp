@@ -18,7 +18,7 @@ using Reason = CorrespondenceReason;
 
 namespace {
 
-// Rolling ground, one landmark to 160 m^2 on average, some of them boulders' tops.
+// Rolling ground, one landmark in 160 m^2 on average, some of them on top of boulders.
 Vector3 on_ground(double x, double y, double height) {
   return Vector3(x, y, 3 * std::sin(x / 15) + 2 * std::cos(y / 12) + height);
 }
@@ -28,11 +28,11 @@ Vector3 random_landmark(Random& random, const Vector3& low, const Vector3& high)
   return on_ground(x, y, random.uniform(0, 1.5));
 }
 
-// Two maps: which points they have in common, in frames of their own.
+// Two maps in different frames, and the points that they have in common.
 struct Maps {
   SE3 T_a_b;
   std::vector<Vector3> true_a, true_b;  // both in frame a
-  std::vector<std::size_t> partner;     // of b's points in a, or none
+  std::vector<std::size_t> partner;     // by point of b: the same point in a, or none
   PointSet a, b;
   static constexpr std::size_t kNone = SIZE_MAX;
 
@@ -54,14 +54,14 @@ struct Maps {
     for (const Vector3& p : true_b) add(b, T_a_b.inverse() * p);
   }
 
-  // How many of the pairs are right.
+  // How many of the pairs are correct.
   std::size_t right(const Correspondence& result) const {
     return static_cast<std::size_t>(std::count_if(result.pairs.begin(), result.pairs.end(), [&](const auto& pair) {
       return partner[pair.second] == pair.first;
     }));
   }
-  // Of the transform, with its position error where the points of b stand: an origin far from them turns the slightest
-  // rotation into metres.
+  // The error of the transform. The position error is taken at the points of b: at an origin far from them, the
+  // smallest rotation makes metres.
   double nees(const Correspondence& result) const {
     Vector3 centre = Vector3::Zero();
     for (const Vector3& p : b.points) centre += p / static_cast<double>(b.points.size());
@@ -73,7 +73,7 @@ struct Maps {
   }
 };
 
-// Two strips that overlap at their ends: `common` of the n points of each.
+// Two strips that overlap at their ends: they share `common` of their n points.
 Maps strips(Random& random, std::size_t n, std::size_t common, double sigma) {
   Maps maps;
   const double breadth = 60, length = 160.0 * static_cast<double>(n) / breadth;
@@ -95,7 +95,7 @@ Maps strips(Random& random, std::size_t n, std::size_t common, double sigma) {
   return maps;
 }
 
-// One square that both have seen, but of its landmarks only `common` by both.
+// Two maps of one square that share only `common` of its landmarks.
 Maps mixed(Random& random, std::size_t n, std::size_t common, double sigma) {
   Maps maps;
   const double side = std::sqrt(160.0 * static_cast<double>(2 * n - common));
@@ -109,7 +109,7 @@ Maps mixed(Random& random, std::size_t n, std::size_t common, double sigma) {
   return maps;
 }
 
-// Both maps see all of these.
+// Both maps hold all of these points.
 Maps of_layout(Random& random, const std::vector<Vector3>& layout, double sigma) {
   Maps maps;
   maps.true_a = maps.true_b = layout;
@@ -118,7 +118,8 @@ Maps of_layout(Random& random, const std::vector<Vector3>& layout, double sigma)
   return maps;
 }
 
-// Nearly all that are common, none that is wrong, a transform that its covariance covers, the joint test.
+// Checks that nearly all common points are found and none is wrong, that the covariance covers the error of the
+// transform, and that the joint test passes.
 void check_found(const Maps& maps, const Correspondence& result, std::size_t common) {
   CAPTURE(static_cast<int>(result.reason));
   CAPTURE(common);
@@ -207,7 +208,7 @@ TEST_CASE("correspondence: what looks the same from several sides is ambiguous")
   for (int x = 0; x < 7; ++x)
     for (int y = 0; y < 7; ++y) grid.emplace_back(10 * x, 10 * y, 0);
   for (int i = 0; i < 12; ++i) ring.push_back(Vector3(30 * std::cos(kPi * i / 6), 30 * std::sin(kPi * i / 6), i % 2));
-  for (int i = 0; i < 25; ++i) {  // and all of it again after half a turn
+  for (int i = 0; i < 25; ++i) {  // and all of them again, rotated by half a turn
     const Vector3 p(random.uniform(5, 60), random.uniform(-40, 40), random.uniform(0, 5));
     twice.push_back(p);
     twice.emplace_back(-p.x(), -p.y(), p.z());
@@ -220,7 +221,7 @@ TEST_CASE("correspondence: what looks the same from several sides is ambiguous")
     CHECK((result.reason == Reason::ambiguous || result.reason == Reason::budget));
     CHECK(result.pairs.empty());
   }
-  // Half a turn of half of it is no longer as good.
+  // If only half of the points have a rotated copy, the rotated transform is worse.
   twice.resize(twice.size() / 2);
   for (int i = 0; i < 25; ++i)
     twice.emplace_back(random.uniform(-60, 60), random.uniform(-40, 40), random.uniform(0, 5));
@@ -244,7 +245,7 @@ TEST_CASE("correspondence: landmarks that have moved are left out") {
 TEST_CASE("correspondence: the joint covariance sees what marginals hide") {
   Random random(80);
   Maps maps = strips(random, 100, 50, 0.05);
-  // Both frames are vague by a metre, which all points of a map share.
+  // Both frames are uncertain by a metre: an error that all points of a map share.
   const auto share = [&](PointSet& set) {
     const Vector3 common = random.normal_vector<3>();
     const std::vector<Matrix3> own = set.covariances;
@@ -263,7 +264,7 @@ TEST_CASE("correspondence: the joint covariance sees what marginals hide") {
   };
   share(maps.a);
   share(maps.b);
-  // One that has moved by half a metre: nothing beside a metre, a lot beside 5 cm.
+  // One point has moved by half a metre: little compared with a metre, much compared with 5 cm.
   std::size_t odd = 0;
   while (maps.partner[odd] == Maps::kNone) ++odd;
   maps.b.points[odd] += Vector3(0.4, 0.3, 0);
@@ -275,7 +276,7 @@ TEST_CASE("correspondence: the joint covariance sees what marginals hide") {
 }
 
 TEST_CASE("correspondence: maps that drift as they are driven") {
-  // Brownian drift along the strip, from one end in a and from the other in b, besides each landmark's own noise.
+  // Brownian drift along the strip, from one end in a and from the other end in b, plus the noise of each landmark.
   static constexpr double kDrift = 0.002;  // m^2 per metre: 1 m after 500 m
   Random random(110);
   for (int run = 0; run < 3; ++run) {
@@ -320,7 +321,7 @@ TEST_CASE("correspondence: with a prior") {
   const Maps maps = strips(random, 80, 30, 0.1);
   Vector6 sigmas;
   sigmas << 0.3, 0.3, 0.3, 0.004, 0.004, 0.004;
-  // About the common points' centre, not about an origin far away.
+  // About the centre of the common points, not about a distant origin.
   Vector3 centre = Vector3::Zero();
   for (std::size_t j = 0; j < maps.true_b.size(); ++j)
     if (maps.partner[j] != Maps::kNone) centre += maps.true_b[j] / 30;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The dense merge against a batch solution that knows nothing of its closed form; names, gates and refusals.
+// The dense merge against a batch solution that does not use its closed form; ids, gates and refusals.
 #include "map/merge/merge.hpp"
 
 #include <doctest/doctest.h>
@@ -51,7 +51,7 @@ struct Plain final : Landmarks {
   }
 };
 
-// A map of these points, with errors that all have in common (a vague frame) and such of their own.
+// A map of these points, with common errors (an uncertain frame) and with independent errors.
 Plain map_of(Random& random, const std::vector<std::uint64_t>& ids, const std::vector<Vector3>& truth, double own,
              double common) {
   Plain map;
@@ -196,14 +196,14 @@ TEST_CASE("dense merge: equal to the batch solution of both maps, the transform 
     CAPTURE(seed);
     compare(Scene(seed, 3 + seed, 3 + 2 * seed, seed), nullptr);
   }
-  compare(Scene(7, 0, 6, 5), nullptr);  // nothing that only the map holds
-  compare(Scene(8, 5, 6, 0), nullptr);  // nothing to add
+  compare(Scene(7, 0, 6, 5), nullptr);  // no landmark that only the map holds
+  compare(Scene(8, 5, 6, 0), nullptr);  // no landmark to add
 }
 
 TEST_CASE("dense merge: equal to the batch solution of both maps, the transform known in part") {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     CAPTURE(seed);
-    const Scene scene(20 + seed, 4, seed, 4);  // fewer common ones than the transform takes, too
+    const Scene scene(20 + seed, 4, seed, 4);  // sometimes fewer common landmarks than the transform needs
     Random random(40 + seed);
     Matrix6 root = 0.1 * Matrix6::Identity();
     for (int c = 0; c < 6; ++c) root.col(c) += 0.05 * random.normal_vector<6>();
@@ -257,7 +257,7 @@ TEST_CASE("merge: too few common landmarks, and such on a line") {
 
 TEST_CASE("merge by geometry: paired ones take the map's id, others keep theirs or get a free one") {
   Scene scene(70, 10, 25, 10);
-  // The other's own names: some are the map's for other landmarks, one is the largest there can be.
+  // The ids of the other map: the map uses some of them for other landmarks, and one is the largest possible id.
   std::vector<std::uint64_t> before = scene.other.ids;
   for (std::size_t j = 0; j < before.size(); ++j) scene.other.ids[j] = 1000 + j;
   scene.other.ids[26] = 100, scene.other.ids[33] = 99;
@@ -313,7 +313,7 @@ TEST_CASE("merge: pairs beyond those that are tested jointly are tested each by 
   const Vector6 apart = pose_error(some.alignment.T_a_b, all.alignment.T_a_b);
   CHECK(apart.dot(some.alignment.covariance.ldlt().solve(apart)) < 30.0);
   CHECK(apart.norm() > 0.0);
-  // By ascending id numbers 0, 4, 8, 13, 17, 21, ... of the 40 are drawn, and this one is number 19.
+  // The draw takes the pairs 0, 4, 8, 13, 17, 21, ... of the 40 by ascending id. This pair is number 19.
   scene.other.points[20] += Vector3(5, 0, 0);
   CHECK_THROWS_AS(plan_merge(scene.map, scene.other, MergeOptions(), 10, report), Error);
   CHECK(report.broken_id == scene.other.ids[20]);
@@ -349,7 +349,7 @@ TEST_CASE("sparse merge: what the test of the pairs lets pass, the growth of the
     if (wrong) moved[21] += Vector3(0, 2, 0);  // not drawn
     const auto b = sparse(scene.other.ids, moved, 0.1);
     MergeOptions options;
-    options.gate_probability = 1.0;  // so that the plan looks at the drawn pairs alone
+    options.gate_probability = 1.0;  // so that only the drawn pairs are tested
     MergeReport report;
     const MergePlan plan = plan_merge(*a, *b, options, 10, report);
     CHECK(report.distance < 1e-9);
@@ -375,7 +375,7 @@ TEST_CASE("sparse merge: what the test of the pairs lets pass, the growth of the
       }
       CHECK(report.broken_id == scene.other.ids[21]);
       CHECK(report.rows == 84);
-      CHECK(report.distance > 180.0);  // 2 m at 0.14 m, less what the transform takes up
+      CHECK(report.distance > 180.0);  // 2 m at 0.14 m, less the part that the transform absorbs
       CHECK(report.distance < 200.0);
     }
     CHECK(a->size() == 34);

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An elimination tree that grows by random leaves, and its comparison with a dense inverse.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "map/join/elimination_leaves.hpp"
+#include "map/join/elimination_springs.hpp"
+#include "numerical.hpp"
+
+namespace cairn::test {
+
+template <class Pose>
+class Growth {
+ public:
+  explicit Growth(unsigned seed) : random_(seed) {}
+
+  Leaves<Pose> leaves;
+  EliminationTree<Pose> tree;
+  std::size_t refactored = 0;
+  Springs<Pose>* springs = nullptr;  // settled before each change, if given
+  double foreseen = 0.0;             // fall of the cost that the last relax() predicted
+
+  // Adds a leaf with its two bases, `known` landmarks of other leaves and `fresh` new landmarks. With
+  // `one_of_an_old_leaf`, the leaf also shares a landmark that only one older leaf had before.
+  void add(const Vector3& place, int known, int fresh, bool one_of_an_old_leaf) {
+    const auto number = static_cast<std::uint32_t>(leaves.blocks.size());
+    TreeChanges changes;
+    std::vector<Variable> variables{base_variable(number), base_variable(number + 1)};
+    const auto hold = [&](Variable v) {
+      if (std::find(variables.begin(), variables.end(), v) == variables.end()) variables.push_back(v);
+    };
+    for (int i = 0; i < known && landmarks_ > 0; ++i) hold(landmark_variable(below(landmarks_)));
+    for (int i = 0; i < fresh; ++i) hold(landmark_variable(landmarks_++));
+    if (one_of_an_old_leaf && number > 0) {
+      LeafBlock& old = leaves.blocks[below(number)];
+      const Variable v = landmark_variable(landmarks_++);
+      hold(v);
+      old.variables.push_back(v);
+      std::sort(old.variables.begin(), old.variables.end());
+      old.information = information(old.variables);
+      changes.leaves.push_back(old.key);
+    }
+    std::sort(variables.begin(), variables.end());
+    for (const Variable v : variables)
+      for (const LeafBlock& block : leaves.blocks)
+        if (std::binary_search(block.variables.begin(), block.variables.end(), v)) {
+          changes.variables.emplace_back(v, block.key);
+          break;
+        }
+    leaves.blocks.push_back({TreeKey(place, number), variables, information(variables)});
+    changes.leaves.push_back(leaves.blocks.back().key);
+    for (const Variable v : variables) tree.set_degree(v, leaves.degree(v));
+    tree.set_degree(base_variable(number + 1), 2);  // the next leaf begins there
+    std::vector<std::uint32_t> assembled;
+    if (springs != nullptr) {
+      tree.settle(changes, *springs);
+      for (const TreeKey& key : changes.leaves) springs->visited.push_back(key.leaf);
+      for (const auto& [v, key] : changes.variables) springs->visited.push_back(key.leaf);
+    }
+    REQUIRE(tree.update(leaves, changes, refactored, assembled));
+    CHECK(std::find(assembled.begin(), assembled.end(), number) != assembled.end());
+  }
+
+  // One step from all leaves that were evaluated or changed since the last step. Returns the number of visited leaves.
+  std::size_t relax() {
+    std::vector<TreeTouch> touches;
+    for (const std::uint32_t leaf : springs->visited) touches.push_back(tree.touch(leaves.blocks[leaf].key));
+    springs->visited.clear();
+    foreseen = tree.relax(touches, *springs);
+    return springs->visited.size();
+  }
+
+  Matrix information(const std::vector<Variable>& variables) {
+    const Index n = dimension<Pose>(variables);
+    Matrix J(n + 2, n);
+    for (Eigen::Index i = 0; i < J.size(); ++i) J.data()[i] = random_.normal();
+    Matrix all = J.transpose() * J + 0.1 * Matrix::Identity(n, n);
+    if (!leaves.relative || leaves.blocks.empty()) return all;
+    const Matrix shift = shifts<Pose>(variables);
+    const Matrix differences =
+        Matrix::Identity(n, n) - shift * shift.transpose() / static_cast<double>(variables.size());
+    return differences * all * differences;
+  }
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_.uniform(0, static_cast<double>(n))); }
+  Vector3 anywhere(double extent) {
+    return Vector3(random_.uniform(-extent, extent), random_.uniform(-extent, extent), random_.uniform(-2, 2));
+  }
+  Matrix columns(Eigen::Index n, Eigen::Index count) {
+    Matrix b(n, count);
+    for (Eigen::Index i = 0; i < b.size(); ++i) b.data()[i] = random_.normal();
+    return b;
+  }
+
+ private:
+  Random random_;
+  std::size_t landmarks_ = 0;
+};
+
+// Compares all answers of a tree with the dense inverse of its leaves.
+template <class Pose>
+void check_tree(const EliminationTree<Pose>& tree, const Leaves<Pose>& leaves, Growth<Pose>& growth) {
+  const Matrix inverse = leaves.inverse();
+  const auto states = leaves.states();
+  std::vector<TreeTouch> all;
+  std::vector<TreeKey> keys;
+  for (const LeafBlock& block : leaves.blocks) {
+    all.push_back(tree.touch(block.key));
+    keys.push_back(block.key);
+  }
+  const Matrix b = growth.columns(inverse.rows(), 3);
+  DenseColumns<Pose> whole(states, b, true);
+  tree.solve(all, 3, whole);
+  CHECK(difference(whole.solution_, inverse * b) <= 1e-9);
+  CHECK(whole.visited.size() == states.size());
+
+  // The columns of one variable, touched only where the variable was eliminated.
+  const LeafBlock& block = leaves.blocks[growth.below(leaves.blocks.size())];
+  const Variable v = block.variables[growth.below(block.variables.size())];
+  const Eigen::Index at = states.at(v), d = dimension<Pose>(v);
+  const Matrix unit = Matrix::Identity(inverse.rows(), inverse.rows()).middleCols(at, d);
+  DenseColumns<Pose> column(states, unit, true);
+  tree.solve({tree.touch(v, block.key)}, d, column);
+  CHECK(difference(column.solution_, inverse.middleCols(at, d)) <= 1e-9);
+  DenseColumns<Pose> path(states, unit, false);  // the variables that are visited in any case
+  tree.solve({tree.touch(v, block.key)}, d, path);
+  CHECK(path.visited.count(v) == 1);
+  for (const Variable u : path.visited)
+    CHECK(difference(path.solution_.middleRows(states.at(u), dimension<Pose>(u)),
+                     inverse.block(states.at(u), at, dimension<Pose>(u), d)) <= 1e-8);
+
+  Blocks<Pose> blocks;
+  tree.covariances(keys, blocks);
+  REQUIRE(blocks.of.size() == leaves.blocks.size());
+  for (std::uint32_t i = 0; i < leaves.blocks.size(); ++i) {
+    const std::vector<Eigen::Index> own = leaves.states_of(leaves.blocks[i]);
+    CHECK(difference(blocks.of.at(i), inverse(own, own)) <= 1e-9);
+  }
+  Blocks<Pose> alone;
+  tree.covariances({block.key}, alone);
+  REQUIRE(alone.of.size() == 1);
+  CHECK(alone.of.begin()->second == blocks.of.at(block.key.leaf));  // independent of the other requests
+
+  const Eigen::Index newest = states.at(base_variable(leaves.blocks.size()));
+  CHECK(difference(tree.last_covariance(), inverse.block<Pose::kDof, Pose::kDof>(newest, newest)) <= 1e-9);
+}
+
+}  // namespace cairn::test
