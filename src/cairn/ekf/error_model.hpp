@@ -36,15 +36,8 @@ class ErrorModel {
   // G(x). With the standard error a point has no arm: ask invariant() first.
   static Arm arm(const Point& x) { return Rotation::turn(x); }
 
-  // The pose whose own error against `pose` is `error`.
-  void retract(const Tangent& error, Pose& pose) const {
-    if (invariant()) {
-      pose = Pose::exp(error) * pose;
-    } else {
-      const typename Rotation::Tangent turn = error.template tail<kTurn>();
-      pose = Pose(Rotation::exp(turn) * pose.rotation(), pose.translation() + error.template head<kDim>());
-    }
-  }
+  // Moves `pose` to the pose whose own error against it is `error`.
+  void retract(const Tangent& error, Pose& pose) const;
 
   // The invariant retraction of a point: Exp(xi_R) x + J_l(xi_R) xi_x. `R` is the rotation Exp(xi_R) or its matrix, `V`
   // the translation Jacobian of xi_R.
@@ -56,11 +49,7 @@ class ErrorModel {
   // The retraction of points, for all points of one update: `turn` is the pose's xi_R.
   class PointRetraction {
    public:
-    PointRetraction(const ErrorModel& model, const typename Rotation::Tangent& turn) : invariant_(model.invariant()) {
-      if (!invariant_) return;
-      R_ = Rotation::exp(turn).matrix();
-      V_ = Rotation::translation_jacobian(turn);
-    }
+    PointRetraction(const ErrorModel& model, const typename Rotation::Tangent& turn);
     Point operator()(const Point& x, const Point& error) const {
       if (!invariant_) return x + error;
       return move_point(R_, V_, x, error);
@@ -131,5 +120,8 @@ class ErrorModel {
  private:
   ErrorKind kind_;
 };
+
+extern template class ErrorModel<SE2>;
+extern template class ErrorModel<SE3>;
 
 }  // namespace cairn
