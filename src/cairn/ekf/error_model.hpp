@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The error that a filter's covariance speaks of, and how it relates to the ordinary error [dp; dtheta]
-// (docs/invariant_error.md). The relation stands here and nowhere else.
+// The error that a filter's covariance describes, and its relation to the ordinary error [dp; dtheta]
+// (docs/invariant_error.md). This is the only file that contains the relation.
 //
 //   invariant  X = Exp(xi) X_hat on SE_{K+1}: R = Exp(xi_R) R_hat, x = Exp(xi_R) x_hat + J_l(xi_R) xi_x for the
 //              vehicle's position and for every landmark x. Propagation is the identity.
@@ -36,7 +36,7 @@ class ErrorModel {
   // G(x). With the standard error a point has no arm: ask invariant() first.
   static Arm arm(const Point& x) { return Rotation::turn(x); }
 
-  // The pose whose own error against `pose` is `error`.
+  // The pose whose error (of this model) against `pose` is `error`.
   void retract(const Tangent& error, Pose& pose) const {
     if (invariant()) {
       pose = Pose::exp(error) * pose;
@@ -87,7 +87,7 @@ class ErrorModel {
     return J * ordinary * J.transpose();
   }
 
-  // The columns of xi_R of a Jacobian's rows, for rows that depend on the point x by J_point: block(:, R) += J_point
+  // The columns of xi_R in a Jacobian, for rows that depend on the point x through J_point: block(:, R) += J_point
   // G(x). `block` is column-major, `rows` rows a column, its first column that of xi_p.
   template <class JPoint>
   void add_turn(Index rows, const JPoint& J_point, const Point& x, double* block) const {

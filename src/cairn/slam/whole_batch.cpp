@@ -124,7 +124,7 @@ void WholeBatchUpdate<Pose>::rows(const LinearRows& linear) {
 template <class Pose>
 void WholeBatchUpdate<Pose>::merge(std::uint64_t id, std::uint64_t other) {
   using Square = Eigen::Matrix<double, kDim, kDim>;
-  constexpr double kExact = 1e-6;  // of the smaller variance
+  constexpr double kExact = 1e-6;  // fraction of the smaller variance
   if (id == other) throw Error(ErrorCode::argument, "id: a landmark cannot be merged with itself");
   if (options_.max_observations < 2)
     throw Error(ErrorCode::capacity, "id: merging looks at two landmarks at once, and max_observations is 1");

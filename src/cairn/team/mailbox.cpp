@@ -30,7 +30,7 @@ Member* Mailbox::find(std::uint64_t vehicle) {
   return nullptr;
 }
 
-// A former member's entry stays where it is until the member leaves once more, so that undo_add() loses nothing.
+// A former member's entry is kept until the member leaves once more, so that undo_add() loses nothing.
 void Mailbox::add(std::uint64_t vehicle) {
   if (vehicle == kNoId) throw Error(ErrorCode::argument, "vehicle: CAIRN_ID_NONE is no vehicle's number");
   if (find(vehicle) != nullptr)
@@ -93,7 +93,7 @@ void Mailbox::observe(double time, std::vector<Observation> landmarks, std::vect
   packet.vehicle = options_.vehicle;
   packet.number = own().end();
   packet.time = time;
-  packet.motions = pending_;  // which stay where sending fails
+  packet.motions = pending_;  // which are kept if sending fails
   packet.landmarks = std::move(landmarks);
   packet.vehicles = std::move(vehicles);
   send(packet);
@@ -122,7 +122,7 @@ void Mailbox::send(const Packet& packet) {
   outgoing_.push_back(std::move(bytes));
 }
 
-// For the packets of a gap, and for those that a silent teammate may have sent since its last one.
+// Requests the packets of a gap, and those that a silent teammate may have sent since its last one.
 void Mailbox::ask() {
   if (!options_.listens) return;
   for (const Member& member : members_) {
@@ -234,7 +234,7 @@ Mailbox::Readiness Mailbox::readiness(Member& member) {
   if (is_own(member)) return Readiness::idle;
   if (member.has_gap())
     return newest_ - member.first().time > options_.max_lag ? Readiness::overdue_gap : Readiness::awaited;
-  // Silent. Only an own step that waits has to wait for it, and not for ever.
+  // The member is silent. Only a waiting step of this vehicle has to wait for it, and only for max_lag.
   if (own().empty()) return Readiness::idle;
   const double since = member.silent_since(own().first().time);
   return newest_ - since > options_.max_lag ? Readiness::idle : Readiness::awaited;
@@ -262,7 +262,7 @@ bool Mailbox::next_turn(std::vector<Packet>& packets) {
   }
   if (earliest == std::numeric_limits<double>::infinity()) return false;
   // A teammate that is ahead waits for this vehicle's step, just as this vehicle's step waits for the teammate at every
-  // other vehicle: otherwise each vehicle would take the packets in an order of its own.
+  // other vehicle: otherwise the vehicles would take the packets in different orders.
   const bool looked = own().started() || !own().empty();
   if (options_.listens && !left_ && !(looked && earliest <= newest_ + options_.time_tolerance)) return false;
 
@@ -271,7 +271,7 @@ bool Mailbox::next_turn(std::vector<Packet>& packets) {
     if (member.ready() && !(member.first().time > earliest + options_.time_tolerance)) turns.push_back(&member);
   std::sort(turns.begin(), turns.end(), [](const Member* a, const Member* b) { return a->id() < b->id(); });
   packets.reserve(turns.size());
-  for (Member* member : turns) {  // consumed, whatever becomes of the packet
+  for (Member* member : turns) {  // consumed, even if the packet is refused
     Packet packet = member->consume();
     if (!is_own(*member)) ++counts_.taken;
     if (packet.kind != PacketKind::leave) packets.push_back(std::move(packet));

@@ -12,7 +12,7 @@
 
 namespace cairn {
 
-// What became of a packet that arrived.
+// The outcome of a packet that arrived.
 enum class Arrival { taken, waiting, request, leave, repeated, own, unknown, past, conflict, ignored, full, refused };
 
 class Member {
@@ -36,7 +36,7 @@ class Member {
   std::uint64_t gap() const { return waiting_.begin()->first - next_; }  // number of packets that are missing
 
   // Sorts a packet in that arrived; `waiting`, or the reason against it. `late`: a packet with a higher number was
-  // first.
+  // consumed before.
   Arrival insert(Packet&& packet, std::size_t capacity, bool& late);
   // Adds this vehicle's newest packet, which has the number end().
   void append(Packet&& packet);
@@ -45,7 +45,8 @@ class Member {
   // Gives up the packets that are missing before the first one that waits.
   void skip_gap();
 
-  // Time since which a vehicle is waited for: of its last packet, or of this vehicle's step `now` of the first call.
+  // The time since when this vehicle waits for the member: the time of the member's last packet or, if it sent none,
+  // `now` of the first call.
   double silent_since(double now);
 
   // --- membership ---
@@ -61,7 +62,7 @@ class Member {
   bool started_ = false;
   bool left_ = false;
   double time_ = 0.0;
-  std::optional<double> waited_from_;  // where nothing ever arrived: time of this vehicle's step that waited first
+  std::optional<double> waited_from_;         // if nothing ever arrived: time of this vehicle's step that waited first
   std::map<std::uint64_t, Packet> waiting_;   // by number; none below next_
   std::deque<std::uint32_t> last_checksums_;  // of the packets that were consumed last
 };
