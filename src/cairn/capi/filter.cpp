@@ -35,7 +35,8 @@ SE2 read_pose_of<SE2>(const cairn_pose* pose, const char* name) {
   constexpr double kLevel = 1e-9;  // m, rad: allows for rounding in the caller's conversions
   const SE3 T = read_pose(pose, name);
   if (std::abs(T.translation().z()) > kLevel || T.rotation().quaternion().vec().head<2>().norm() > 0.5 * kLevel)
-    throw Error(ErrorCode::argument, "%s lies outside of the plane: z must be 0, and the turn about z alone", name);
+    throw Error(ErrorCode::argument, "%s lies outside of the plane: z must be 0, and the rotation must be about z only",
+                name);
   return Embedding<SE2>::down(T);
 }
 

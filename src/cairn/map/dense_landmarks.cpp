@@ -16,7 +16,7 @@ Index at(std::size_t i) {
   return 3 * static_cast<Index>(i);
 }
 
-// Blocks of a covariance, each turned by R on both sides where one is given.
+// Blocks of a covariance; if R is given, each is turned by R on both sides.
 Matrix blocks(const Matrix& from, const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns,
               const Matrix3* R = nullptr) {
   Matrix out(at(rows.size()), at(columns.size()));
@@ -46,11 +46,11 @@ DenseLandmarks::DenseLandmarks(const Landmarks& source) : planar_(source.planar(
 
 // The errors e_a, e_b and those of the transform, tau, obey e_a,K - R e_b,K - G tau = -r for the common landmarks K,
 // where r = a_K - T b_K and G = [I, -hat(R b)]. With S = Cov(e_a,K - R e_b,K), V = S^-1 G and C = Cov(tau), and the
-// states x = [a; T b of those that only the other holds, F]:
+// states x = [a; T b of the landmarks F that only the other map holds]:
 //   x_hat += X S^-1 r    with X = [-P_a,K; R P_b,FK R^T]
 //   P      = blkdiag(P_a, R P_b,FF R^T) - X S^-1 X^T + Q C Q^T    with Q = [P_a,K V; G_F - R P_b,FK R^T V]
-// T is where the distance is least, so that G^T S^-1 r = 0 without a prior, and with one what is left of it is the
-// prior's share: nothing needs to be moved twice. docs/map_merging.md.
+// T minimises the distance. Without a prior, G^T S^-1 r = 0; with a prior, the rest of it is the prior's share: no
+// landmark needs a second correction. docs/map_merging.md.
 DenseLandmarks::DenseLandmarks(const DenseLandmarks& map, const DenseLandmarks& other, const MergePlan& plan)
     : ids_(map.ids_), counts_(map.counts_), positions_(map.positions_), slots_(map.slots_) {
   const SE3& T = plan.alignment.T_a_b;
@@ -89,14 +89,14 @@ DenseLandmarks::DenseLandmarks(const DenseLandmarks& map, const DenseLandmarks& 
   const Eigen::VectorXd correction = X * lambda, other_correction = of_other * lambda;
   for (std::size_t i = 0; i < positions_.size(); ++i) positions_[i] += correction.segment<3>(at(i));
 
-  // Turns are counted about the common landmarks' centre: far from the frame's origin dp and dtheta would be all but
-  // the same, and cancel.
+  // Turns are about the common landmarks' centre: far from the frame's origin the effects of dp and dtheta would be
+  // nearly equal, and cancel.
   Vector3 centre = Vector3::Zero();
   for (const std::size_t j : in_other) centre += R * other.positions_[j] / static_cast<double>(k);
   Matrix6 to_centre = Matrix6::Identity();
   to_centre.topRightCorner<3, 3>() = -hat(centre);
   const Matrix6 C = to_centre * plan.alignment.covariance * to_centre.transpose();
-  const auto by_transform = [&](const Vector3& x) {  // of a point that stands at x in the frame of `map`
+  const auto by_transform = [&](const Vector3& x) {  // of a point at x in the frame of `map`
     Matrix36 G;
     G << Matrix3::Identity(), -hat(Vector3(x - T.translation() - centre));
     return G;

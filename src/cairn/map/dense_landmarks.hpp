@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Landmarks that no filter changes any more: positions and their joint covariance.
+// Landmarks that no filter changes any longer: positions and their joint covariance.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ namespace cairn {
 class DenseLandmarks final : public Landmarks {
  public:
   explicit DenseLandmarks(const Landmarks& source);
-  // Merges two maps of space, in the frame of `map`: the estimate and its covariance, given both.
+  // Merges two maps of space, in the frame of `map`: computes the estimate and its covariance from those of both maps.
   DenseLandmarks(const DenseLandmarks& map, const DenseLandmarks& other, const MergePlan& plan);
 
   std::size_t size() const override { return ids_.size(); }

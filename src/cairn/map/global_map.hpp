@@ -14,7 +14,7 @@ namespace cairn {
 struct JoinReport {
   std::size_t fused = 0, fresh = 0, refused = 0;
   std::size_t relinearised = 0, refactored = 0;
-  std::size_t carried = 0;  // sparse: submaps that moved along with others, unvisited; summed over the solutions
+  std::size_t carried = 0;  // sparse: submaps that were carried along rigidly, unvisited; summed over the solutions
   int iterations = 0;
   std::size_t rows = 0;  // of the joint test of the fused landmarks
   double distance = 0.0, threshold = 0.0;
@@ -36,11 +36,11 @@ struct MapOptions {
   double iteration_tolerance = 0.1;
   double gate_probability = 0.99;  // of a single fused landmark
   double joint_gate_probability = 0.9999;
-  double step_tolerance = 1e-2;         // sparse: steps below so many standard deviations are not taken
-  double convergence_tolerance = 1e-2;  // sparse: and below so many are not followed by another
-  double cost_tolerance = 1e-3;         // sparse: nor where the cost falls by less
-  int most_iterations = 6;         // sparse: linear solutions of a closing; more where the joint test asks for them
-  std::size_t max_companions = 0;  // dense: other vehicles whose submaps join it too
+  double step_tolerance = 1e-2;         // sparse: smaller steps are not taken, standard deviations
+  double convergence_tolerance = 1e-2;  // sparse: no further step follows a smaller one, standard deviations
+  double cost_tolerance = 1e-3;         // sparse: no further step follows if the cost falls by less
+  int most_iterations = 6;              // sparse: linear solutions of a closing; more if the joint test needs them
+  std::size_t max_companions = 0;       // dense: other vehicles whose submaps join it too
   Pose initial_pose;
   typename Pose::Square initial_covariance = Pose::Square::Zero();  // ordinary
 };
@@ -80,10 +80,10 @@ class GlobalMap : public Landmarks {
   }
   virtual void remove(std::uint64_t id) = 0;
 
-  // Where the next submap begins.
+  // The pose at which the next submap begins.
   virtual Pose base() const = 0;
   virtual typename Pose::Square base_covariance() const = 0;  // of [dp; dtheta]
-  // Of [base; landmarks], ordinary errors, kDof + kDim count on a side, both triangles.
+  // Covariance of [base; landmarks], ordinary errors, kDof + kDim count on a side, both triangles.
   virtual void base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const = 0;
 
   virtual std::size_t submap_count() const = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interface of everything that holds landmarks: filters and maps; and the queries that need nothing else.
+// The interface of everything that holds landmarks: filters and maps. It also has the queries that need only this
+// interface.
 #pragma once
 
 #include <cstddef>
@@ -13,35 +14,37 @@ namespace cairn {
 
 class SpatialIndex;
 
-// How a map holds its landmarks: with their joint covariance, or as a sparse system of submaps.
+// How a map stores its landmarks: with their joint covariance, or as a sparse system of submaps.
 enum class MapKind { dense, sparse };
 
 class Landmarks {
  public:
   virtual ~Landmarks() = default;
   virtual std::size_t size() const = 0;
-  // `index` counts from 0 to size() - 1 and holds until the map changes.
+  // `index` counts from 0 to size() - 1 and is valid until the map changes.
   virtual std::uint64_t id(std::size_t index) const = 0;
   virtual std::uint64_t observations(std::size_t index) const = 0;
   virtual Vector3 position(std::size_t index) const = 0;
   virtual Matrix3 covariance(std::size_t index) const = 0;
-  // The index of an id; false where there is none.
+  // The index of an id; returns false if there is none.
   virtual bool find(std::uint64_t id, std::size_t& index) const = 0;
   // Joint covariance of `count` positions, 3 count x 3 count.
   virtual void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const = 0;
-  // Announces that the covariances of these will be asked for: a map computes them together where that is cheaper.
+  // Announces that the covariances of these landmarks will be requested, so that the map can compute them together if
+  // that is cheaper.
   virtual void prepare_covariances(const std::vector<std::size_t>&) const {}
-  // An index of the positions, by landmark index. Null where queries look at all landmarks.
+  // An index of the positions, by landmark index. Null if queries look at all landmarks.
   virtual const SpatialIndex* spatial_index() const { return nullptr; }
   // Whether all landmarks are points of the plane: z = 0, with no covariance in z.
   virtual bool planar() const { return false; }
   virtual MapKind kind() const { return MapKind::dense; }
-  // A map of its own with these landmarks: the same map where it can be copied whole (SparseMap), else DenseLandmarks.
+  // An independent copy with these landmarks: a full copy if the map can be copied as a whole (SparseMap), else
+  // DenseLandmarks.
   virtual std::unique_ptr<Landmarks> copy() const;
 };
 
-// Convert a joint covariance of a pose and `count` landmarks, kDof + kDim count on a side: to that in space, 6 + 3
-// count on a side; and to the landmarks' part of that.
+// Convert a joint covariance of a pose and `count` landmarks, kDof + kDim count on a side: to the spatial covariance, 6
+// + 3 count on a side; and to the landmarks' part of the spatial covariance.
 template <class Pose>
 void with_pose(const double* joint, std::size_t count, double* matrix);
 template <class Pose>
@@ -49,11 +52,11 @@ void without_pose(const double* joint, std::size_t count, double* matrix);
 
 // Indices of all landmarks by ascending id.
 std::vector<std::size_t> all_by_id(const Landmarks& map);
-// Indices of those within `radius` of `centre`, nearest first, ties by id.
+// Indices of the landmarks within `radius` of `centre`, nearest first, ties by id.
 std::vector<std::size_t> within(const Landmarks& map, const Vector3& centre, double radius);
 // Indices of the `count` nearest, nearest first, ties by id.
 std::vector<std::size_t> nearest(const Landmarks& map, const Vector3& point, std::size_t count);
-// Indices of those in a closed box, by ascending id.
+// Indices of the landmarks in a closed box, by ascending id.
 std::vector<std::size_t> in_box(const Landmarks& map, const Vector3& lower, const Vector3& upper);
 
 }  // namespace cairn

@@ -14,7 +14,7 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kNearest = 12;  // of the map's landmarks that one of the submap is compared with
+constexpr std::size_t kNearest = 12;  // number of the map's landmarks that one landmark of the submap is compared with
 
 template <class Pose>
 class Naming final : public Innovations {
@@ -59,7 +59,7 @@ class Naming final : public Innovations {
     }
     return chosen;
   }
-  // Whether a landmark without a pair is far enough from all that the map knows.
+  // Whether a landmark without a pair is far enough from all landmarks of the map.
   bool fresh(std::size_t i) const { return nearest_[i] > new_; }
 
   Index rows() const override { return kDim; }
@@ -87,7 +87,7 @@ class Naming final : public Innovations {
     Prediction<Pose> prediction;  // as a point seen from the base
   };
 
-  // Three values, as class Doubt takes them: in the plane the last one is zero.
+  // Three values, because class Doubt needs three: in the plane the last one is zero.
   Vector3 seen(std::size_t i) const { return Space::up(submap_.landmarks[i]); }
   Vector3 residual(const PairCandidate& pair) const {
     return seen(static_cast<std::size_t>(pair.observation)) - known_[pair.landmark].prediction.z;
@@ -100,8 +100,9 @@ class Naming final : public Innovations {
     return image_covariance(P_, known_[k].prediction, k, known_[l].prediction, l);
   }
 
-  // Finds the map's landmarks that those of the submap may be, and their joint covariance with the base. As a rule the
-  // map's landmarks are no less certain than the base: the search radius counts the base's uncertainty for both.
+  // Finds the map's landmarks with which the submap's landmarks may be paired, and their joint covariance with the
+  // base. The map's landmarks are usually at least as certain as the base: the search radius uses the base's
+  // uncertainty for both.
   void find_known() {
     const Pose T = map_.base();
     const typename Pose::Square P = map_.base_covariance();

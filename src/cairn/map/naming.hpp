@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Association of a submap's landmarks with the map's, where observations bring no ids (docs/association.md).
+// Association of a submap's landmarks with the map's, for observations without ids (docs/association.md).
 #pragma once
 
 #include "map/global_map.hpp"
@@ -19,9 +19,9 @@ struct NamingReport {
   bool exhausted = false;
 };
 
-// A landmark of the submap that is paired with one of the map's gets its id. One without a pair that is near a landmark
-// of the map is ambiguous, and is removed from the submap. All others keep their ids, which the map must not hold. The
-// submap began at the map's base.
+// A landmark of the submap that is paired with a landmark of the map gets the id of that landmark. A landmark without a
+// pair is ambiguous if it is near a landmark of the map, and is removed from the submap. All others keep their ids,
+// which the map must not hold. The submap began at the map's base.
 template <class Pose>
 NamingReport name_landmarks(const GlobalMap<Pose>& map, const NamingOptions& options, Submap<Pose>& submap);
 

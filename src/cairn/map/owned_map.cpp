@@ -12,7 +12,8 @@
 namespace cairn {
 namespace {
 
-// Common landmarks whose joint covariance a sparse map is asked for: it does not hold it, and the test takes k^3.
+// The largest number of common landmarks whose joint covariance a sparse map computes: the map does not store this
+// covariance, and the test costs O(k^3).
 constexpr std::size_t kSparseJointAtMost = 300;
 
 bool sparse(const Landmarks& map) {
@@ -52,7 +53,7 @@ OwnedMap::OwnedMap(const OwnedMap& map, const Landmarks& other, const std::vecto
     landmarks = std::move(both);
     return;
   }
-  // copy() makes DenseLandmarks of all that is dense.
+  // copy() turns every dense map into DenseLandmarks.
   landmarks = std::make_unique<DenseLandmarks>(static_cast<const DenseLandmarks&>(own), DenseLandmarks(other), plan);
 }
 

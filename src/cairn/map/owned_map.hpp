@@ -12,8 +12,8 @@ namespace cairn {
 struct OwnedMap {
   // Copies the landmarks; `origins` are the filters that made them.
   OwnedMap(const Landmarks& source, std::vector<std::uint64_t> origins_of_source);
-  // Merges two maps, in the frame of `map`. Throws where they do not merge, which maps of the plane never do; `report`
-  // then tells how far it got.
+  // Merges two maps, in the frame of `map`. Throws if they cannot be merged; planar maps never can. `report` then
+  // contains the results up to the failure.
   OwnedMap(const OwnedMap& map, const Landmarks& other, const std::vector<std::uint64_t>& origins_of_other,
            const MergeOptions& options, MergeReport& report);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trees of doubling sizes (Bentley and Saxe 1980): a batch becomes a tree, which swallows those that are not much
-// larger. A point is copied into O(log n) trees before it rests. A tree remembers where its points stood when it was
-// built, and how far any of them has moved since: queries reach that much farther and judge by where the points are
-// now. Who moves too far leaves the tree.
+// Trees of doubling sizes (Bentley and Saxe 1980): a batch becomes a tree, which takes over the points of trees that
+// are not much larger. A point is copied into O(log n) trees over time. A tree stores the positions of its points when
+// it was built, and the largest distance that any of them has moved since. Queries extend their radius by this distance
+// and then test the current positions. A point that moves too far leaves the tree.
 #include "map/spatial_index.hpp"
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kMaxLoose = 48;  // as many are scanned in a fraction of the time that a tree takes
+constexpr std::size_t kMaxLoose = 48;  // scanning so few is much faster than a tree
 constexpr std::size_t kLeaf = 12;      // points
-constexpr double kSlack = 0.25;        // of the mean spacing: how far a point may stray in its tree
+constexpr double kSlack = 0.25;        // of the mean spacing: how far a point may move in its tree
 
-// Square of a bound that must not be missed by rounding. `<` is what it is compared by, so it is never zero.
+// Square of a bound, enlarged against rounding. Distances are compared with it by `<`, so it is never zero.
 double search_bound(double radius) {
   const double reach = radius * (1 + 1e-9);
   return std::max(reach * reach, DBL_MIN);
@@ -53,9 +53,9 @@ struct SpatialIndex::Tree {
 
   std::uint32_t number;
   std::vector<std::uint32_t> indices;  // of the entries
-  std::vector<Vector3> points;         // where they stood
+  std::vector<Vector3> points;         // positions when the tree was built
   std::size_t live;                    // entries that have not left
-  double slack = 0, margin = 0;        // how far entries may stray, how far they did
+  double slack = 0, margin = 0;        // how far entries may move, how far they have moved
   Vector3 lower, upper;
   std::unique_ptr<KdTree> kd;
 
@@ -77,7 +77,7 @@ struct SpatialIndex::Tree {
 
   bool wasteful() const { return 2 * live < indices.size(); }
 
-  // What nanoflann asks for.
+  // The interface that nanoflann requires.
   std::size_t kdtree_get_point_count() const { return points.size(); }
   double kdtree_get_pt(std::size_t entry, std::size_t axis) const {
     return points[entry][static_cast<Eigen::Index>(axis)];
@@ -163,11 +163,11 @@ void SpatialIndex::moved_all() {
 }
 
 SpatialIndex::Tree& SpatialIndex::tree(std::uint32_t number) const {
-  // A logarithm of the number of points, the largest first.
+  // O(log n) trees for n points, the largest first.
   return **std::find_if(trees_.begin(), trees_.end(), [&](const auto& tree) { return tree->number == number; });
 }
 
-// Takes a point out of where it is found; its place is the caller's to fill.
+// Removes a point from its tree or list; the caller then sets its new place.
 void SpatialIndex::leave(std::size_t index) const {
   const Place place = places_[index];
   if (place.tree == kLoose) {
@@ -200,7 +200,7 @@ void SpatialIndex::look_at_all() const {
     if (places_[i].tree != kNowhere) follow(i);
 }
 
-// Nothing changes before the new tree stands.
+// Nothing changes before the new tree is complete.
 void SpatialIndex::rebuild() const {
   std::vector<std::uint32_t> members = loose_;
   std::vector<bool> swallowed(trees_.size(), false);
@@ -299,7 +299,8 @@ void SpatialIndex::in_box(const Vector3& lower, const Vector3& upper, std::vecto
   for (std::uint32_t index : loose_) take(index);
   std::vector<Box> boxes;
   for (const auto& tree : trees_) {
-    // The part of the box where the tree has points, in pieces that a ball about them does not exceed by much.
+    // The part of the box where the tree has points, cut into pieces that are not much smaller than the balls around
+    // them.
     const Vector3 margin = Vector3::Constant(tree->margin);
     boxes.push_back({lower.cwiseMax(tree->lower - margin), upper.cwiseMin(tree->upper + margin), 0});
     while (!boxes.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which points are near: k-d trees (nanoflann) over points that come in batches, move a little, and go.
+// Finds near points: k-d trees (nanoflann) over points that are added in batches, move a little, and are removed.
 #pragma once
 
 #include <atomic>
@@ -14,17 +14,18 @@
 
 namespace cairn {
 
-// The points live with the owner, who tells of every change; what a query returns holds for where they are now. Trees
-// are built by the first query that needs them. Queries may run side by side; a change may run beside nothing.
+// The owner stores the points and reports every change. Queries use the current positions. The first query that needs a
+// tree builds it. Queries may run at the same time; a change must not run at the same time as any other call.
 class SpatialIndex {
  public:
-  // Where the point of an index is now; finite. Queries call it, from any thread.
+  // The current position of the point of an index; finite. Queries call it, from any thread.
   using Position = std::function<Vector3(std::size_t)>;
   struct Hit {
     double distance;
     std::size_t index;
   };
-  // As queries measure: compiled once, for where sums of products are fused the last bit depends on who inlines them.
+  // The distance that queries compare. It is compiled once: with fused multiply-adds the last bit depends on the
+  // function into which it is inlined.
   static double distance(const Vector3& a, const Vector3& b);
 
   explicit SpatialIndex(Position position);
@@ -35,7 +36,7 @@ class SpatialIndex {
   std::size_t size() const { return size_; }
   bool contains(std::size_t index) const { return index < places_.size() && places_[index].tree != kNowhere; }
 
-  // Adding one that is there, and removing one that isn't, does no harm. An index may be used again.
+  // Adding an index that is present and removing one that is absent have no effect. An index may be used again.
   void add(std::size_t index);
   void remove(std::size_t index);
   void clear();
@@ -43,12 +44,12 @@ class SpatialIndex {
   void moved(std::size_t index);
   void moved_all();
 
-  // All with distance <= radius, nearest first, ties by index.
+  // All points with distance <= radius, nearest first, ties by index.
   void within(const Vector3& centre, double radius, std::vector<Hit>& hits) const;
-  // The `count` nearest and whoever is as far as the last of them, nearest first, ties by index: who breaks ties by
-  // something else sorts and cuts.
+  // The `count` nearest points and all points at the distance of the last one, nearest first, ties by index. A caller
+  // that breaks ties by something else sorts and cuts the result.
   void nearest(const Vector3& point, std::size_t count, std::vector<Hit>& hits) const;
-  // All in the closed box, by index; sides may be infinite.
+  // All points in the closed box, by index; sides may be infinite.
   void in_box(const Vector3& lower, const Vector3& upper, std::vector<std::size_t>& indices) const;
 
   std::size_t memory_bytes() const;  // about
@@ -56,7 +57,7 @@ class SpatialIndex {
  private:
   struct Tree;
   struct Nearest;
-  // Where a point is found: in the tree of this number, or, by a scan, in the list of loose points.
+  // The place of a point: in the tree of this number, or in the list of loose points, which is scanned.
   struct Place {
     std::uint32_t tree, entry;
   };
@@ -73,7 +74,7 @@ class SpatialIndex {
 
   Position position_;
   std::size_t size_ = 0;
-  // Below: what a query may bring up to date.
+  // A query may update the members below.
   mutable std::mutex mutex_;
   mutable std::atomic<bool> outdated_{false};
   mutable bool all_moved_ = false;

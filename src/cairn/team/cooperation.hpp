@@ -59,7 +59,7 @@ class Cooperation {
   const Packet* own_packet(const std::vector<Packet>& packets) const;  // null where there is none
   // Moves the filter's vehicle by the motions of the packet.
   void move(Filter<SE2>& filter, const Packet& packet);
-  // Updates the filter by a scan; the matches of an own one are kept.
+  // Updates the filter by a scan; the matches of an own scan are kept.
   void scan(VehicleFilter& filter, int sensor, const std::vector<Observation>& landmarks,
             const std::vector<Observation>& vehicles, bool own);
   // Moves and scans with this vehicle's radar.

@@ -81,8 +81,8 @@ class Mailbox {
   const MailCounts& counts() const { return counts_; }
 
  private:
-  // What the other packets have to do about a member: take its next packet, ignore the member, wait for it, or stop
-  // waiting because a gap is overdue.
+  // The state of a member for the next turn: its next packet can be taken, the turn does not need the member, the turn
+  // waits for the member, or the member's gap is overdue.
   enum class Readiness { ready, idle, awaited, overdue_gap };
 
   Member* find(std::uint64_t vehicle);

@@ -35,8 +35,8 @@ class Member {
   bool has_gap() const { return !waiting_.empty() && !ready(); }
   std::uint64_t gap() const { return waiting_.begin()->first - next_; }  // number of packets that are missing
 
-  // Sorts a packet in that arrived; `waiting`, or the reason against it. `late`: a packet with a higher number was
-  // consumed before.
+  // Sorts a packet in that arrived; `waiting`, or the reason against it. `late`: a packet with a higher number already
+  // waits.
   Arrival insert(Packet&& packet, std::size_t capacity, bool& late);
   // Adds this vehicle's newest packet, which has the number end().
   void append(Packet&& packet);

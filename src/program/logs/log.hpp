@@ -15,7 +15,7 @@
 
 namespace cairn::program::logs {
 
-// A file that is no log, or a broken one. The message is one line: file, line or variable, cause.
+// The file is no log, or the log is broken. The message is one line: file, line or variable, cause.
 class LogError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
