@@ -25,7 +25,7 @@ class Filter {
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
   static std::size_t arena_bytes(const FilterOptions<Pose>& options);     // of the arena that the constructor wants
-  static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of all that the filter takes
+  static std::size_t required_bytes(const FilterOptions<Pose>& options);  // // of all memory that the filter needs
   // The vehicle's submaps join this map instead of one of the filter's own: for teams. Before the first motion.
   void use_map(std::unique_ptr<GlobalMap<Pose>> map) { submaps_.use_map(std::move(map)); }
   const FilterOptions<Pose>& options() const { return options_; }

@@ -27,7 +27,7 @@ class TreeSystem {
   virtual ~TreeSystem() = default;
   // Adds to the right-hand side of a variable, dimension<Pose>(v) x columns.
   virtual void right_hand_side(Variable v, double* b, Index ld) const = 0;
-  // Receives the solution of a variable. False: whatever depends on this variable only needs no visit.
+  // Receives the solution of a variable. False: everything that depends only on this variable needs no visit.
   virtual bool solution(Variable v, const double* x, Index ld) = 0;
 };
 
@@ -48,7 +48,8 @@ class TreeRelaxation : public TreeSystem {
   virtual RigidMotion<Pose> take_rigid(const std::vector<Variable>& variables, Eigen::VectorXd& motion) const = 0;
   // A variable follows a rigid motion.
   virtual void carry(Variable v, const RigidMotion<Pose>& motion) = 0;
-  // All of the leaf's variables follow it, or rest; so must everything that depends on the leaf only.
+  // All of the leaf's variables follow the motion or are kept; the same must hold for everything that depends only on
+  // the leaf.
   virtual void carry_leaf(std::uint32_t leaf, const RigidMotion<Pose>& motion) = 0;
   // All of the leaf's variables stand at their new values now.
   virtual void visit(std::uint32_t leaf) = 0;
