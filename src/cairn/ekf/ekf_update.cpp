@@ -149,7 +149,7 @@ void EkfUpdate<Pose>::keep(const Index* blocks, Index count, Index rows) {
 template <class Pose>
 InverseInnovation EkfUpdate<Pose>::invert() {
   require(stage_ == Stage::linearised || stage_ == Stage::factored, "invert");
-  form_innovation();  // a factor may stand where S was
+  form_innovation();  // S may be overwritten by its factor
   const Index m = batch().rows();
   double* const L = workspace_.scratch;
   for (Index j = 0; j < m; ++j) std::copy(workspace_.S + j * m + j, workspace_.S + (j + 1) * m, L + j * m + j);

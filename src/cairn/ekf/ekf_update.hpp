@@ -68,15 +68,15 @@ class EkfUpdate {
   void add_mount_block(Index row, Index rows, const JMount& J_mount);
 
   // --- gates ---
-  // Squared Mahalanobis distance of one block of `rows` rows by itself. Throws where its S is not positive definite.
+  // Squared Mahalanobis distance of one block of `rows` rows by itself. Throws if its S is not positive definite.
   double distance(Index block, Index rows) const;
   // Keeps only these blocks of `rows` rows, in rising order, and their S; the window stays.
   void keep(const Index* blocks, Index count, Index rows);
   void form_innovation();      // S once more, from the current H P
-  InverseInnovation invert();  // of the current S; throws where it is not positive definite
+  InverseInnovation invert();  // of the current S; throws if it is not positive definite
   Index* kept() { return workspace_.kept; }
   bool* refused() { return workspace_.refused; }
-  // S = L L^T, and nis(). Throws where S is not positive definite.
+  // S = L L^T, and nis(). Throws if S is not positive definite.
   void factor() {
     if (!try_factor()) throw_not_definite();
   }
@@ -105,14 +105,14 @@ class EkfUpdate {
   void step();                                  // iterate <- estimate retracted by that error
   double misfit(const double* residual) const;  // misfit of the linear model at the iterate, sigmas
 
-  // --- commit --- P and every variable. Throws, with nothing changed, where a variance of P would not stay positive or
+  // --- commit --- P and every variable. Throws, with nothing changed, if a variance of P would not stay positive or
   // a value not finite. This check costs O(n m) and finds most updates after which P is not definite;
   // State::smallest_pivot() is a full test.
   void commit() {
     if (!try_commit()) throw_not_definite();
   }
 
-  // --- place --- after the commit, or where the batch is empty: appends a new landmark that depends on the pose, on
+  // --- place --- after the commit, or if the batch is empty: appends a new landmark that depends on the pose, on
   // the window's mount (J_mount may be null) and on independent noise. Returns false, with nothing changed, if a result
   // is not finite. The caller checks the capacity.
   bool place(const Point& position, const PointByPose& J_pose, const PointByMount* J_mount, const PointSquare& noise,

@@ -26,7 +26,7 @@ class PendingMotion {
   PendingMotion(Arena& arena, const ErrorModel<Pose>& model, Index ld);
 
   void clear();
-  // Motion from `before` to `next`. False, with nothing changed, where a result is not finite.
+  // Motion from `before` to `next`. Returns false, with nothing changed, if a result is not finite.
   bool add(const Pose& before, const Pose& next, const Increment<Pose>& increment);
 
   bool any() const { return any_; }

@@ -52,10 +52,10 @@ class State {
   Index states() const { return layout_.states(); }
   Point landmark(Index slot) const { return local(slot) + origin_; }
 
-  // --- propagate --- O(1). False, with nothing changed, where a result is not finite.
+  // --- propagate --- O(1). Returns false, with nothing changed, if a result is not finite.
   bool propagate(const Increment<Pose>& increment);
 
-  // --- update --- of the pose, of a mount where `mount_noise` is given, and of the chosen points; O(states window).
+  // --- update --- of the pose, of a mount if `mount_noise` is given, and of the chosen points; O(states window).
   struct Window {
     const Index* slots = nullptr;
     Index count = 0;
@@ -74,7 +74,7 @@ class State {
   PointSquare relative_covariance(Index slot) const;
   Square pose_covariance() const;  // ordinary
   PointSquare landmark_covariance(Index slot) const;
-  // Normalised error squared of the pose in the state's own coordinates; negative where its covariance is singular.
+  // Normalised error squared of the pose in the state's own coordinates; negative if its covariance is singular.
   double pose_nees(const Pose& truth) const;
   // The same of any estimate with an ordinary covariance; the invariant error counts positions from `origin`.
   static double nees(ErrorKind error, const Point& origin, const Pose& truth, const Pose& estimate,

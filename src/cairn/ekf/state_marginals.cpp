@@ -8,7 +8,7 @@
 namespace cairn {
 namespace {
 
-// error^T covariance^-1 error, negative where the covariance is singular.
+// error^T covariance^-1 error, negative if the covariance is singular.
 template <class Pose>
 double normalised(typename Pose::Square covariance, typename Pose::Tangent error) {
   constexpr int kDof = Pose::kDof;

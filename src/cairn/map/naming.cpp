@@ -171,7 +171,7 @@ class Naming final : public Innovations {
   Eigen::MatrixXd noise_, P_;
   std::vector<Known> known_;
   std::vector<std::vector<Index>> near_;  // by landmark of the submap: numbers in known_, nearest first
-  std::vector<double> nearest_;           // by landmark of the submap: squared distance, where it is within the bound
+  std::vector<double> nearest_;           // by landmark of the submap: squared distance, if it is within the bound
   std::vector<PairCandidate> candidates_;
 };
 

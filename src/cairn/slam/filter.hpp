@@ -42,7 +42,7 @@ class Filter {
   void set_view(int sensor, const Vector3& lower, const Vector3& upper) { sensors_.set_view(sensor, {lower, upper}); }
   void set_sighting(int sensor, const MutualSighting& sighting) { sensors_.set_sighting(sensor, sighting); }
 
-  // --- motion --- throws where the result is not finite, with nothing changed
+  // --- motion --- throws if the result is not finite, with nothing changed
   void set_wheels(const Wheels& wheels) { wheels_ = wheels; }
   void set_twist_noise(const TwistNoise& noise) { twist_noise_ = noise; }
   void predict_wheels(double dt, double left, double right) { propagate(drive_wheels<Pose>(wheels_, left, right, dt)); }

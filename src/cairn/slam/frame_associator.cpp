@@ -50,7 +50,7 @@ class FrameAssociator<Pose>::PairInnovations final : public Innovations {
   Index rows() const override { return rows_; }
   double threshold(Index rows) const override { return thresholds_.joint(rows); }
   void innovation(Index a, double* nu) const override { std::copy_n(pairs_.pair(a).residual.data(), rows_, nu); }
-  // J_a P J_b^T, and the noise of the mount's angles where all observations of a frame have it in common.
+  // J_a P J_b^T, and the noise of the mount's angles if all observations of a frame have it in common.
   void covariance(Index a, Index b, double* block) const override {
     Matrix3 S;
     if (a == b) {

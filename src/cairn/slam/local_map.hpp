@@ -35,11 +35,11 @@ class LocalMap final : public Landmarks {
   void forget(Index slot);
   // Places a landmark `fresh` at the position of `id`, with an additional independent error.
   void split(std::uint64_t id, std::uint64_t fresh, const PointSquare& covariance);
-  Index slot_at(std::uint64_t id) const;  // throws where there is none
+  Index slot_at(std::uint64_t id) const;  // throws if there is none
 
   // --- vehicles --- by the caller's names for them
   bool has_vehicle(std::uint64_t id) const;
-  Index companion_at(std::uint64_t id) const;  // throws where there is none
+  Index companion_at(std::uint64_t id) const;  // throws if there is none
   // The companion's ordinary error is J_pose times that of the active vehicle, plus noise.
   void add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise);
   void remove_vehicle(std::uint64_t id);  // // not the active one

@@ -56,7 +56,7 @@ class Cooperation {
 
   const TeamOptions& options() const { return options_; }
   bool is_own(const Packet& packet) const { return packet.vehicle == options_.mail.vehicle; }
-  const Packet* own_packet(const std::vector<Packet>& packets) const;  // null where there is none
+  const Packet* own_packet(const std::vector<Packet>& packets) const;  // null if there is none
   // Moves the filter's vehicle by the motions of the packet.
   void move(Filter<SE2>& filter, const Packet& packet);
   // Updates the filter by a scan; the matches of an own scan are kept.

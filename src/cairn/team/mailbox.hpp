@@ -55,14 +55,14 @@ class Mailbox {
   }
 
   // --- packets to be sent ---
-  // The next one; null where there is none.
+  // The next one; null if there is none.
   const std::vector<std::uint8_t>* next_packet() const { return outgoing_.empty() ? nullptr : &outgoing_.front(); }
   void drop_packet() { outgoing_.pop_front(); }
   void ask();             // for all packets that are missing
   void ask_if_missing();  // the same, but only if a gap or a waiting own step shows that something is missing
 
   // --- packets that arrive ---
-  // `waiting` where the packet was stored under `name`: then turns may be due, and outcome() returns the packet's
+  // `waiting` if the packet was stored under `name`: then turns may be due, and outcome() returns the packet's
   // outcome.
   Arrival receive(const std::uint8_t* bytes, std::size_t size, PacketFault& fault, PacketName& name);
   Arrival outcome(const PacketName& name);

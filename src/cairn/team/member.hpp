@@ -21,7 +21,7 @@ class Member {
 
   std::uint64_t id() const { return id_; }
   std::uint64_t next() const { return next_; }          // number of the packet to be consumed next
-  std::uint64_t end() const { return next_ + size(); }  // next free number, where no packet is missing
+  std::uint64_t end() const { return next_ + size(); }  // next free number, if no packet is missing
   bool started() const { return started_; }             // a packet was consumed
   bool left() const { return left_; }                   // its farewell was consumed
   double time() const { return time_; }                 // of the packet that was consumed last

@@ -41,7 +41,7 @@ class Team {
   // --- queries ---
   // This vehicle's pose is the current one: it includes this vehicle's motions that no turn has taken yet.
   VehicleEstimate estimate(std::uint64_t vehicle) const;
-  // Normalised error squared of this vehicle's pose; negative where its covariance is singular.
+  // Normalised error squared of this vehicle's pose; negative if its covariance is singular.
   double pose_nees(const SE2& truth) const;
   const Landmarks& landmarks() const { return cooperation_->filter().landmarks(); }
   const std::vector<Match>& matches() const {

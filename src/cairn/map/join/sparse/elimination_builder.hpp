@@ -26,7 +26,7 @@ class EliminationBuilder {
                      std::vector<std::int16_t>& eliminated_at, std::vector<std::uint32_t>& assembled)
       : source_(source), degree_(degree), eliminated_at_(eliminated_at), assembled_(assembled) {}
 
-  // The subtree of these touches, sorted by key, in place of the old one. Null where a pivot failed.
+  // The subtree of these touches, sorted by key, in place of the old one. Null if a pivot failed.
   FrontPointer build(const FrontPointer& old, TouchIterator begin, TouchIterator end);
   // The front above the whole tree.
   FrontPointer crown(const FrontPointer& top);

@@ -25,7 +25,7 @@ class TreeRests {
   using ByPlace = std::map<std::pair<TreeKey, int>, std::shared_ptr<const Rest>>;
 
   void keep(const FrontPointer& front, Eigen::VectorXd motion, Eigen::VectorXd y);
-  Rest take(const TreeFront& front);  // an empty one where there is none
+  Rest take(const TreeFront& front);  // an empty one if there is none
   bool empty() const { return by_place_.empty(); }
   const ByPlace& all() const { return by_place_; }
 

@@ -29,7 +29,7 @@ class SparseChange {
   void save_landmark(Number landmark);
   void save_base(Number base);
   void save_leaf(Number leaf);
-  void save_turn(Number leaf);  // where only Leaf::turned changes
+  void save_turn(Number leaf);  // if only Leaf::turned changes
 
   void add_base(const Pose& base);
   Number add_landmark(const Point& position);  // without an id, which callers do not see

@@ -47,7 +47,7 @@ class SubmapFactor {
   using Data = SubmapData<Pose>;
   using Values = FactorValues<Pose>;
 
-  // `shared`: numbers of landmarks in the submap, ascending. Throws where the covariance can't be inverted.
+  // `shared`: numbers of landmarks in the submap, ascending. Throws if the covariance can't be inverted.
   SubmapFactor(std::shared_ptr<const Data> data, std::vector<Eigen::Index> shared);
 
   const Data& data() const { return *data_; }
