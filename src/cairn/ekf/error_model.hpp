@@ -78,8 +78,8 @@ class ErrorModel {
     return error;
   }
 
-  // Covariance of the filter's own error of a pose that stands at `position`, from that of the ordinary error:
-  // xi_p = e_p - G(p) e_R.
+  // Covariance of the filter's own error of a pose at `position`, from that of the ordinary error: xi_p = e_p - G(p)
+  // e_R.
   Square own(const Square& ordinary, const Point& position) const {
     if (!invariant()) return ordinary;
     Square J = Square::Identity();

@@ -53,7 +53,7 @@ class StateLayout {
   Index companions_ = 0, points_ = 0;
 };
 
-// Where each variable of an update's window stands: [pose; mount; chosen points].
+// The layout of an update's window: [pose; mount; chosen points].
 template <class Pose>
 class WindowLayout {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a team through a drive: each vehicle keeps an estimate of its own, and the runner carries the packets.
+// Runs a team through a drive: each vehicle has its own estimate, and the runner carries the packets.
 #pragma once
 
 #include <functional>

@@ -21,7 +21,7 @@ class TreeRests {
     Eigen::VectorXd y;  // L_EE^-1 times the forces on its eliminated variables that caused no motion yet; empty: none
     Eigen::VectorXd force;  // force of both on the boundary
   };
-  // By key and bit: sums must not depend on where fronts lie in memory.
+  // Ordered by key and bit: sums must not depend on the addresses of fronts in memory.
   using ByPlace = std::map<std::pair<TreeKey, int>, std::shared_ptr<const Rest>>;
 
   void keep(const FrontPointer& front, Eigen::VectorXd motion, Eigen::VectorXd y);

@@ -48,8 +48,8 @@ class TreeRelaxation : public TreeSystem {
   virtual RigidMotion<Pose> take_rigid(const std::vector<Variable>& variables, Eigen::VectorXd& motion) const = 0;
   // A variable follows a rigid motion.
   virtual void carry(Variable v, const RigidMotion<Pose>& motion) = 0;
-  // All of the leaf's variables follow the motion or are kept; the same must hold for everything that depends only on
-  // the leaf.
+  // All of the leaf's variables follow the motion or hardly move otherwise. Everything that depends only on the leaf
+  // must follow, too.
   virtual void carry_leaf(std::uint32_t leaf, const RigidMotion<Pose>& motion) = 0;
   // All of the leaf's variables have their new values now.
   virtual void visit(std::uint32_t leaf) = 0;

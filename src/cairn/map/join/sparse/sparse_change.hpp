@@ -10,7 +10,7 @@
 
 namespace cairn {
 
-// Saves at most once what existed before. New bases, landmarks and leaves are appended after the old ones and need no
+// Saves each existing value at most once. New bases, landmarks and leaves are appended after the old ones and need no
 // copy.
 template <class Pose>
 class SparseChange {
@@ -25,7 +25,7 @@ class SparseChange {
   SparseChange(const SparseChange&) = delete;
   SparseChange& operator=(const SparseChange&) = delete;
 
-  // Before a landmark or a base moves, and before a leaf changes.
+  // To be called before a landmark or a base moves, and before a leaf changes.
   void save_landmark(Number landmark);
   void save_base(Number base);
   void save_leaf(Number leaf);

@@ -25,7 +25,7 @@ class SparseCovariances {
 
   std::mutex mutex_;  // guards the members below
   std::vector<PointSquare> covariances_;
-  std::vector<std::uint32_t> covariance_of_;  // the change that a covariance belongs to
+  std::vector<std::uint32_t> covariance_of_;  // by landmark: number of the change to which the covariance belongs
 };
 
 // GlobalMap::base_joint_covariance().

@@ -72,7 +72,7 @@ class SubmapFactor {
   // Block of the information of a single shared landmark, in map axes.
   PointSquare landmark_information(Eigen::Index i, const Rotation& base) const;
 
-  // The positions at which the submap's landmarks leave no residual of their own: a column each, in the map frame.
+  // The positions at which the submap's landmarks have no residual: one column each, in the map frame.
   Points place_private(const Values& values, const Vector& residual, const Vector& weighted) const;
   // The errors of landmarks of the submap, given by number: e = A [base; end; shared] + w with ordinary errors in map
   // axes, w of covariance W, jointly for all requested landmarks. Shared landmarks must not be requested.
