@@ -122,7 +122,7 @@ TEST_CASE("team: extended observations with their common noise are the joint fil
       CAPTURE(seed);
       const Claims c = drive(error, seed);
       CHECK(std::abs(c.full / c.flat - 1) < 0.005);
-      CHECK(c.full < 0.97 * c.alone);     // // cooperation reduces the covariance
+      CHECK(c.full < 0.97 * c.alone);     // cooperation reduces the covariance
       CHECK(c.diagonal < 0.99 * c.full);  // and independent noise is overconfident
     }
 }
