@@ -94,7 +94,7 @@ template void with_pose<SE3>(const double*, std::size_t, double*);
 template void without_pose<SE2>(const double*, std::size_t, double*);
 template void without_pose<SE3>(const double*, std::size_t, double*);
 
-std::vector<std::size_t> all_by_id(const Landmarks& map) {  // // positions play no role
+std::vector<std::size_t> all_by_id(const Landmarks& map) {  // positions play no role
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < map.size(); ++i) entries.push_back({0.0, map.id(i), i});
   std::sort(entries.begin(), entries.end());

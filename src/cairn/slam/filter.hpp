@@ -25,7 +25,7 @@ class Filter {
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
   static std::size_t arena_bytes(const FilterOptions<Pose>& options);     // of the arena that the constructor wants
-  static std::size_t required_bytes(const FilterOptions<Pose>& options);  // // of all memory that the filter needs
+  static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of all memory that the filter needs
   // The vehicle's submaps join this map instead of one of the filter's own: for teams. Before the first motion.
   void use_map(std::unique_ptr<GlobalMap<Pose>> map) { submaps_.use_map(std::move(map)); }
   const FilterOptions<Pose>& options() const { return options_; }
@@ -90,7 +90,7 @@ class Filter {
   }
   // The companion's error is J_pose times the error of the active vehicle, plus noise.
   void add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise);
-  void remove_vehicle(std::uint64_t id) { local_.remove_vehicle(id); }  // // not the active one
+  void remove_vehicle(std::uint64_t id) { local_.remove_vehicle(id); }  // not the active one
   void look_from(std::uint64_t id) { local_.look_from(id); }
   bool has_vehicle(std::uint64_t id) const { return local_.has_vehicle(id); }
   Pose vehicle_pose(std::uint64_t id) const;

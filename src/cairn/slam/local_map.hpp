@@ -42,7 +42,7 @@ class LocalMap final : public Landmarks {
   Index companion_at(std::uint64_t id) const;  // throws if there is none
   // The companion's ordinary error is J_pose times that of the active vehicle, plus noise.
   void add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise);
-  void remove_vehicle(std::uint64_t id);  // // not the active one
+  void remove_vehicle(std::uint64_t id);  // not the active one
   void look_from(std::uint64_t id);
 
   // Covariance of [pose; landmarks that count], ordinary errors, kDof + kDim count on a side, both triangles.

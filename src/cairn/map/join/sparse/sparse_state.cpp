@@ -121,7 +121,7 @@ void SparseState<Pose>::evaluate(Number number) {
   Leaf& leaf = leaves[number];
   const typename Factor::Evaluation own = leaf.factor->evaluate(values(number));
   leaf.cost = own.cost;
-  Eigen::VectorXd gradient(own.gradient.size());  // // a failing resize must not spoil the old one
+  Eigen::VectorXd gradient(own.gradient.size());  // a failing resize must not spoil the old one
   for (Index i = 0; i < own.gradient.size(); ++i) gradient(leaf.order[i]) = own.gradient(i);
   leaf.gradient.swap(gradient);
   if (number == 0) {

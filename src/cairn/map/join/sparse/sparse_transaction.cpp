@@ -41,7 +41,7 @@ typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::try_join(const
   // To first order the cost grows by half of the squared distance between the fused landmarks' two estimates.
   report_.threshold = chi_square_quantile(static_cast<double>(report_.rows), state_.options.joint_gate_probability);
   report_.distance = 2.0 * change_->cost_growth();
-  if (report_.distance > report_.threshold && !state_.solution.settled) {  // // perhaps not accurate yet
+  if (report_.distance > report_.threshold && !state_.solution.settled) {  // perhaps not accurate yet
     solver.optimise(report_);
     report_.distance = 2.0 * change_->cost_growth();
   }
