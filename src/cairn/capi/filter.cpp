@@ -17,7 +17,7 @@ void add_sensor(AnyFilter& filter, const AnySensor& sensor, std::int32_t* number
   if constexpr (std::is_constructible_v<typename SensorKinds<PoseOf<AnyFilter>>::Any, AnySensor>)
     *number = filter.add(sensor);
   else if constexpr (PoseOf<AnyFilter>::kDim == 2)
-    throw Error(ErrorCode::argument, "filter: it is of a planar vehicle, and this sensor sees in space");
+    throw Error(ErrorCode::argument, "filter: its vehicle is planar, and this sensor is spatial");
   else
     throw Error(ErrorCode::argument,
                 "filter: it is of a vehicle in space, and this sensor sees in the plane; create the filter with "

@@ -47,7 +47,7 @@ class EkfUpdate {
     require(stage_ != Stage::committed, "linearise");
     if (!fill(nullptr))
       throw Error(ErrorCode::numerical,
-                  "sensor: it refused a landmark that it had seen a moment before; nothing was changed");
+                  "sensor: it refused a landmark that it had accepted earlier in this update; nothing was changed");
     compute_innovation();
   }
   Batch& batch() { return workspace_.batch; }

@@ -43,7 +43,7 @@ OwnedMap::OwnedMap(const OwnedMap& map, const Landmarks& other, const std::vecto
                  std::back_inserter(origins));
   if (origins.size() < map.origins.size() + origins_of_other.size())
     throw Error(ErrorCode::state,
-                "other: the map holds landmarks of the same filter already; what both know would count twice");
+                "other: the map already holds landmarks of the same filter; shared information would count twice");
   const MergePlan plan = plan_merge(own, other, options,
                                     sparse(own) ? kSparseJointAtMost : std::numeric_limits<std::size_t>::max(), report);
   merged = merged_ids(other, plan);

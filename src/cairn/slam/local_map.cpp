@@ -88,8 +88,7 @@ Index LocalMap<Pose>::companion_at(std::uint64_t id) const {
 template <class Pose>
 void LocalMap<Pose>::add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise) {
   if (has_vehicle(id))
-    throw Error(ErrorCode::argument, "vehicle: there is one of number %llu already",
-                static_cast<unsigned long long>(id));
+    throw Error(ErrorCode::argument, "vehicle: number %llu already exists", static_cast<unsigned long long>(id));
   if (table_.companions() == options_.max_companions)
     throw Error(ErrorCode::capacity,
                 "vehicle: there is room for %td others, and all are taken; create the filter with more",

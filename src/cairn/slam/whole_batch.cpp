@@ -51,7 +51,7 @@ void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& fix) {
   report_.start(1);
   if (!fix.defined(submaps_.pose())) {
     report_.match(0).reason = Reason::no_image;
-    log_.say("update: no heading, the body's x axis stands too steep");
+    log_.say("update: no heading, because the body's x axis is too close to the vertical");
     return report_.finish();
   }
   if (submaps_.map() != nullptr) return fix_map(fix);

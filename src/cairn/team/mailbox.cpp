@@ -34,7 +34,7 @@ Member* Mailbox::find(std::uint64_t vehicle) {
 void Mailbox::add(std::uint64_t vehicle) {
   if (vehicle == kNoId) throw Error(ErrorCode::argument, "vehicle: CAIRN_ID_NONE is no vehicle's number");
   if (find(vehicle) != nullptr)
-    throw Error(ErrorCode::argument, "vehicle: %llu is of the team already", static_cast<unsigned long long>(vehicle));
+    throw Error(ErrorCode::argument, "vehicle: %llu is already in the team", static_cast<unsigned long long>(vehicle));
   if (members_.size() == options_.max_vehicles)
     throw Error(ErrorCode::capacity, "vehicle: the team has max_vehicles = %zu already", options_.max_vehicles);
   const auto former = former_.find(vehicle);
@@ -46,7 +46,7 @@ void Mailbox::remove(std::uint64_t vehicle) {
   const auto member =
       std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.id() == vehicle; });
   if (member == members_.end())
-    throw Error(ErrorCode::not_found, "vehicle: %llu is not of the team", static_cast<unsigned long long>(vehicle));
+    throw Error(ErrorCode::not_found, "vehicle: %llu is not in the team", static_cast<unsigned long long>(vehicle));
   if (is_own(*member))
     throw Error(ErrorCode::argument,
                 "vehicle: %llu is this vehicle itself, which cannot be removed; use cairn_team_leave to leave the team",
@@ -73,7 +73,8 @@ void Mailbox::move(const Increment<SE2>& increment) {
   if (!T.translation().allFinite() || !increment.covariance.allFinite())
     throw Error(ErrorCode::numerical, "prediction: the motion is not finite; nothing was changed");
   if (pending_.size() == kMostOfPacket)
-    throw Error(ErrorCode::capacity, "prediction: %zu motions since the last observation; tell of one in between",
+    throw Error(ErrorCode::capacity,
+                "prediction: %zu motions since the last observation are too many; call cairn_team_observe in between",
                 pending_.size());
   pending_.push_back(increment);
 }
@@ -82,7 +83,7 @@ void Mailbox::observe(double time, std::vector<Observation> landmarks, std::vect
   if (left_) throw Error(ErrorCode::state, "team: the vehicle has left it; create another one to come back");
   const bool first = !own().started() && own().empty();
   if (!first && !(time > newest_))
-    throw Error(ErrorCode::argument, "time: %g lies in the past, the last scan was of %g", time, newest_);
+    throw Error(ErrorCode::argument, "time: %g is in the past; the last scan was at %g", time, newest_);
   check_names(landmarks, "observations");
   check_names(vehicles, "vehicles");
   for (const Observation& o : vehicles)

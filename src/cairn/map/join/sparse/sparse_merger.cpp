@@ -55,7 +55,7 @@ SparseMerger::SparseMerger(State& state, SpatialIndex& index, const State& other
 void SparseMerger::append(MergeReport& report) {
   if (anchored(other_))
     throw Error(ErrorCode::state,
-                "other: it was merged by has_transform, which ties its parts to its own frame; merge the map into it");
+                "other: it was merged by has_transform, which fixes its parts in its own frame; merge the map into it");
   double before = state_.cost();
   for (Number leaf = 0; leaf < other_.leaves.size(); ++leaf)
     before += other_.leaves[leaf].factor->evaluate(other_.values(leaf)).cost;
