@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Builds Cairn and sends a simulated rover over Mars: standard EKF-SLAM and submaps through the same world, the Mars
-# paper's Table 2 beside what was measured, and a page to look at in a browser. Then two recorded logs, the second
-# where CAIRN_DATA_DIR holds starry_night.mat. Installs the Debian packages that are missing. The Python packages that make
-# the page come from the Python package index, into build/demo/venv.
+# Builds Cairn and simulates a rover on Mars. Standard EKF-SLAM and submaps run through the same world. The script
+# prints the Mars paper's Table 2 beside the measured figures and makes a page for a browser. Then it runs two recorded
+# logs, the second one if CAIRN_DATA_DIR holds starry_night.mat. It installs missing Debian packages. The Python
+# packages for the page come from the Python package index and are installed into build/demo/venv.
 set -euo pipefail
 # shellcheck source=../tests/support/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../tests/support/setup.sh"
 
-# Only starry_night.mat takes libmatio, which brings HDF5.
+# Only starry_night.mat needs libmatio, which needs HDF5.
 recording=${CAIRN_DATA_DIR:-}/starry_night.mat
 packages=("cmake=cmake" "g++=g++" "ninja-build=ninja" libeigen3-dev libnanoflann-dev python3 python3-venv)
 matio=OFF
@@ -40,14 +40,14 @@ mean of ten worlds:
 END
 show "$build/bin/cairn" simulate mars --preset row4 --compare --runs 10 --quiet
 
-# value KEY [DECIMALS]: a number of the summary, "-" where it has none.
+# value KEY [DECIMALS]: a number of the summary, "-" if it has none.
 value() {
   local number LC_ALL=C
   number=$(sed -n "s/.*\"$1\": *\([-+.0-9eE]*\).*/\1/p" "$summary" | head -n 1)
   if [[ -n $number ]]; then printf '%.*f' "${2:-0}" "$number"; else printf -- '-'; fi
 }
 
-# run_and_tell LOG FOLDER WHAT: runs the program on a log and says in a few lines what came out.
+# run_and_tell LOG FOLDER WHAT: runs the program on a log and prints the result in a few lines.
 run_and_tell() {
   local log=$1 out=$2 what=$3 summary=$2/summary.json
   say "build/demo/bin/cairn run ${log#"$root/"} --output ${out#"$root/"}"

@@ -1,6 +1,6 @@
 # Flags that every target of the project is compiled with.
 
-# ccache caches what was compiled with a precompiled header only where it is told that this is meant.
+# ccache caches objects with a precompiled header only if this option allows it.
 foreach(language IN ITEMS C CXX)
   if(CMAKE_${language}_COMPILER_LAUNCHER MATCHES "ccache$")
     set(CMAKE_${language}_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros

@@ -1,5 +1,5 @@
-# What `cmake --install` lays down. Three components, for those who package them apart: runtime (the libraries), development
-# (headers, pkg-config, CMake package) and program.
+# The files that `cmake --install` installs. There are three components for packagers: runtime (the libraries),
+# development (headers, pkg-config, CMake package) and program.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS cairn cairn_sim EXPORT cairnTargets
@@ -9,13 +9,14 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cairn DESTINATION ${CMAKE_INSTAL
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 
-# The loader looks here first on a machine that can; nobody links against this one, so it has no libcairn.so.
+# The loader looks here first if the machine supports it. Nobody links against this library, so it has no libcairn.so.
 if(TARGET cairn_v3)
   install(TARGETS cairn_v3 LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/x86-64-v3 COMPONENT runtime
           NAMELINK_SKIP)
 endif()
 
-# The way back from a directory under the prefix to the prefix: what is installed may be moved as a whole.
+# The relative path from a directory under the prefix back to the prefix, so that the installed tree can be moved as a
+# whole.
 function(cairn_path_between from to result)
   file(RELATIVE_PATH path "${from}" "${to}")
   string(REGEX REPLACE "/$" "" path "${path}")
@@ -26,7 +27,8 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cairn)
 install(EXPORT cairnTargets NAMESPACE cairn:: DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/cairnConfig.cmake.in ${PROJECT_BINARY_DIR}/cairnConfig.cmake
                               INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
-# Before 1.0 a minor version may break: 0.1 does not serve who asks for 0.2, nor the other way round.
+# Before 1.0 a minor version may break compatibility: 0.1 does not satisfy a request for 0.2, and 0.2 does not satisfy
+# one for 0.1.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/cairnConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/cairnConfig.cmake ${PROJECT_BINARY_DIR}/cairnConfigVersion.cmake
         DESTINATION ${package_dir} COMPONENT development)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What CMake compiles once for each set of flags (see docs/building.md). No file includes it; each names what it needs.
+// CMake precompiles this header once for each set of flags (see docs/building.md). No file includes it; each file
+// includes the headers that it needs.
 #pragma once
 
 #include <algorithm>

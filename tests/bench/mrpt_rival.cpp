@@ -50,7 +50,7 @@ mrpt::obs::CActionCollection::Ptr action_of(const bench::Step& step) {
   return actions;
 }
 
-// The field of view of the sensor, as far as the log shows it. MRPT predicts only landmarks in this cone, and repeats a
+// The field of view of the sensor, estimated from the log. MRPT predicts only landmarks in this cone, and repeats a
 // part of its work, with a warning, for a landmark that is seen outside.
 struct Cone {
   explicit Cone(const bench::Log& log) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A filter allocates no memory after its creation, and cairn_filter_required_bytes tells beforehand how much it needs.
- * This program replaces the allocator of the C library (glibc) by one that counts. */
+/* A filter allocates no memory after its creation, and cairn_filter_required_bytes returns beforehand how much it
+ * needs. This program replaces the allocator of the C library (glibc) by one that counts. */
 #include "interposer.h"
 #include "support.h"
 

@@ -174,8 +174,8 @@ static void one_landmark_is_seen_once_a_frame(void** state) {
     }
     rig_close(&r);
   }
-  /* Each of two observations passes alone, and the batch gate refuses one of them. No landmark is placed next to the
-   * refused one. */
+  /* Each of two observations passes by itself, and the batch gate refuses one of them. No landmark is placed next
+   * to the refused one. */
   const cairn_observation two[] = {at(10, -50, 0), at(10, 50, 0)};
   cairn_observation known[2], four[] = {at(10.72, -50, 0), at(11.25, -50, 0), at(9.28, 50, 0), at(8.75, 50, 0)};
   cairn_match of_four[4];
@@ -231,7 +231,7 @@ static void persistent_errors_count_in_updates_only(void** state) {
   rig_close(&a);
   rig_close(&b);
 
-  /* 0.6 m off at noise 0.1 for both sightings: beyond the gate of 0.99, whatever the persistence. */
+  /* 0.6 m off at noise 0.1 for both sightings: beyond the gate of 0.99 with any persistence. */
   cairn_observation first = point, off;
   cairn_match m;
   for (int i = 0; i < 3; ++i) first.covariance[4 * i] = 0.01;

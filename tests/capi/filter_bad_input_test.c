@@ -26,7 +26,7 @@ static const matrix_case no_covariance[] = {
     {"indefinite though all pairs are fine", {1, 0.9, 0.9, 0.9, 1, -0.9, 0.9, -0.9, 1}},
     {"negative", {-1, 0, 0, 0, -1, 0, 0, 0, -1}},
 };
-/* Semidefinite: refused where the noise must be positive definite. */
+/* Semidefinite: refused if the noise must be positive definite. */
 static const matrix_case semidefinite[] = {
     {"zero", {0}},
     {"a variance of zero", {1, 0, 0, 0, 0, 0, 0, 0, 1}},

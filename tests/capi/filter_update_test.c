@@ -264,7 +264,7 @@ static void an_observation_brings_its_own_noise(void** state) {
   rig_close(&b);
 }
 
-/* The information that a removed landmark gave about others stays. Its id and its place in the map are free. */
+/* The information that a removed landmark gave about others stays. Its id and its place in the map are free again. */
 static void a_removed_landmark_is_gone(void** state) {
   bench* b = *state;
   const cairn_map* map = cairn_filter_map(b->main.filter);

@@ -118,7 +118,7 @@ static inline size_t size_of(const cairn_map* map) {
   return count;
 }
 
-/* Everything that a map tells, as bytes: landmarks, their joint covariance, the merged ids. */
+/* Everything that a map returns, as bytes: landmarks, their joint covariance, the merged ids. */
 static inline void map_take(snapshot* s, const cairn_map* map) {
   const size_t n = size_of(map);
   size_t renamed = 0, needed = 0;

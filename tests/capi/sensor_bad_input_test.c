@@ -197,8 +197,8 @@ static void too_small_sizes_are_refused(void** state) {
   }
 }
 
-/* Every size from the first fields to beyond the last one: _init writes no more bytes than it was told, and they begin
- * with the defaults. */
+/* Every size from the first fields to beyond the last one: _init writes no more bytes than the given size, and they
+ * begin with the defaults. */
 static void init_fills_at_most_what_it_is_given(void** state) {
   (void)state;
   for (int kind = 0; kind < KINDS; ++kind) {

@@ -384,7 +384,7 @@ static void auto_picks_by_capacity(void** state) {
   }
 }
 
-/* The same inputs give the same bits, whatever queries are made in between. */
+/* The same inputs give the same bits, with any queries in between. */
 static void the_same_bits_twice(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j)

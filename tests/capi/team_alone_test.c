@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A team of one vehicle is the ordinary filter, and this vehicle's pose is as of now. */
+/* A team of one vehicle equals the ordinary filter, and this vehicle's pose is the current one. */
 #include "teams.h"
 
 #define ALONE_LANDMARKS 9
 #define ALONE_STEPS 30
 
-/* A boat that drives in a ring of landmarks; every fourth scan has something in it that is no landmark. */
+/* A boat that drives in a ring of landmarks; every fourth scan contains an outlier. */
 typedef struct alone {
   generator random;
   cairn_pose truth, odometry[4];
@@ -123,7 +123,7 @@ static void one_vehicle_alone_is_the_ordinary_filter(void** state) {
     }
 }
 
-/* Motion by twist is the filter's, too. */
+/* Motion by twist equals that of the filter, too. */
 static void a_twist_moves_a_team_as_it_moves_a_filter(void** state) {
   const cairn_pose start = pose_at(2, 3, 0, 0, 0, 2);
   const cairn_filter_options options = planar_options(&start);
@@ -149,7 +149,7 @@ static void a_twist_moves_a_team_as_it_moves_a_filter(void** state) {
   }
 }
 
-/* What waits for teammates is told of this vehicle's pose as far as it is motion. */
+/* This vehicle's pose includes the motions of steps that wait for teammates. */
 static void the_own_pose_is_as_of_now(void** state) {
   const cairn_pose start = pose_at(0.5, -1, 0, 0, 0, 0.3);
   cairn_filter_options options = planar_options(&start);
@@ -163,7 +163,7 @@ static void the_own_pose_is_as_of_now(void** state) {
   assert_ok(cairn_range_bearing_init(&radar, sizeof radar));
   assert_ok(cairn_team_create(&own, &options, &radar, &team));
   assert_ok(cairn_filter_create(&options, &filter));
-  assert_ok(cairn_team_add(team, 8, &start, NULL)); /* which is never heard of */
+  assert_ok(cairn_team_add(team, 8, &start, NULL)); /* which never sends a packet */
   alone a;
   memset(&a, 0, sizeof a);
   a.random.state = 11, a.truth = start;
@@ -186,7 +186,7 @@ static void the_own_pose_is_as_of_now(void** state) {
     assert_ok(cairn_map_size(cairn_team_map(team), &size));
     assert_int_equal(size, 0);
   }
-  assert_ok(cairn_team_remove(team, 8)); /* nobody is waited for now */
+  assert_ok(cairn_team_remove(team, 8)); /* the team waits for nobody now */
   assert_int_equal(report_of(team).unsettled, 0);
   assert_ok(cairn_map_size(cairn_team_map(team), &size));
   assert_true(size > 3);

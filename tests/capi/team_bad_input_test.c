@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a team refuses: options and calls. The estimate stays as it was, to the bit. */
+/* Options and calls that a team refuses. The estimate stays the same to the bit. */
 #include "team_stage.h"
 
 /* --- options --- */
@@ -116,7 +116,7 @@ static void options_that_do_not_go_together(void** state) {
   cairn_team_destroy(NULL);
 }
 
-/* Callers older and newer than the library, and a byte behind their struct that is nobody's. */
+/* Callers that are older or newer than the library, and a byte behind their struct that must not change. */
 static void structs_of_other_sizes(void** state) {
   const cairn_pose start = pose_at(0, 0, 0, 0, 0, 0);
   const cairn_filter_options filter = planar_options(&start);
@@ -164,7 +164,7 @@ static void members(void** state) {
   uint64_t numbers[4] = {77, 77, 77, 77};
   size_t needed = 99;
   diagonal(covariance, 6, 1e-2);
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, 1, &start, covariance)); /* the own one */
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, 1, &start, covariance)); /* this vehicle */
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, 1, NULL, NULL));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, 2, &start, covariance)); /* twice */
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, CAIRN_ID_NONE, &start, covariance));
@@ -184,7 +184,7 @@ static void members(void** state) {
   assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "vehicle", cairn_team_remove(s.a, CAIRN_ID_NONE));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_remove(NULL, 2));
   unchanged(&s);
-  /* Room for one more, and no more. */
+  /* There is room for only one more. */
   diagonal(covariance, 6, 1e-2);
   assert_ok(cairn_team_add(s.a, 3, NULL, NULL));
   assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_vehicles", cairn_team_add(s.a, 4, &start, covariance));
@@ -244,7 +244,7 @@ static void motions(void** state) {
   stage_close(&s);
 }
 
-/* As many motions as a packet has room for, and one more. */
+/* The largest number of motions in a packet, and one more. */
 static void too_many_motions(void** state) {
   const cairn_pose start = pose_at(0, 0, 0, 0, 0, 0), step = pose_at(1e-3, 0, 0, 0, 0, 0);
   const cairn_filter_options filter = planar_options(&start);
@@ -330,11 +330,11 @@ static void observations(void** state) {
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicles", cairn_team_observe(s.a, later, NULL, 0, NULL, 1));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_observe(NULL, later, o, 3, NULL, 0));
 #undef LOOK
-  assert_int_equal(report_of(s.a).sent, UNDER_WAY + 1); /* nobody was told */
+  assert_int_equal(report_of(s.a).sent, UNDER_WAY + 1); /* nothing was sent */
   stage_close(&s);
 }
 
-/* Counts that no array has: refused before anything is taken for them. */
+/* Impossible counts are refused before memory is allocated for them. */
 static void absurd_counts(void** state) {
   stage s;
   (void)state;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Packets that a team refuses: anybody may send them. Whatever a packet is, the estimate stays as it was, to the bit.
- */
+/* Packets that a team refuses: anybody may send them. The estimate must stay the same to the bit after every packet. */
 #include "team_stage.h"
 
-/* Hands a copy over, in a buffer of exactly its size; tells what became of it. */
+/* Passes a copy in a buffer of exactly its size; returns the outcome. */
 static int32_t give(stage* s, const uint8_t* bytes, size_t size) {
   int32_t result = 0;
   uint8_t* exact = malloc(size + (size == 0));
@@ -38,7 +37,7 @@ static void packets_cut_short(void** state) {
   assert_int_equal(r.foreign, 4);
   assert_int_equal(r.cut, s.next.size - 4 + 8);
   unchanged(&s);
-  /* Cut with a size and a checksum that fit what is left. */
+  /* Truncated packets with a size and a checksum that fit the remaining bytes. */
   for (size_t size = 16; size < s.next.size; ++size) {
     uint8_t* cut = malloc(size);
     assert_non_null(cut);
@@ -93,7 +92,7 @@ static void foreign_bytes(void** state) {
   stage_close(&s);
 }
 
-/* A change to a good packet that is sealed again: what a broken sender, or an evil one, could send. */
+/* A good packet is changed and gets a new checksum: a broken or malicious sender could send it. */
 static int32_t give_changed(stage* s, size_t at, uint64_t value, size_t bytes) {
   uint8_t* copy = malloc(s->next.size);
   assert_non_null(copy);
@@ -121,16 +120,17 @@ static void heads_that_do_not_fit(void** state) {
   assert_int_equal(give_changed(&s, AT_VERSION, 0xffff, 2), CAIRN_PACKET_VERSION);
   assert_int_equal(give_changed(&s, AT_KIND, 0, 2), CAIRN_PACKET_NONSENSE);
   assert_int_equal(give_changed(&s, AT_KIND, 4, 2), CAIRN_PACKET_NONSENSE);
-  assert_int_equal(give_changed(&s, AT_KIND, REQUEST, 2), CAIRN_PACKET_NONSENSE); /* too long for one */
+  assert_int_equal(give_changed(&s, AT_KIND, REQUEST, 2), CAIRN_PACKET_NONSENSE); /* too long for a packet */
   assert_int_equal(give_changed(&s, AT_VEHICLE, 3, 8), CAIRN_PACKET_UNKNOWN);
   assert_int_equal(give_changed(&s, AT_VEHICLE, CAIRN_ID_NONE, 8), CAIRN_PACKET_UNKNOWN);
   unchanged(&s);
-  /* By this vehicle's number: another vehicle of that name. (Its sighting of 1 would be of itself: nonsense first.) */
+  /* With this vehicle's number: another vehicle with the same number. (Its sighting of 1 would be of itself and is
+     refused first.) */
   const int32_t own = give_changed(&s, AT_VEHICLE, 1, 8);
   assert_true(own == CAIRN_PACKET_CONFLICT || own == CAIRN_PACKET_NONSENSE);
-  /* Numbers that were here, with another content. */
+  /* Numbers that arrived before, with another content. */
   for (uint64_t n = 0; n < number; ++n) assert_int_equal(give_changed(&s, AT_NUMBER, n, 8), CAIRN_PACKET_CONFLICT);
-  /* Times that do not fit. */
+  /* Times that are out of order. */
   const double past[] = {-1e300, -1, 0, s.v.time[UNDER_WAY - 1]};
   for (size_t i = 0; i < LENGTH(past); ++i) assert_int_equal(give_real(&s, AT_TIME, past[i]), CAIRN_PACKET_PAST);
   for (size_t i = 0; i < LENGTH(not_finite); ++i)
@@ -147,7 +147,7 @@ static void heads_that_do_not_fit(void** state) {
   stage_close(&s);
 }
 
-/* Two boats that both go by number 2: the first one's packets stand. */
+/* Two boats that both have number 2: the first boat's packets are kept. */
 static void two_vehicles_of_one_number(void** state) {
   stage s;
   voyage other;
@@ -164,7 +164,7 @@ static void two_vehicles_of_one_number(void** state) {
   }
   assert_int_equal(report_of(s.a).conflict, UNDER_WAY);
   cairn_team_destroy(impostor);
-  /* And one that goes by this vehicle's number. */
+  /* And a boat with this vehicle's number. */
   const cairn_team_options own = team_options(CAIRN_TEAM_JOINT, 1);
   impostor = boat_open(&other, &own);
   boat_step(impostor, &other, 1, 0);
@@ -175,7 +175,7 @@ static void two_vehicles_of_one_number(void** state) {
   stage_close(&s);
 }
 
-/* Those that wait contradict each other, too, and there is room for so many only. */
+/* Waiting packets may contradict each other, too, and the room for them is limited. */
 static void packets_that_wait(void** state) {
   stage s;
   (void)state;
@@ -194,7 +194,7 @@ static void packets_that_wait(void** state) {
     seal(l->bytes, l->size);
     assert_int_equal(give(&s, l->bytes, l->size), CAIRN_PACKET_CONFLICT);
   }
-  /* A fresh number between those that wait, at a time that is not between theirs. */
+  /* A new number between those of waiting packets, at a time that is not between theirs. */
   assert_int_equal(give_real(&s, AT_TIME, s.v.time[UNDER_WAY + 3]), CAIRN_PACKET_PAST);
   const cairn_team_report r = report_of(s.a);
   assert_true(r.full == 2 && r.conflict == 5 && r.repeated == 5 && r.past == 1);
@@ -268,7 +268,7 @@ static void nonsense_with_the_right_checksum(void** state) {
       RESET, v[0].values[k] = not_finite[n], NONSENSE();
     }
   }
-  RESET, motion[0][2] = 0.9, NONSENSE(); /* no rotation: a vector of another length */
+  RESET, motion[0][2] = 0.9, NONSENSE(); /* not a rotation: the vector's length is not 1 */
   RESET, motion[0][2] = motion[0][3] = 0, NONSENSE();
   RESET, motion[0][4] = -1e-9, NONSENSE(); /* variances below zero */
   RESET, motion[0][7] = -1, NONSENSE();
@@ -276,7 +276,7 @@ static void nonsense_with_the_right_checksum(void** state) {
   RESET, motion[0][5] = 1.1, NONSENSE(); /* correlations beyond 1 */
   RESET, motion[0][6] = 0.1, NONSENSE();
   RESET, motion[0][8] = -0.1, NONSENSE();
-  RESET, motion[0][4] = 0, NONSENSE(); /* of what has no variance */
+  RESET, motion[0][4] = 0, NONSENSE(); /* covariances of a component without variance */
   RESET, motion[0][5] = 0.9, motion[0][6] = 0.9 * sqrt(1e-3), motion[0][8] = -0.9 * sqrt(1e-3), NONSENSE();
   RESET, l[0].values[0] = -1, NONSENSE(); /* ranges below zero */
   RESET, v[0].values[0] = -1e-300, NONSENSE();
@@ -286,7 +286,7 @@ static void nonsense_with_the_right_checksum(void** state) {
   RESET, l[0].values[3] = 1, NONSENSE();
   RESET, l[1].values[3] = 1e-9, NONSENSE();
   RESET, v[0].values[2] = 1, NONSENSE();
-  RESET, l[1].id = 1, NONSENSE(); /* a name twice */
+  RESET, l[1].id = 1, NONSENSE(); /* an id twice */
   RESET, v[0].id = 2, NONSENSE(); /* itself */
   RESET, v[0].id = CAIRN_ID_NONE, NONSENSE();
   RESET, v[1] = v[0];
@@ -296,7 +296,7 @@ static void nonsense_with_the_right_checksum(void** state) {
   const cairn_team_report r = report_of(s.a);
   assert_int_equal(r.nonsense, 3 * 25 + 22);
   assert_int_equal(r.taken, UNDER_WAY);
-  /* What all of that was made of is fine, so that each of it was refused for what it says. */
+  /* The unchanged packet is accepted, so that each of the others was refused because of its content. */
   RESET;
   assert_int_equal(give_content(&s, 1, (const double(*)[10])motion, 2, l, 1, v), CAIRN_PACKET_TAKEN);
 #undef RESET
@@ -306,7 +306,7 @@ static void nonsense_with_the_right_checksum(void** state) {
   snapshot_free(&s.before), snapshot_free(&s.after);
 }
 
-/* Landmarks without a name where names count. */
+/* Landmarks without an id although ids are used. */
 static void nameless_landmarks(void** state) {
   stage s;
   const sighting l[1] = {{CAIRN_ID_NONE, {1000, 0.1, 0, 0, 0}}};
@@ -316,7 +316,7 @@ static void nameless_landmarks(void** state) {
   assert_ok(cairn_map_size(cairn_team_map(s.a), &before));
   const int32_t result = give_content(&s, 0, NULL, 1, l, 0, NULL);
   assert_ok(cairn_map_size(cairn_team_map(s.a), &after));
-  assert_int_equal(before, after); /* nothing may go by that name */
+  assert_int_equal(before, after); /* no landmark may have this id */
   cairn_landmark landmark;
   assert_status(cairn_map_landmark(cairn_team_map(s.a), CAIRN_ID_NONE, &landmark), CAIRN_ERROR_NOT_FOUND);
   assert_true(result == CAIRN_PACKET_NONSENSE || report_of(s.a).failed > 0);
@@ -326,7 +326,7 @@ static void nameless_landmarks(void** state) {
   snapshot_free(&s.before), snapshot_free(&s.after);
 }
 
-/* Counts of what a packet does not hold, up to what would overflow a product. */
+/* Counts that are larger than the packet, up to values that would overflow a product. */
 static void counts_that_lie(void** state) {
   stage s;
   (void)state;
@@ -340,7 +340,7 @@ static void counts_that_lie(void** state) {
   stage_close(&s);
 }
 
-/* Questions for packets, sensible or not, never change the estimate, and are answered by what there is. */
+/* Requests for packets, reasonable or not, never change the estimate. The answer contains the kept packets. */
 static void requests(void** state) {
   const uint64_t from[] = {0, 2, UNDER_WAY, UNDER_WAY + 1, UINT64_MAX}, counts[] = {0, 1, 3, UINT64_MAX};
   stage s;

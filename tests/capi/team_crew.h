@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Boats that tell each other of a whole voyage, by a post that delays, loses, repeats and shuffles packets. */
+/* Boats that exchange the packets of a whole voyage through a post that delays, loses, repeats and shuffles packets. */
 #ifndef CAIRN_TESTS_CAPI_TEAM_CREW_H
 #define CAIRN_TESTS_CAPI_TEAM_CREW_H
 
@@ -42,7 +42,7 @@ typedef struct weather {
   bool shuffled;
 } weather;
 
-/* Delivers what is due by `step`, to all but its sender. */
+/* Delivers the packets that are due by `step` to all boats except the sender. */
 static inline void deliver_due(crew* c, post* p, size_t step, const weather* w, generator* random) {
   for (size_t i = p->count; w->shuffled && i > 1; --i) {
     const size_t j = (size_t)(random_bits(random) % i);
@@ -76,7 +76,7 @@ static inline void collect_all(crew* c, post* p, size_t step, const weather* w, 
   }
 }
 
-/* The whole voyage; in the end all that was lost is asked for. */
+/* The whole voyage; at the end all lost packets are requested. */
 static inline void crew_sail(crew* c, const weather* w, uint64_t seed) {
   const weather fair = {0, 0, 0, false};
   generator random = {seed};

@@ -2,7 +2,7 @@
 /* Members of a team: who is known, who is waited for, who leaves and who joins late. */
 #include "team_crew.h"
 
-/* A teammate that never says a word is waited for once, not anew at every step. */
+/* The team waits once for a teammate that never sends a packet, and not again at every step. */
 static void whoever_is_never_heard_of_is_given_up(void** state) {
   crew c;
   (void)state;
@@ -14,7 +14,8 @@ static void whoever_is_never_heard_of_is_given_up(void** state) {
   crew_close(&c);
 }
 
-/* This vehicle's scan does not fit, and the caller hears of it, though a teammate's later packet shows a gap. */
+/* This vehicle's scan is refused by the filter. The caller gets the error although a teammate's later packet shows a
+   gap. */
 static void an_own_scan_that_fails_is_told(void** state) {
   (void)state;
   for (int gap = 0; gap < 2; ++gap) {
@@ -38,7 +39,7 @@ static void an_own_scan_that_fails_is_told(void** state) {
     assert_true(e->feature_count > 1);
     assert_status(cairn_team_observe(c.teams[0], c.v.time[0], e->features, e->feature_count, NULL, 0),
                   CAIRN_ERROR_CAPACITY);
-    assert_true(report_of(c.teams[0]).failed > 0 && report_of(c.teams[0]).sent == 1); /* and told to the team */
+    assert_true(report_of(c.teams[0]).failed > 0 && report_of(c.teams[0]).sent == 1); /* and sent to the team */
     post_free(&p);
     crew_close(&c);
   }
@@ -54,7 +55,7 @@ static void what_is_lost_for_good_is_given_up(void** state) {
   (void)state;
   crew_open(&c, 2, 7, 12.0, CAIRN_TEAM_JOINT);
   for (size_t k = 0; k < STEPS; ++k) {
-    /* Nobody sees the other from step 8 to 19: so boat 2 stays unknown for a while. */
+    /* The boats do not see each other from step 8 to 19: the pose of boat 2 stays unknown for a while. */
     for (size_t b = 0; b < 2; ++b) {
       boat_move(c.teams[b], &c.v, b + 1, k);
       boat_look(c.teams[b], &c.v, b + 1, k, k >= 8 && k < 20 ? LOOK_AT_FEATURES : LOOK_AT_ALL);
@@ -71,7 +72,7 @@ static void what_is_lost_for_good_is_given_up(void** state) {
     }
     const cairn_team_report r = report_of(c.teams[0]);
     const cairn_status status = cairn_team_pose(c.teams[0], 2, &pose, covariance);
-    /* Number 10, of 50 s, waits in vain until 62 s are over: step 13. */
+    /* The gap before number 10 (at 50 s) is given up after 62 s: step 13. */
     assert_int_equal(r.lost, k < 13 ? 0 : 1);
     assert_int_equal(r.unsettled, k < 9 || k >= 13 ? 0 : k - 8);
     assert_int_equal(status, k < 13 || k >= 20 ? CAIRN_OK : CAIRN_ERROR_NOT_FOUND);
@@ -89,11 +90,11 @@ static void what_is_lost_for_good_is_given_up(void** state) {
   crew_close(&c);
 }
 
-/* p_b = p + r u(phi + theta), phi_b = phi + theta - theta' + pi: pose and covariance by hand, this vehicle's pose uncertain.
- */
+/* p_b = p + r u(phi + theta), phi_b = phi + theta - theta' + pi: pose and covariance computed by hand;
+ * this vehicle's pose is uncertain. */
 static void a_teammate_is_found_where_both_see_it(void** state) {
   const double x = 10, y = -4, phi = 0.7, r = 200, theta = 0.4, back = -1.1;
-  const double s_r = 2, s_t = 0.01, b_r = 1, b_t = 0.02; /* there, and back */
+  const double s_r = 2, s_t = 0.01, b_r = 1, b_t = 0.02; /* there and back */
   const double P[3] = {0.5, 0.3, 2e-4};                  /* own x, y, heading */
   const cairn_pose start = pose_at(x, y, 0, 0, 0, phi);
   cairn_filter_options options = planar_options(&start);
@@ -108,7 +109,7 @@ static void a_teammate_is_found_where_both_see_it(void** state) {
   assert_ok(cairn_team_create(&two, &options, &radar, &b));
   assert_ok(cairn_team_add(a, 2, NULL, NULL));
   assert_status(cairn_team_pose(a, 2, &pose, covariance), CAIRN_ERROR_NOT_FOUND);
-  const double s_rt = 0.3 * s_r * s_t, b_rt = -0.4 * b_r * b_t; /* ranges and bearings err together */
+  const double s_rt = 0.3 * s_r * s_t, b_rt = -0.4 * b_r * b_t; /* errors of range and bearing are correlated */
   cairn_observation there = sight(2, r + 1.5, theta, s_r, s_t), here = sight(1, r - 0.5, back, b_r, b_t);
   there.covariance[1] = there.covariance[2] = s_rt, here.covariance[1] = here.covariance[2] = b_rt;
   assert_ok(cairn_team_observe(a, 3.0, NULL, 0, &there, 1));
@@ -141,7 +142,7 @@ static void a_teammate_is_found_where_both_see_it(void** state) {
   cairn_team_destroy(b);
 }
 
-/* A start that nobody knows is found at the first step, through a third vehicle where need be. */
+/* An unknown start is solved at the first step, through a third vehicle if necessary. */
 static void unknown_starts_are_found(void** state) {
   crew c;
   (void)state;
@@ -152,7 +153,7 @@ static void unknown_starts_are_found(void** state) {
     options.max_lag = 1e9;
     c.teams[b - 1] = boat_open(&c.v, &options);
   }
-  /* Boat 1 knows nobody's start and does not look at 3, which 2 sees. */
+  /* Boat 1 knows no start pose. It does not see boat 3, but boat 2 does. */
   for (size_t k = 0; k < STEPS; ++k)
     for (size_t i = 0; i < c.v.boats[0][k].vehicle_count; ++i)
       if (c.v.boats[0][k].vehicles[i].id == 3) {
@@ -208,7 +209,7 @@ static void whoever_leaves_is_waited_for_no_more(void** state) {
     if (kind_of(&p.letters[i]) == LEAVE) leave = i;
   assert_true(leave < p.count);
   assert_int_equal(number_of(&p.letters[leave]), 10);
-  /* The farewell comes first, and has its turn when all else has come. */
+  /* The farewell arrives first. Its turn comes after all other packets have arrived. */
   assert_int_equal(hand_over(c.teams[0], &p.letters[leave]), CAIRN_PACKET_WAITING);
   assert_members(c.teams[0], both, 2);
   for (size_t i = 0; i < p.count; ++i)
@@ -220,13 +221,13 @@ static void whoever_leaves_is_waited_for_no_more(void** state) {
   assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &before));
   boat_step(c.teams[0], &c.v, 1, 10);
   assert_int_equal(report_of(c.teams[0]).unsettled, 0);
-  assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &after)); /* what it taught stays */
+  assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &after)); /* its information stays */
   assert_true(before > 3 && after >= before);
   post_free(&p);
   crew_close(&c);
 }
 
-/* With its packets in order the farewell is told as such. */
+/* If its packets arrive in order, the outcome is a farewell. */
 static void a_farewell_is_told(void** state) {
   crew c;
   (void)state;
@@ -243,7 +244,7 @@ static void a_farewell_is_told(void** state) {
   crew_close(&c);
 }
 
-/* A farewell is the last packet: what came after it would go by its number. */
+/* A farewell is the last packet: a later packet would have its number. */
 static void nothing_follows_a_farewell(void** state) {
   crew c;
   (void)state;
@@ -263,7 +264,7 @@ static void nothing_follows_a_farewell(void** state) {
   crew_close(&c);
 }
 
-/* What a vehicle taught before it was removed is not learnt once more when it is of the team again. */
+/* Packets of a vehicle that were used before its removal are not used again when the vehicle is a member again. */
 static void nothing_is_taken_in_twice_over_a_return(void** state) {
   crew c;
   post p = {NULL, 0, 0};
@@ -282,7 +283,7 @@ static void nothing_is_taken_in_twice_over_a_return(void** state) {
   assert_ok(cairn_team_add(c.teams[0], 2, &pose, NULL));
   team_snapshot(&before, c.teams[0]);
   for (size_t i = 0; i < p.count; ++i)
-    if (kind_of(&p.letters[i]) == DATA) (void)hand_over(c.teams[0], &p.letters[i]); /* the post's late copies */
+    if (kind_of(&p.letters[i]) == DATA) (void)hand_over(c.teams[0], &p.letters[i]); /* late copies of the packets */
   team_snapshot(&after, c.teams[0]);
   assert_int_equal(report_of(c.teams[0]).taken, 5);
   assert_true(snapshot_same(&before, &after));
@@ -291,7 +292,7 @@ static void nothing_is_taken_in_twice_over_a_return(void** state) {
   crew_close(&c);
 }
 
-/* Boat 2 joins when boat 1 is long on its way, and both come to one estimate. */
+/* Boat 2 joins long after the start of boat 1, and both get the same estimate. */
 static void join_late(const double* start_covariance) {
   const size_t late = 15;
   crew c;
@@ -316,7 +317,7 @@ static void join_late(const double* start_covariance) {
     assert_int_equal(report_of(c.teams[0]).unsettled, 0);
   }
   assert_ok(cairn_team_add(c.teams[0], 2, &c.v.boats[1][late].truth, start_covariance));
-  boat_add(c.teams[1], &c.v, 1); /* where it stood before its first packet, which is asked for */
+  boat_add(c.teams[1], &c.v, 1); /* its pose before its first packet, which is requested */
   for (size_t k = late; k < STEPS; ++k) {
     boat_step(c.teams[0], &c.v, 1, k);
     if (k > late) boat_move(c.teams[1], &c.v, 2, k);
@@ -344,13 +345,13 @@ static void joining_late(void** state) {
   join_late(covariance);
 }
 
-/* No covariance of its own beside an uncertain heading: every difference of the two is one of rounding. */
+/* The new boat's start has zero covariance while a heading is uncertain: the two estimates differ only by rounding. */
 static void joining_late_from_a_place_known_exactly(void** state) {
   (void)state;
   join_late(NULL);
 }
 
-/* Whatever motion a vehicle may tell its own team of, its teammates take, however few directions its noise has. */
+/* Teammates accept every motion that the vehicle's own team accepts, even if its noise has few directions. */
 static void noise_of_any_rank_is_told(void** state) {
   generator random = {77};
   (void)state;

@@ -16,7 +16,7 @@ static void scores_are_what_they_say(void** state) {
   options.baseline = 1;
   c.teams[0] = boat_open(&c.v, &options);
   boat_add(c.teams[0], &c.v, 2);
-  /* Two of boat 1 alone: one by a team of one, whose figures are known, one by a filter. */
+  /* Two estimates of boat 1 by itself: one by a team of one vehicle, whose figures are known, and one by a filter. */
   options.mode = CAIRN_TEAM_MONO;
   cairn_team* mono = boat_open(&c.v, &options);
   cairn_filter* filter = NULL;
@@ -73,8 +73,8 @@ static void scores_are_what_they_say(void** state) {
   crew_close(&c);
 }
 
-/* Both sides of the comparison are as of now: motion that no scan has followed yet is not the team's fault, nor are
- * steps that wait for teammates. */
+/* Both sides of the comparison are current: they include motion without a following scan, and steps that wait for
+   teammates. */
 static void a_score_between_scans_compares_like_with_like(void** state) {
   (void)state;
   voyage v;
@@ -111,8 +111,8 @@ static double heading_of(const cairn_pose* pose) {
   return 2 * atan2(pose->quaternion[3], pose->quaternion[0]);
 }
 
-/* From what cairn_team_pose gives: the standard error as it stands, the invariant one as Log(T_true T_hat^-1) against
- * J P J^T, positions counted from the start (docs/invariant_error.md). */
+/* Computed from the result of cairn_team_pose: the standard error directly, the invariant error as Log(T_true T_hat^-1)
+   against J P J^T, positions counted from the start (docs/invariant_error.md). */
 static double expected_nees(const cairn_team* team, const cairn_pose* start, const cairn_pose* truth, int32_t error) {
   static const int axes[3] = {0, 1, 5};
   cairn_pose pose;
@@ -153,7 +153,7 @@ static void the_normalised_error_is_that_of_the_own_pose(void** state) {
     for (size_t k = 0; k < 20; ++k) {
       cairn_pose truth = v.boats[0][k].truth;
       if (k == 0) truth = pose_at(start.position[0] + 3, start.position[1] - 2, 0, 0, 0, heading_of(&start) + 0.01);
-      if (k == 14) boat_add(team, &v, 2); /* which is never heard of */
+      if (k == 14) boat_add(team, &v, 2); /* which never sends a packet */
       boat_step(team, &v, 1, k);
       assert_ok(cairn_team_pose_nees(team, &truth, &nees));
       const double expected = expected_nees(team, &start, &truth, error);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two boats under way, for tests that spoil what one of them gets. */
+/* Two boats under way, for tests that change the packets for one of them. */
 #ifndef CAIRN_TESTS_CAPI_TEAM_STAGE_H
 #define CAIRN_TESTS_CAPI_TEAM_STAGE_H
 
 #include "teams.h"
 
-/* Boats 1 and 2 under way, both with much to tell; the tests spoil what boat 1 gets. */
+/* Boats 1 and 2 under way, both with many packets. The tests change the packets for boat 1. */
 typedef struct stage {
   voyage v;
   cairn_team *a, *b;
@@ -42,7 +42,7 @@ static inline void stage_open(stage* s) {
   team_snapshot(&s->before, s->a);
 }
 
-/* However much it was bothered, the next good packet is taken. */
+/* After all refused packets the next good packet is taken. */
 static inline void stage_close(stage* s) {
   team_snapshot(&s->after, s->a);
   assert_true(snapshot_same(&s->before, &s->after));

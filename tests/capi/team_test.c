@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Teams: all vehicles come to one estimate, whatever the post does to their packets. */
+/* Teams: all vehicles get the same estimate even if the post delays, loses, repeats or shuffles packets. */
 #include "team_crew.h"
 
 static void all_vehicles_come_to_one_estimate(void** state) {
@@ -27,7 +27,7 @@ static void all_vehicles_come_to_one_estimate(void** state) {
   }
 }
 
-/* The order of taking in does not know what the post did: the same bits. */
+/* The order in which packets are used does not depend on the post: the same bits. */
 static void the_post_does_not_matter(void** state) {
   static const weather bad[] = {{3, 0, 0, false},   {0, 0, 0.5, false},  {4, 0, 0, true},
                                 {0, 0.3, 0, false}, {4, 0.3, 0.3, true}, {0, 0.6, 0.2, true}};
@@ -50,7 +50,7 @@ static void the_post_does_not_matter(void** state) {
         assert_same_estimate(c.teams[b], undisturbed.teams[b]);
         reordered += r.reordered, repeated += r.repeated, resent += r.resent, requested += r.requested;
       }
-      if (bad[n].shuffled) assert_true(reordered > 0); /* it was what it says */
+      if (bad[n].shuffled) assert_true(reordered > 0); /* the post did shuffle */
       if (bad[n].repeated > 0) assert_true(repeated > 5);
       if (bad[n].lost > 0) assert_true(resent > 5 && requested > 5);
       crew_close(&c);
@@ -59,7 +59,7 @@ static void the_post_does_not_matter(void** state) {
   }
 }
 
-/* A teammate may be the first to look: its packet comes before this vehicle's scan of the same time. */
+/* A teammate may observe first: its packet arrives before this vehicle's scan of the same time. */
 static void a_packet_that_comes_before_the_own_scan_waits_for_it(void** state) {
   const weather fair = {0, 0, 0, false};
   crew expected, c;
@@ -88,7 +88,7 @@ static void a_packet_that_comes_before_the_own_scan_waits_for_it(void** state) {
   crew_close(&c);
 }
 
-/* The same of extended observations, which need this vehicle's sighting of that time. */
+/* The same for extended observations, which need this vehicle's sighting of that time. */
 static void extended_observations_wait_for_the_own_scan(void** state) {
   (void)state;
   for (int32_t mode = CAIRN_TEAM_EO_DIAGONAL; mode <= CAIRN_TEAM_EO_FULL; ++mode) {
@@ -113,7 +113,8 @@ static void extended_observations_wait_for_the_own_scan(void** state) {
   }
 }
 
-/* Without names all vehicles number the same landmarks alike, for they take in the same in one order. */
+/* Without ids all vehicles give the same landmarks the same numbers, because they use the same packets in the same
+   order. */
 static void names_are_not_needed(void** state) {
   static const int32_t ways[] = {CAIRN_ASSOCIATION_NEAREST, CAIRN_ASSOCIATION_JOINT};
   const weather fair = {0, 0, 0, false}, bad = {3, 0.3, 0.3, true};
@@ -142,7 +143,7 @@ static void names_are_not_needed(void** state) {
   }
 }
 
-/* Of two that see a new landmark the nearer one places it, whoever is the first by number. */
+/* If two vehicles see a new landmark, the nearer one places it, even if its number is higher. */
 static void the_nearest_places_a_landmark(void** state) {
   const cairn_pose starts[2] = {pose_at(0, 0, 0, 0, 0, 0), pose_at(900, 0, 0, 0, 0, 0)};
   const cairn_observation looks[2][2] = {{sight(11, 1000, 0, 30, 0.005), sight(12, 200, 0, 30, 0.005)},
@@ -177,7 +178,8 @@ static void the_nearest_places_a_landmark(void** state) {
   }
 }
 
-/* Teammates by packets cannot make worse what a filter of a vehicle alone has: what each mode claims. */
+/* Teammates' packets cannot make a vehicle's covariance larger than that of a filter of this vehicle only. Tested for
+   each mode. */
 static void whoever_is_told_more_claims_more(void** state) {
   static const int32_t modes[] = {CAIRN_TEAM_MONO, CAIRN_TEAM_EO_FULL, CAIRN_TEAM_JOINT};
   const weather fair = {0, 0, 0, false};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the tests of teams share: boats on a recorded voyage, the post that carries their packets, and everything that a
- * team tells of its estimate. */
+/* Shared by the tests of teams: boats on a recorded voyage, the post that carries their packets, and snapshots of
+   everything that a team returns about its estimate. */
 #ifndef CAIRN_TESTS_CAPI_TEAMS_H
 #define CAIRN_TESTS_CAPI_TEAMS_H
 
@@ -12,7 +12,7 @@
 #define FEATURES 10
 #define STEPS 40
 
-/* What each boat did and saw, copied from the fleet so that it can be told again in any order. */
+/* The motions and sightings of each boat, copied from the fleet so that they can be replayed in any order. */
 typedef struct log_entry {
   double speed, rate;
   cairn_pose truth;
@@ -22,7 +22,7 @@ typedef struct log_entry {
 
 typedef struct voyage {
   double time[STEPS], dt[STEPS];
-  log_entry boats[BOATS][STEPS]; /* boat n + 1 is of the fleet's number n + 1 */
+  log_entry boats[BOATS][STEPS]; /* boat n + 1 is number n + 1 of the fleet */
 } voyage;
 
 static inline void read_sightings(const cairn_fleet_sighting* from, size_t count, cairn_observation* to) {
@@ -92,7 +92,7 @@ static inline cairn_team_options team_options(int32_t mode, uint64_t vehicle) {
   return options;
 }
 
-/* Boat `vehicle` of the voyage in a team of its own so far. */
+/* Boat `vehicle` of the voyage, at first the only member of its team. */
 static inline cairn_team* boat_open(const voyage* v, const cairn_team_options* options) {
   const cairn_filter_options filter = planar_options(&v->boats[options->vehicle - 1][0].truth);
   const cairn_range_bearing radar = fleet_radar();
@@ -184,7 +184,7 @@ static inline void post_free(post* p) {
   memset(p, 0, sizeof *p);
 }
 
-/* All that a team has to send; gives how much that was. */
+/* Takes all packets that a team has to send; returns their number. */
 static inline size_t post_collect(post* p, cairn_team* team, size_t due) {
   size_t size = 0, taken = 0, count = 0;
   for (;;) {
@@ -215,7 +215,7 @@ static inline letter take_one(cairn_team* team) {
   return l;
 }
 
-/* CRC-32 bit by bit, apart from the library. */
+/* CRC-32 bit by bit, independent of the library. */
 static inline void seal(uint8_t* bytes, size_t size) {
   uint32_t crc = UINT32_C(0xFFFFFFFF);
   for (size_t i = 0; i + 4 < size; ++i) {
@@ -225,7 +225,7 @@ static inline void seal(uint8_t* bytes, size_t size) {
   for (int i = 0; i < 4; ++i) bytes[size - 4 + (size_t)i] = (uint8_t)(~crc >> (8 * i));
 }
 
-/* --- everything that a team tells of its estimate, as bytes --- */
+/* --- everything that a team returns about its estimate, as bytes --- */
 
 static inline void team_snapshot(snapshot* s, const cairn_team* team) {
   const cairn_map* map = cairn_team_map(team);

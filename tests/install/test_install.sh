@@ -29,7 +29,7 @@ libdir=$(dirname -- "$library")
 version=$(sed -n 's/^Version: //p' "$libdir/pkgconfig/cairn.pc")
 major=${version%%.*}
 
-# What was laid down.
+# # The installed files.
 for file in "$libdir/libcairn.so.$major" "$libdir/libcairn.so.$version" "$prefix/include/cairn/cairn.h" \
   "$libdir/libcairn_sim.so" "$libdir/libcairn_sim.so.$major" "$libdir/libcairn_sim.so.$version" \
   "$libdir/cmake/cairn/cairnConfig.cmake" "$libdir/cmake/cairn/cairnConfigVersion.cmake" \
@@ -48,7 +48,7 @@ if grep -rIlF -e "$source_dir/" -e "$build_dir/" "$prefix/include" "$libdir/cmak
 fi
 pass "the tree: version $version, ${#libraries[@]} build(s) of the library"
 
-# The headers, each alone, in both languages.
+# Each header by itself, in both languages.
 mapfile -d '' -t headers < <(cd -- "$prefix/include" && find cairn -name '*.h' -print0 | sort -z)
 strict=(-Wall -Wextra -pedantic -Werror -fsyntax-only -I"$prefix/include")
 for header in "${headers[@]}"; do
@@ -89,7 +89,7 @@ sed 's/@.*//' "$work/committed" "$work/committed_sim" | LC_ALL=C sort >"$work/na
 same "$work/declared" "$work/names" "the headers' functions differ from src/cairn/capi/symbols.txt and src/sim/symbols.txt"
 pass "$(wc -l <"$work/names") symbols, as committed and as declared"
 
-# What the libraries need of the machine: the C and C++ runtime.
+# The libraries need only the C and C++ runtime.
 for file in "${libraries[@]}" "$libdir/libcairn_sim.so.$version"; do
   foreign=$(ldd "$file" | awk '{print $1}' |
     grep -vE '^(linux-(vdso|gate)\.so\.1|lib(stdc\+\+|m|gcc_s|c)\.so\.[0-9]+|.*/ld-linux[^/]*)$' || true)

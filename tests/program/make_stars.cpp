@@ -51,7 +51,7 @@ struct Array {
   std::vector<double> values;
 };
 
-// The vehicle turns about its z axis alone, so that attitudes add up; the map's axes are tilted against it.
+// The vehicle turns only about its z axis, so that attitudes add up; the map's axes are tilted against it.
 struct Course {
   double yaw = 0;
   Vector position{0, 0, 0};  // in the axes of the first vehicle frame

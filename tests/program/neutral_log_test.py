@@ -53,7 +53,7 @@ class NeutralLog(ProgramTest):
         text = self.neutral_log()
         kept = [line for line in text.splitlines(True) if line[0] in "OZ" or line.startswith("T 0 ")]
         s = self.summary(self.write("a.log", "".join(kept)))
-        # the start alone is known
+        # only the start is known
         self.assertEqual(set(s), ALWAYS | WITH_SUBMAPS | WITH_TRUE_POSES - {"pose_anees_per_dof"})
         self.assertEqual(s["steps"], 151)
 

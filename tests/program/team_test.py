@@ -31,7 +31,7 @@ class Usv(ProgramTest):
             s = self.usv("--mode", mode, "--runs", "5")
             claimed[mode] = s["claimed_improvement"]
             self.assertTrue(0.3 < s["pose_anees_per_dof"] < 4, (mode, s))
-        # Information: alone <= extended observations <= joint; the diagonal one claims what it does not have.
+        # Information: mono <= extended observations <= joint; the diagonal mode is overconfident.
         self.assertGreater(claimed["joint"], claimed["eo_full"] + 0.1)
         self.assertGreater(claimed["eo_diagonal"], claimed["eo_full"])
         self.assertGreater(claimed["eo_full"], 0)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the seed of a fleet determines: repeated steps, independent draws, the places of the features and the coast. */
+/* Results that the seed of a fleet determines: repeated steps, independent draws, the places of the features and the
+   coast. */
 #include "support.h"
 
 #define COAST 201

@@ -65,7 +65,7 @@ configure() {
   cmake -S "$root" -B "$folder" -G Ninja "$@"
 }
 
-# Builds the program cairn with the flags of the benchmarks; its path is in $program then. Talks on stderr alone.
+# Builds the program cairn with the flags of the benchmarks; $program is then its path. Writes only to stderr.
 bench_program() {
   say "Build (build/bench)" >&2
   {

@@ -78,8 +78,8 @@ Dynamic ReferenceFilter::frame_noise(const Sensor<SE3>& sensor, const std::vecto
   return R;
 }
 
-// Each observation is tested alone, then all together. While the joint test fails, the observation is removed without
-// which the others fit best.
+// Each observation is tested by itself, then all together. While the joint test fails, the observation is removed
+// without which the others fit best.
 void ReferenceFilter::gate(const Sensor<SE3>& sensor, const std::vector<Seen>& known, std::vector<std::size_t>& kept,
                            std::vector<double>& distance) const {
   kept.clear();

@@ -17,7 +17,7 @@ void add_sensor(AnyFilter& filter, const AnySensor& sensor, std::int32_t* number
   if constexpr (std::is_constructible_v<typename SensorKinds<PoseOf<AnyFilter>>::Any, AnySensor>)
     *number = filter.add(sensor);
   else if constexpr (PoseOf<AnyFilter>::kDim == 2)
-    throw Error(ErrorCode::argument, "filter: it is of a planar vehicle, and this sensor sees in space");
+    throw Error(ErrorCode::argument, "filter: its vehicle is planar, and this sensor is spatial");
   else
     throw Error(ErrorCode::argument,
                 "filter: it is of a vehicle in space, and this sensor sees in the plane; create the filter with "
@@ -32,10 +32,11 @@ SE3 read_pose_of<SE3>(const cairn_pose* pose, const char* name) {
 }
 template <>
 SE2 read_pose_of<SE2>(const cairn_pose* pose, const char* name) {
-  constexpr double kLevel = 1e-9;  // m, rad: what conversions by others leave
+  constexpr double kLevel = 1e-9;  // m, rad: allows for rounding in the caller's conversions
   const SE3 T = read_pose(pose, name);
   if (std::abs(T.translation().z()) > kLevel || T.rotation().quaternion().vec().head<2>().norm() > 0.5 * kLevel)
-    throw Error(ErrorCode::argument, "%s lies outside of the plane: z must be 0, and the turn about z alone", name);
+    throw Error(ErrorCode::argument, "%s lies outside of the plane: z must be 0, and the rotation must be about z only",
+                name);
   return Embedding<SE2>::down(T);
 }
 

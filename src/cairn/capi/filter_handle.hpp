@@ -20,7 +20,7 @@ void with_filter(Handle* filter, Function&& function) {
 template <class AnyFilter>
 using PoseOf = typename std::decay_t<AnyFilter>::PoseType;
 
-// Callers speak of space for a vehicle of either kind. A vehicle in the plane takes the part that lies in the plane.
+// The C interface is spatial for both kinds of vehicle. A vehicle in the plane uses the part that lies in the plane.
 template <class Pose>
 typename AbsoluteFix<Pose>::PointSquare read_point_covariance(const double* covariance, const char* name) {
   check_pointer(covariance, name);
@@ -45,7 +45,7 @@ void write_estimate(const Pose& pose, const typename Pose::Square& covariance, c
   if (pose_out != nullptr) write_pose(Embedding<Pose>::up(pose), pose_out);
 }
 
-// Indices of landmarks by their ids; an unknown one or one that comes twice is refused.
+// Indices of landmarks by their ids. An unknown id and a repeated id are refused.
 std::vector<std::size_t> read_ids(const Landmarks& map, const std::uint64_t* ids, std::size_t count);
 
 }  // namespace capi

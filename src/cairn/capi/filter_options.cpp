@@ -51,7 +51,7 @@ void check_bounds(double value, const Bounds& bounds, const char* name) {
 }
 
 void check_filter_options(const cairn_filter_options& o) {
-  // A dense map takes the memory of all its landmarks at once.
+  // A dense map allocates the memory of all its landmarks at creation.
   const bool sparse = o.submap_landmarks > 0 && o.join != CAIRN_JOIN_DENSE;
   if (!sparse) check_range(o.max_landmarks, 1, 30000, "options.max_landmarks");
 #define FILTER_CHOICE(field, constants, words, flag) \

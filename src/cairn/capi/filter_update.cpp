@@ -152,7 +152,7 @@ cairn_status cairn_filter_update_attitude(cairn_filter* filter, const double qua
       if constexpr (PoseOf<decltype(f)>::kDim == 2) {
         check_positive(covariance[8], "covariance of the yaw");
         if (!AbsoluteFix<SE3>::heading(0.0, 1.0).defined(SE3(attitude, Vector3::Zero())))
-          throw Error(ErrorCode::argument, "quaternion: its x axis stands upright, which is no heading of the plane");
+          throw Error(ErrorCode::argument, "quaternion: its x axis is vertical and has no heading in the plane");
         f.update_attitude(Embedding<SE2>::down(SE3(attitude, Vector3::Zero())).rotation(), Vector1(covariance[8]));
       } else {
         check_covariance(covariance, 3, false, "covariance");

@@ -33,7 +33,7 @@ std::vector<Observation> read_observations(const cairn_observation* observations
     if (!(observations[i].z[0] >= 0.0))
       throw Error(ErrorCode::argument, "%s[%zu].z: the range is %g, and must not be negative", array, i,
                   observations[i].z[0]);
-    if (!named) out[i].id = kNoId;  // nobody is told
+    if (!named) out[i].id = kNoId;  // teammates do not get the id
   }
   return out;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The handle behind cairn/team.h: a team, and what compares it with the truth and with its vehicle by itself.
+// The handle behind cairn/team.h: a team, and its comparison with the truth and with a filter of this vehicle only.
 #pragma once
 
 #include <optional>

@@ -70,7 +70,7 @@ TeamOptions team_options(const cairn_team_options& o, const cairn_filter_options
   const bool extended = options.mode == TeamMode::eo_diagonal || options.mode == TeamMode::eo_full;
   const SE2& mount = options.radar.T_body_sensor;
   if (extended && (!mount.translation().isZero(0.0) || mount.rotation().angle() != 0.0))
-    throw Error(ErrorCode::argument, "radar.T_body_sensor: extended observations want the radar at the body's origin");
+    throw Error(ErrorCode::argument, "radar.T_body_sensor: extended observations need the radar at the body's origin");
   return options;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rows of one update: residual, noise, and of the Jacobian only the blocks that are not zero, with the columns that
-// they belong to. Columns count the states of the batch's window (ekf.hpp), not of the whole filter.
+// The rows of one update: residual, noise, and the blocks of the Jacobian that are not zero, with their columns.
+// Columns count the states of the batch's window (ekf.hpp), not of the whole filter.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,8 @@ class Batch {
     return add(noise_, noise_count_, noise_pool_, noise_used_, row, rows, row, rows);
   }
 
-  // Leaves the given blocks of `rows` rows, in rising order, which close up. None of the batch's reaches over two.
+  // Keeps only the given blocks of `rows` rows, in rising order, and closes the gaps. No Jacobian block of the batch
+  // may span two of them.
   void keep(const Index* blocks, Index count, Index rows) {
     for (Index k = 0; k < count; ++k)
       std::memmove(residual_ + k * rows, residual_ + blocks[k] * rows, rows * sizeof(double));
@@ -122,7 +123,7 @@ class Batch {
     return value;
   }
 
-  // Y(:, 0..block.rows) += P(:, 0..block.columns) J^T; Y = it where `fresh`.
+  // Y(:, 0..block.rows) += P(:, 0..block.columns) J^T; if `fresh`, Y is set to the product.
   static void add_block(const Block& block, const double* P, Index ldp, Index n, bool fresh, double* Y, Index ldy) {
     Index c = 0;
     if (fresh && block.columns < 3) {
@@ -140,7 +141,7 @@ class Batch {
       }
   }
 
-  // Three columns of P a pass (a landmark, half a pose), read once for all rows of the block.
+  // Each pass reads three columns of P (a landmark, half a pose) once for all rows of the block.
   template <bool kFresh>
   static void add_columns(const double* J, Index rows, const double* P, Index ldp, Index n, double* Y, Index ldy) {
     if (rows == 3) return add_columns<kFresh, 3>(J, P, ldp, n, Y, ldy);

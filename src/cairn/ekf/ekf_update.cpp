@@ -37,7 +37,7 @@ void EkfUpdate<Pose>::require(bool legal, const char* call) const {
                          kStages[static_cast<int>(stage_)]);
 }
 
-// The window's columns of P_now, with the rows of the mount behind those of the states.
+// Writes the window's columns of P_now, with the rows of the mount behind those of the states.
 template <class Pose>
 void EkfUpdate<Pose>::gather_columns() {
   constexpr Index kAhead = 4;  // columns
@@ -54,8 +54,9 @@ void EkfUpdate<Pose>::gather_columns() {
     std::fill_n(columns + (window_.mount() + i) * ld, n, 0.0);
     for (Index r = 0; r < mount; ++r) columns[(window_.mount() + i) * ld + n + r] = mount_covariance_(r, i);
   }
-  // What stands left of a landmark's diagonal block lies along rows of P: a cache line a column. All landmarks of a few
-  // columns in turn keep to their few pages, and the lines of those ahead are fetched meanwhile.
+  // The entries of P to the left of a landmark's diagonal block lie along rows: each column costs a cache line. The
+  // loop visits all landmarks for a few columns at a time, so that it stays within few pages, and prefetches the lines
+  // of the next landmarks.
   for (Index c = kDof; c < n; c += kAhead) {
     const double* from_columns = P.column(c);
     for (Index a = 0; a < window_.points(); ++a) {
@@ -148,7 +149,7 @@ void EkfUpdate<Pose>::keep(const Index* blocks, Index count, Index rows) {
 template <class Pose>
 InverseInnovation EkfUpdate<Pose>::invert() {
   require(stage_ == Stage::linearised || stage_ == Stage::factored, "invert");
-  form_innovation();  // a factor may stand where S was
+  form_innovation();  // S may be overwritten by its factor
   const Index m = batch().rows();
   double* const L = workspace_.scratch;
   for (Index j = 0; j < m; ++j) std::copy(workspace_.S + j * m + j, workspace_.S + (j + 1) * m, L + j * m + j);
@@ -168,9 +169,10 @@ template <class Pose>
 bool EkfUpdate<Pose>::try_factor() {
   require(stage_ == Stage::linearised, "factor");
   const Index m = batch().rows();
-  stage_ = Stage::open;  // S is overwritten, also where it has no factor
+  stage_ = Stage::open;  // S is overwritten, even if it has no factor
   if (!cholesky(workspace_.S, m, m, workspace_.scratch)) return false;
-  // The residual of the iterated filter: r(x_i) + H_i xi_i (Bell and Cathey 1993); xi is zero at the first.
+  // The residual of the iterated filter: r(x_i) + H_i xi_i (Bell and Cathey 1993); xi is zero at the first
+  // linearisation.
   double* const innovation = workspace_.innovation;
   batch().add_product(1.0, workspace_.error_window, innovation);
   std::copy_n(innovation, m, workspace_.foreseen);
@@ -222,11 +224,11 @@ double EkfUpdate<Pose>::misfit(const double* residual) const {
 template <class Pose>
 bool EkfUpdate<Pose>::try_commit() {
   require(stage_ == Stage::solved, "commit");
-  stage_ = Stage::open;  // W is overwritten, also where the commit is refused
+  stage_ = Stage::open;  // W is overwritten, even if the commit is refused
   constexpr double kLeast = 1e-14;
   const Index n = state_.states(), m = batch().rows(), ld = state_.ld_;
-  // P H^T of the last linearisation becomes W = P H^T L^-T; the error xi = W L^-1 r, and what P_new = P - W W^T (Mars
-  // paper, eq. 13) takes off the diagonal, before anything is changed.
+  // P H^T of the last linearisation becomes W = P H^T L^-T. The error xi = W L^-1 r and the decrease of the diagonal by
+  // P_new = P - W W^T (Mars paper, eq. 13) are computed before anything is changed.
   const RowSums sums{workspace_.innovation, workspace_.shrunk, workspace_.error_state};
   solve_right_transposed(workspace_.S, m, m, workspace_.W, ld, n + window_.mount_size(), workspace_.scratch, &sums);
 
@@ -237,7 +239,7 @@ bool EkfUpdate<Pose>::try_commit() {
     for (Index i = kDof; i < n; ++i) diagonal[i] += motion.left()[t * ld + i] * motion.right()[t * ld + i];
   for (Index i = 0; i < n; ++i) {
     if (!std::isfinite(workspace_.error_state[i])) return false;
-    // What is left of a variance must stand above the rounding of what it was; one that was zero stays so.
+    // A variance after the update must exceed the rounding error of the variance before it. A zero variance stays zero.
     if (!(diagonal[i] - workspace_.shrunk[i] >= kLeast * diagonal[i] && diagonal[i] >= 0.0)) return false;
   }
 
@@ -248,7 +250,7 @@ bool EkfUpdate<Pose>::try_commit() {
   return true;
 }
 
-// The mount's error after the update: its estimate, its covariance, and what it shares with every state.
+// The mount's error after the update: its estimate, its covariance, and its covariance with every state.
 template <class Pose>
 void EkfUpdate<Pose>::correlate_mount() {
   const Index n = state_.states(), m = batch().rows(), ld = state_.ld_;

@@ -17,7 +17,7 @@ namespace cairn {
 struct Iterations {
   int most = 3;
   double tolerance = 0.1;  // of EkfUpdate::misfit()
-  bool relative = true;    // all rows see points R^T (l - p) and nothing else of the pose
+  bool relative = true;    // all rows depend on the pose only through points R^T (l - p)
 };
 
 template <class Pose>
@@ -41,21 +41,21 @@ class EkfUpdate {
   MountError<Pose> mount() const { return mount_; }
 
   // --- linearise --- `fill(nullptr)` fills the batch at the iterate; `fill(residual)` writes only its residual there.
-  // Both return false where a row has none. Forms H P and S.
+  // Both return false if a row has no residual. Forms H P and S.
   template <class Fill>
   void linearise(Fill&& fill) {
     require(stage_ != Stage::committed, "linearise");
     if (!fill(nullptr))
       throw Error(ErrorCode::numerical,
-                  "sensor: it refused a landmark that it had seen a moment before; nothing was changed");
+                  "sensor: it refused a landmark that it had accepted earlier in this update; nothing was changed");
     compute_innovation();
   }
   Batch& batch() { return workspace_.batch; }
   const Batch& batch() const { return workspace_.batch; }
-  // Add blocks given Jacobians by ordinary errors, of rows that the batch has: first the pose's block, then those of
-  // the landmarks that the rows depend on (numbers in the window); each gets what the pose's call returned. `relative`:
-  // the rows see points R^T (l - p) and nothing else of the pose, so that the attitude's columns of the invariant error
-  // are exactly zero.
+  // Add blocks to rows that the batch already has. The Jacobians are with respect to ordinary errors. Add the pose's
+  // block first, then the blocks of the landmarks that the rows depend on (numbers in the window); pass each of them
+  // the return value of the pose's call. `relative`: the rows depend on the pose only through points R^T (l - p), so
+  // that the attitude's columns of the invariant error are exactly zero.
   struct PoseBlock {
     double* value;
     bool turns;  // it has columns for the attitude
@@ -68,23 +68,24 @@ class EkfUpdate {
   void add_mount_block(Index row, Index rows, const JMount& J_mount);
 
   // --- gates ---
-  // Squared Mahalanobis distance of one block of `rows` rows by itself. Throws where its S is not positive definite.
+  // Squared Mahalanobis distance of one block of `rows` rows by itself. Throws if its S is not positive definite.
   double distance(Index block, Index rows) const;
-  // Leaves these blocks of `rows` rows, in rising order, and their S; the window stays.
+  // Keeps only these blocks of `rows` rows, in rising order, and their S; the window stays.
   void keep(const Index* blocks, Index count, Index rows);
-  void form_innovation();      // S once more, from the H P that stands
-  InverseInnovation invert();  // of the S that stands; throws where it is not positive definite
+  void form_innovation();      // S once more, from the current H P
+  InverseInnovation invert();  // of the current S; throws if it is not positive definite
   Index* kept() { return workspace_.kept; }
   bool* refused() { return workspace_.refused; }
-  // S = L L^T, and nis(). Throws where S is not positive definite.
+  // S = L L^T, and nis(). Throws if S is not positive definite.
   void factor() {
     if (!try_factor()) throw_not_definite();
   }
   double nis() const { return nis_; }  // r^T S^-1 r of the last factor()
 
   // --- iterate --- Gauss-Newton on the factored batch (iterated EKF, Bell and Cathey 1993); returns how often the
-  // batch was linearised. It ends where the linearisation foresaw the residual. Rows that are not relative have
-  // Jacobians that turn with the position, of which a residual tells nothing: they are linearised at least twice.
+  // batch was linearised. It ends when the linear model predicts the residual. Rows that are not relative have
+  // Jacobians that change with the position, and the residual does not show this change: they are linearised at least
+  // twice.
   template <class Fill>
   int iterate(const Iterations& end, Fill&& fill) {
     int i = 1;
@@ -92,7 +93,7 @@ class EkfUpdate {
       solve();
       if (i >= end.most) break;
       step();
-      // A landmark may lose its image on the way: then the last linearisation stands.
+      // If a landmark loses its image on the way, the last linearisation is used.
       if (!fill(workspace_.residual)) break;
       if ((end.relative || i > 1) && !(misfit(workspace_.residual) > end.tolerance)) break;
       linearise(fill);
@@ -102,18 +103,18 @@ class EkfUpdate {
   }
   void solve();                                 // the iterate's error against the estimate
   void step();                                  // iterate <- estimate retracted by that error
-  double misfit(const double* residual) const;  // how far residuals at the iterate are from the foreseen ones, sigmas
+  double misfit(const double* residual) const;  // misfit of the linear model at the iterate, sigmas
 
-  // --- commit --- P and every variable. Throws, with nothing changed, where a variance of P would not stay positive or
-  // a value not finite. That costs O(n m) and tells that P would lose definiteness; State::smallest_pivot() tells
-  // surely.
+  // --- commit --- P and every variable. Throws, with nothing changed, if a variance of P would not stay positive or
+  // a value not finite. This check costs O(n m) and finds most updates after which P is not definite;
+  // State::smallest_pivot() is a full test.
   void commit() {
     if (!try_commit()) throw_not_definite();
   }
 
-  // --- place --- after the commit, or where the batch is empty: appends a new landmark that depends on the pose, on
-  // the window's mount (J_mount may be null) and on noise of its own. False, with nothing changed, where a result is
-  // not finite. The caller minds the capacity.
+  // --- place --- after the commit, or if the batch is empty: appends a new landmark that depends on the pose, on
+  // the window's mount (J_mount may be null) and on independent noise. Returns false, with nothing changed, if a result
+  // is not finite. The caller checks the capacity.
   bool place(const Point& position, const PointByPose& J_pose, const PointByMount* J_mount, const PointSquare& noise,
              bool relative);
 

@@ -74,7 +74,8 @@ void PendingMotion<Pose>::prepare(const StateLayout<Pose>& layout, const double*
     for (Index t = 0; t < kTurn; ++t)
       for (Index r = 0; r < kDim; ++r) right_[t * ld_ + row + r] = U(r, t);
   }
-  // Down whole columns: a product a landmark would wait for its own small matrices to leave the store buffer.
+  // The loop runs down whole columns. One small product per landmark is slower: each product waits until its inputs,
+  // which were just written, have left the store buffer.
   const Index n = layout.states();
   for (Index t = 0; t < kTurn; ++t) {
     std::fill(left_ + t * ld_ + kDof, left_ + t * ld_ + n, 0.0);

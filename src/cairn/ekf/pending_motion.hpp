@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motion since the last update, held back so that a step of motion costs O(1): P_now = F P F^T + U N U^T.
+// Motion since the last update. It is held back, so that a motion step costs O(1): P_now = F P F^T + U N U^T.
 //
 // F turns only the pose block, and only with the standard error. N is the noise of the pose. With the invariant error
 // it reaches the point x through U_x = [0, -G(x)]: a landmark's part of P changes by products of rank kTurn, which the
@@ -26,7 +26,7 @@ class PendingMotion {
   PendingMotion(Arena& arena, const ErrorModel<Pose>& model, Index ld);
 
   void clear();
-  // Motion from `before` to `next`. False, with nothing changed, where a result is not finite.
+  // Motion from `before` to `next`. Returns false, with nothing changed, if a result is not finite.
   bool add(const Pose& before, const Pose& next, const Increment<Pose>& increment);
 
   bool any() const { return any_; }
@@ -36,8 +36,9 @@ class PendingMotion {
   const Square& N() const { return N_; }
   Square pose_block(const LowerTriangle& P) const;  // of P_now
 
-  // U N and U as columns, a row a state; prepare() fills them, the functions below read them. The pose's rows are zero:
-  // its columns of P are written whole. rank() columns each: none with the standard error.
+  // U N and U as columns, with one row for each state. prepare() fills them, the functions below read them. The pose's
+  // rows are zero, because its columns of P are written completely. Each has rank() columns, which is 0 with the
+  // standard error.
   void prepare(const StateLayout<Pose>& layout, const double* points);
   Index rank() const { return rank_; }
   const double* left() const { return left_; }    // U N
@@ -47,7 +48,7 @@ class PendingMotion {
   // The pose's columns of P_now, all n rows: P F^T + U N. `out` has the leading dimension of the columns.
   void pose_columns(const LowerTriangle& P, Index n, double* out) const;
   TriangleTerm term() const { return {left_, ld_, right_, ld_, rank_, 1.0}; }  // U N U^T over the points
-  // Both sets of columns, for whoever needs 2 kTurn columns while no motion is pending.
+  // The memory of both sets of columns, for code that needs 2 kTurn columns while no motion is pending.
   double* scratch_left() { return left_; }
   double* scratch_right() { return right_; }
 

@@ -115,7 +115,7 @@ template <class Pose>
 bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, const PointSquare& noise, bool relative,
                           const PointByMount* J_mount, const SharedMount* mount) {
   const Point landmark = position - origin_;
-  // By the state's own errors: xi_l = e_l - G(l) xi_R, and e_p = xi_p + G(p) xi_R.
+  // Jacobians by the state's own errors: xi_l = e_l - G(l) xi_R, and e_p = xi_p + G(p) xi_R.
   PointByPose J = J_pose;
   if (model_.invariant()) {
     if (relative) {
@@ -160,8 +160,8 @@ bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, cons
   return true;
 }
 
-// The invariant error xi_l = e_l - G(l) xi_R of the copy is that of the landmark, plus the noise: both stand at one
-// place.
+// The invariant error xi_l = e_l - G(l) xi_R of the copy is that of the landmark plus the noise, because both have the
+// same position.
 template <class Pose>
 void State<Pose>::duplicate(Index slot, const PointSquare& noise) {
   const Index n = states(), from = layout_.point(slot).offset;
@@ -185,7 +185,7 @@ void State<Pose>::exchange_landmarks(Index a, Index b) {
 
 template <class Pose>
 void State<Pose>::remove(Index slot) {
-  // Motion held back needs no part in it: it reaches each landmark through that landmark's position only.
+  // Motion that is held back needs no change: it depends on each landmark only through the landmark's position.
   const Index last = size() - 1;
   if (slot != last) {
     const Index to = layout_.point(slot).offset, from = layout_.point(last).offset;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The state of a filter: one pose, many points (landmarks and companions), and their covariance, of which this class is
-// the only owner. Which error the covariance speaks of is ErrorModel's; where each variable stands is StateLayout's.
+// the only owner. ErrorModel defines which error the covariance describes. StateLayout defines the offset of each
+// variable.
 //
 // Only the lower triangle of P is kept. Motion between two updates costs O(1): PendingMotion holds it back until the
-// next update. An update is made by begin() (ekf_update.hpp).
+// next update. begin() makes an update (ekf_update.hpp).
 //
 // Companions are other vehicles. A companion's position is a point, in one of the first slots; its attitude is a block
-// of its own. The filter looks at the world from one vehicle; activate() makes that another one.
+// of its own. The filter's pose is that of one vehicle, the active one; activate() changes which vehicle this is.
 #pragma once
 
 #include <vector>
@@ -41,7 +42,7 @@ class State {
 
   State(Arena& arena, ErrorKind error, const Capacity& capacity);
 
-  // Forgets everything; the covariance is that of the ordinary error [dp; dtheta].
+  // Forgets everything. `covariance` is the covariance of the ordinary error [dp; dtheta].
   void start(const Pose& pose, const Square& ordinary_covariance);
 
   // --- estimates ---
@@ -51,10 +52,10 @@ class State {
   Index states() const { return layout_.states(); }
   Point landmark(Index slot) const { return local(slot) + origin_; }
 
-  // --- propagate --- O(1). False, with nothing changed, where a result is not finite.
+  // --- propagate --- O(1). Returns false, with nothing changed, if a result is not finite.
   bool propagate(const Increment<Pose>& increment);
 
-  // --- update --- of the pose, of a mount where `mount_noise` is given, and of the chosen points; O(states window).
+  // --- update --- of the pose, of a mount if `mount_noise` is given, and of the chosen points; O(states window).
   struct Window {
     const Index* slots = nullptr;
     Index count = 0;
@@ -68,12 +69,12 @@ class State {
   void gather(const Index* slots, Index count, double* out, Index ld) const;
   // The same in ordinary errors.
   void gather_ordinary(const Index* slots, Index count, double* out, Index ld) const;
-  // Covariance of e_l - e_p - turn(l - p) e_R, all that a sensor of R^T (l - p) feels of pose and landmark. With the
-  // invariant error it is that of xi_l - xi_p.
+  // Covariance of e_l - e_p - turn(l - p) e_R, the only error that affects a sensor of R^T (l - p). With the invariant
+  // error it is the covariance of xi_l - xi_p.
   PointSquare relative_covariance(Index slot) const;
   Square pose_covariance() const;  // ordinary
   PointSquare landmark_covariance(Index slot) const;
-  // Normalised error squared of the pose in the state's own coordinates; negative where its covariance is singular.
+  // Normalised error squared of the pose in the state's own coordinates; negative if its covariance is singular.
   double pose_nees(const Pose& truth) const;
   // The same of any estimate with an ordinary covariance; the invariant error counts positions from `origin`.
   static double nees(ErrorKind error, const Point& origin, const Pose& truth, const Pose& estimate,
@@ -88,45 +89,49 @@ class State {
     double* cross;  // of every state with it; gets the new point's rows
   };
   // Appends a landmark that depends on the pose (ordinary Jacobian), on a shared mount (J_mount and `mount` may be
-  // null), and on noise of its own. False, with nothing changed, where a result is not finite. The caller minds the
-  // capacity.
+  // null), and on independent noise. Returns false, with nothing changed, if a result is not finite. The caller checks
+  // the capacity.
   bool augment(const Point& position, const PointByPose& J_pose, const PointSquare& noise, bool relative,
                const PointByMount* J_mount = nullptr, const SharedMount* mount = nullptr);
   // Removes a landmark; the last one moves into its slot.
   void remove(Index slot);
   // Two landmarks change slots.
   void exchange_landmarks(Index a, Index b);
-  // Appends a landmark that stands where another one does, but for an error of its own. The caller minds the capacity.
+  // Appends a landmark at the position of another one, with an additional independent error. The caller checks the
+  // capacity.
   void duplicate(Index slot, const PointSquare& noise);
 
   // --- companions --- numbered from 0, by the slots of their positions
   Index companions() const { return layout_.companions(); }
   Pose companion(Index k) const { return Pose(attitudes_[k], landmark(k)); }
   Square companion_covariance(Index k) const;  // ordinary
-  // Adds a companion whose ordinary error is J_pose times that of the state's pose (zero where it was told, not seen)
-  // and a noise of its own; the landmark that had its slot moves behind the last one. The caller minds the capacity.
-  // False, with nothing changed, where a result is not finite.
+  // Adds a companion. Its ordinary error is J_pose times that of the state's pose, plus independent noise. J_pose is
+  // zero if the companion's pose was given and not observed. The landmark that had the companion's slot moves behind
+  // the last one. The caller checks the capacity. Returns false, with nothing changed, if a result is not finite.
   bool add_companion(const Pose& pose, const Square& J_pose, const Square& noise);
   void remove_companion(Index k);  // the last companion becomes number k, the last landmark the first one
-  // The state's pose is companion k's from now on, and companion k is the vehicle that was the state's. O(n^2) with the
-  // invariant error, whose arms turn about another vehicle then; O(n) with the standard one.
+  // Exchanges two vehicles: companion k's pose becomes the state's pose, and the vehicle that had the state's pose
+  // becomes companion k. O(n^2) with the invariant error, whose arms then depend on another vehicle's attitude; O(n)
+  // with the standard error.
   void activate(Index k);
 
-  // A submap that began at the pose and whose landmarks known here were fused (an update) hands over the rest.
+  // The part of a submap that is composed after the fusion. The submap began at the pose, and an update has already
+  // fused its landmarks that the state knows.
   struct Handover {
     Pose T_base_end;
     const Index* fused;  // their slots
     Index fused_count;
     const Point* fresh;  // landmarks not known here, in the submap's frame
     Index fresh_count;
-    // Own error of [end pose; fresh landmarks] in the submap: K y + w, w of covariance W, y the ordinary error of the
-    // fused ones.
+    // Error (of the error model) of [end pose; fresh landmarks] in the submap: K y + w. w has covariance W, and y is
+    // the ordinary error of the fused landmarks.
     Eigen::MatrixXd K, W;
   };
-  // The end becomes the pose, the fresh landmarks are appended. The caller minds the capacity. Allocates.
+  // The end pose becomes the state's pose, and the fresh landmarks are appended. The caller checks the capacity.
+  // Allocates.
   void compose(const Handover& handover);
 
-  // What an update and a composition change. Allocates.
+  // A copy of everything that an update and a composition change. Allocates.
   struct Backup {
     Pose pose;
     std::vector<double> points, triangle;
@@ -149,9 +154,9 @@ class State {
 
   ErrorModel<Pose> model_;
   StateLayout<Pose> layout_;
-  Index ld_;  // of P and of everything with a row a state
-  // Everything below counts from the position at the start. The arms G(x) of the invariant error reach from the origin
-  // to x: from an origin far away they would drown the covariance's digits in their length.
+  Index ld_;  // of P and of every array with one row for each state
+  // All positions below are relative to the start position. The arms G(x) of the invariant error reach from the origin
+  // to x. With an origin far away, the arms would be long and the covariance would lose its digits to rounding.
   Point origin_ = Point::Zero();
   Pose pose_;
   double* points_;

@@ -8,7 +8,8 @@ namespace cairn {
 
 template <class Pose>
 typename State<Pose>::Square State<Pose>::companion_covariance(Index k) const {
-  // By the filter's own errors of pose, position of the companion and its attitude; then e_x = xi_x + G(x) xi_R.
+  // Jacobians by the filter's own errors of the pose, the companion's position and its attitude; then e_x = xi_x + G(x)
+  // xi_R.
   constexpr Index kAll = kDof + kDim;
   const Index heading = layout_.attitude(k).offset, position = layout_.point(k).offset;
   Eigen::Matrix<double, kAll, kAll> joint;
@@ -37,7 +38,7 @@ typename State<Pose>::Square State<Pose>::companion_covariance(Index k) const {
 template <class Pose>
 bool State<Pose>::add_companion(const Pose& pose, const Square& J_pose, const Square& noise) {
   const Point position = pose.translation() - origin_;
-  // By the filter's own errors: xi_x = e_x - G(x) xi_R, and e_p = xi_p + G(p) xi_R.
+  // Jacobians by the filter's own errors: xi_x = e_x - G(x) xi_R, and e_p = xi_p + G(p) xi_R.
   Square J = J_pose;
   if (model_.invariant()) {
     J.template rightCols<kTurn>() += J_pose.template leftCols<kDim>() * model_.arm(pose_.translation());
@@ -51,7 +52,7 @@ bool State<Pose>::add_companion(const Pose& pose, const Square& J_pose, const Sq
   P_.move_tail(before, n - before, kTurn);
   layout_.add_companion();
   layout_.add_points(1);
-  // The first landmark's slot is the companion's now, its values go to the end.
+  // The companion gets the first landmark's slot, and that landmark's values move to the end.
   const Index last = size() - 1, at = layout_.point(k).offset, end = layout_.point(last).offset;
   const Index heading = layout_.attitude(k).offset;
   place_of(last) = Point(local(k));
@@ -95,7 +96,7 @@ void State<Pose>::remove_companion(Index k) {
 }
 
 // With x_a the error of the active vehicle's attitude and x_b that of the companion's: xi_x = e_x - G(x) x_a becomes
-// e_x - G(x) x_b = xi_x + G(x) (x_a - x_b), for every point x; then the two vehicles' states change places.
+// e_x - G(x) x_b = xi_x + G(x) (x_a - x_b), for every point x. Then the two vehicles' states change places.
 template <class Pose>
 void State<Pose>::activate(Index k) {
   apply_pending();
@@ -124,7 +125,7 @@ void State<Pose>::activate(Index k) {
     Point before, rest;
     for (Index d = 0; d < kDim; ++d) before[d] = P_(position + d, position + d);
     update_triangle(P_.column(0), ld_, n, terms, 2, workspace_.scratch);
-    // Of a vehicle that stands where it was told exactly nothing is left but rounding.
+    // If a vehicle's pose was given exactly, the difference is only rounding error.
     for (Index d = 0; d < kDim; ++d) rest[d] = P_(position + d, position + d);
     if (rest.cwiseAbs().maxCoeff() <= 1e-13 * before.maxCoeff())
       for (Index d = 0; d < kDim; ++d)

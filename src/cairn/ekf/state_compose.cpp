@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A submap handed over to the state of the whole map (docs/submaps.md).
+// Composition of a submap with the state of the whole map (docs/submaps.md).
 #include "ekf/ekf_update.hpp"
 #include "ekf/state.hpp"
 #include "linear/triangle.hpp"
@@ -32,7 +32,7 @@ void State<Pose>::compose(const Handover& handover) {
   for (Index c = 0; c < q; ++c)
     for (Index r = 0; r < n; ++r) columns(r, c) = P_.symmetric(r, chosen[c]);
 
-  // y = R_S^T (l - p_S) of the fused landmarks by the errors of base and landmarks.
+  // Jacobian of y = R_S^T (l - p_S) of the fused landmarks by the errors of base and landmarks.
   Matrix Y = Matrix::Zero(kDim * fused, q);
   for (Index a = 0; a < fused; ++a) {
     Y.block(kDim * a, 0, kDim, kDim) = -R.transpose();
@@ -42,7 +42,7 @@ void State<Pose>::compose(const Handover& handover) {
   }
   const Matrix KY = handover.K * Y;
 
-  // The new pose and the new landmarks by (base, fused) and by w.
+  // Jacobians of the new pose and the new landmarks by (base, fused) and by w.
   Matrix A = Matrix::Zero(rest, q), B = Matrix::Zero(rest, rest);
   const auto set_point = [&](Index row, const Point& arm) {
     A.middleRows(row, kDim) = R * KY.middleRows(row, kDim);
@@ -52,7 +52,7 @@ void State<Pose>::compose(const Handover& handover) {
   };
   const Matrix J_turn = pose_.rotation().adjoint();
   A.middleRows(kDim, kTurn) = J_turn * KY.middleRows(kDim, kTurn);
-  const Matrix C = A.middleRows(kDim, kTurn);  // R_S xi_RL but for its own noise
+  const Matrix C = A.middleRows(kDim, kTurn);  // R_S xi_RL without its own noise
   A.block(kDim, kDim, kTurn, kTurn) += Eigen::Matrix<double, kTurn, kTurn>::Identity();
   B.block(kDim, kDim, kTurn, kTurn) = J_turn;
   set_point(0, R * handover.T_base_end.translation());

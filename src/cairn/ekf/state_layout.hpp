@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where each variable of a filter's state stands. A variable is a block: its offset, its size, and the way in which an
-// error moves it. This is the only file that computes offsets.
+// The layout of a filter's state. A variable is a block: its offset, its size, and its retraction (how an error moves
+// it). This is the only file that computes offsets.
 //
 // The order is [pose; attitudes of companions; points], that is [xi_p; xi_R; theta_1; theta_2; ...; xi_1; xi_2; ...].
 // A point is the position of a companion (the first slots) or a landmark (all later slots). A new kind of variable
@@ -53,7 +53,7 @@ class StateLayout {
   Index companions_ = 0, points_ = 0;
 };
 
-// Where each variable of an update's window stands: [pose; mount; chosen points].
+// The layout of an update's window: [pose; mount; chosen points].
 template <class Pose>
 class WindowLayout {
  public:

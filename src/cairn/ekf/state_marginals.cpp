@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a state's covariance says of the pose and of chosen points.
+// Marginal covariances of a state: of the pose and of chosen points.
 #include <cmath>
 
 #include "ekf/ekf_update.hpp"
@@ -8,12 +8,12 @@
 namespace cairn {
 namespace {
 
-// error^T covariance^-1 error, negative where the covariance is singular.
+// error^T covariance^-1 error, negative if the covariance is singular.
 template <class Pose>
 double normalised(typename Pose::Square covariance, typename Pose::Tangent error) {
   constexpr int kDof = Pose::kDof;
   typename Pose::Square& L = covariance;
-  // Scaled to unit diagonal first: metres and radians must not decide what counts as singular.
+  // The covariance is scaled to unit diagonal first: units (metres, radians) must not decide whether it is singular.
   for (Index i = 0; i < kDof; ++i)
     if (!(L(i, i) > 0.0)) return -1.0;
   const typename Pose::Tangent scale = L.diagonal().cwiseSqrt().cwiseInverse();
@@ -21,7 +21,7 @@ double normalised(typename Pose::Square covariance, typename Pose::Tangent error
   error = scale.cwiseProduct(error);
   if (!cholesky(L.data(), kDof, kDof)) return -1.0;
   for (Index i = 0; i < kDof; ++i)
-    if (L(i, i) < 1e-7) return -1.0;  // pivots of rounding alone
+    if (L(i, i) < 1e-7) return -1.0;  // pivots that are only rounding error
   solve_lower(L.data(), kDof, kDof, error.data());
   return error.squaredNorm();
 }
@@ -91,7 +91,7 @@ typename State<Pose>::PointSquare State<Pose>::landmark_covariance(Index slot) c
 template <class Pose>
 typename State<Pose>::PointSquare State<Pose>::relative_covariance(Index slot) const {
   const Index row = layout_.point(slot).offset;
-  const Index dofs = model_.invariant() ? kDim : kDof;  // that the error has to do with
+  const Index dofs = model_.invariant() ? kDim : kDof;  // that the error depends on
   Eigen::Matrix<double, kDim, kDof> J = Eigen::Matrix<double, kDim, kDof>::Zero();
   J.template leftCols<kDim>() = -PointSquare::Identity();
   PointByPose cross = PointByPose::Zero();
@@ -133,7 +133,7 @@ double State<Pose>::nees(ErrorKind error, const Point& origin, const Pose& truth
 
 template <class Pose>
 double State<Pose>::smallest_pivot() {
-  // R^T R = D P D with R in the strict upper triangle of P's storage, its diagonal and D elsewhere: no memory is
+  // R^T R = D P D. R is stored in the strict upper triangle of P's storage, its diagonal and D elsewhere: no memory is
   // needed.
   apply_pending();
   const Index n = states();

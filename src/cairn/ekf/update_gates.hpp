@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An update's batch as gate_blocks() sees it: blocks of `rows` rows that are kept or removed where they stand.
+// The interface between an update's batch and gate_blocks(): blocks of `rows` rows that are kept or removed in place.
 #pragma once
 
 #include "ekf/ekf_update.hpp"
 
 namespace cairn {
 
-// A class that knows more of its blocks derives from this one and hides what it does otherwise.
+// A class that knows more about its blocks derives from this one and hides the functions that it replaces.
 template <class Pose>
 class UpdateGates {
  public:
@@ -18,7 +18,7 @@ class UpdateGates {
   template <class Bound>
   bool consistent(Bound&& bound) {
     update_.factor();
-    return count() == 0 || update_.nis() <= bound(update_.batch().rows());  // no rows have no bound
+    return count() == 0 || update_.nis() <= bound(update_.batch().rows());  // a batch without rows has no bound
   }
   InverseInnovation invert() { return update_.invert(); }
   void refactor() { update_.factor(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory of an update, taken once at creation: an update allocates nothing.
+// The memory of an update. It is allocated once, at creation: an update allocates nothing.
 #pragma once
 
 #include "core/arena.hpp"
@@ -8,7 +8,7 @@
 
 namespace cairn {
 
-// What a filter's state has room for.
+// The capacity of a filter's state.
 template <class Pose>
 struct StateCapacity {
   static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof, kMount = kMountErrors<Pose>;
@@ -26,7 +26,7 @@ struct UpdateWorkspace {
   UpdateWorkspace(Arena& arena, const StateCapacity<Pose>& capacity, Index ld);
 
   Index* slots;            // of the window's points
-  double* iterate_points;  // where the iterate has them
+  double* iterate_points;  // their positions at the iterate
   Batch batch;
   double* residual;      // m: residuals at a trial iterate
   double* HP;            // m x w: the window's columns of H P
@@ -34,12 +34,12 @@ struct UpdateWorkspace {
   double* S_inverse;     // m x m
   double* innovation;    // m: r + H xi at the last linearisation, then L^-1 of it
   double* weights;       // m: S^-1 (r + H xi)
-  double* foreseen;      // m: residual that the linear model foresees at its own solution
+  double* foreseen;      // m: residual that the linear model predicts at its own solution
   double* error_window;  // w: error of the iterate against the estimate
   double* columns;       // ld x w: the window's columns of P_now, with a row for each error of the mount
   double* W;             // ld x m: P H^T, after the commit times L^-T
   double* error_state;   // n: error of the whole state
-  double* shrunk;        // n: what an update takes off the diagonal
+  double* shrunk;        // n: decrease of the diagonal by an update
   double* diagonal;      // n
   double* mount_cross;   // ld x kMount: covariance of every state with the mount after the commit
   double* scratch;       // m^2 + cholesky_workspace(m), and what the kernels ask for

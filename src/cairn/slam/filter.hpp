@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One vehicle's filter: motion, observations, submaps and queries. It tells its parts in which order they work
+// One vehicle's filter: motion, observations, submaps and queries. It calls its parts in their order
 // (docs/architecture.md).
 #pragma once
 
@@ -25,7 +25,7 @@ class Filter {
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
   static std::size_t arena_bytes(const FilterOptions<Pose>& options);     // of the arena that the constructor wants
-  static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of all that the filter takes
+  static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of all memory that the filter needs
   // The vehicle's submaps join this map instead of one of the filter's own: for teams. Before the first motion.
   void use_map(std::unique_ptr<GlobalMap<Pose>> map) { submaps_.use_map(std::move(map)); }
   const FilterOptions<Pose>& options() const { return options_; }
@@ -42,7 +42,7 @@ class Filter {
   void set_view(int sensor, const Vector3& lower, const Vector3& upper) { sensors_.set_view(sensor, {lower, upper}); }
   void set_sighting(int sensor, const MutualSighting& sighting) { sensors_.set_sighting(sensor, sighting); }
 
-  // --- motion --- throws where the result is not finite, with nothing changed
+  // --- motion --- throws if the result is not finite, with nothing changed
   void set_wheels(const Wheels& wheels) { wheels_ = wheels; }
   void set_twist_noise(const TwistNoise& noise) { twist_noise_ = noise; }
   void predict_wheels(double dt, double left, double right) { propagate(drive_wheels<Pose>(wheels_, left, right, dt)); }
@@ -74,23 +74,23 @@ class Filter {
 
   // --- landmarks ---
   void remove_landmark(std::uint64_t id) { submaps_.remove_landmark(id); }
-  // The next two are of the open submap or the single map. Merging tells the filter that two landmarks are one, gated
-  // as an observation: where the gate accepts it, `other` is gone. Splitting undoes such a mistake: `fresh` stands
-  // where `id` does, but for an error.
+  // The next two functions change landmarks of the open submap or the single map. Merging tells the filter that two
+  // landmarks are one. It is gated like an observation; if the gate accepts it, `other` is removed. Splitting undoes
+  // such a mistake: the landmark `fresh` is placed at the position of `id`, with an additional error.
   void merge_landmarks(std::uint64_t id, std::uint64_t other) {
     log_.watch([&] { batches_.merge(id, other); });
   }
   void split_landmark(std::uint64_t id, std::uint64_t fresh, const PointSquare& covariance);
 
   // --- companions --- other vehicles, by the caller's names for them; only with a single map. Motion and observations
-  // are those of the vehicle from which the filter looks: at first its own, look_from() makes it another one.
+  // are those of the active vehicle: at first the filter's own vehicle; look_from() activates another one.
   void name_vehicle(std::uint64_t id) { local_.table().name_vehicle(id); }  // its own, before there are others
   void add_vehicle(std::uint64_t id, const Pose& pose, const Square& covariance) {
     add_vehicle(id, pose, Square::Zero(), covariance);
   }
-  // Its error is J_pose times that of the vehicle looked from, and noise.
+  // The companion's error is J_pose times the error of the active vehicle, plus noise.
   void add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise);
-  void remove_vehicle(std::uint64_t id) { local_.remove_vehicle(id); }  // not the one looked from
+  void remove_vehicle(std::uint64_t id) { local_.remove_vehicle(id); }  // not the active one
   void look_from(std::uint64_t id) { local_.look_from(id); }
   bool has_vehicle(std::uint64_t id) const { return local_.has_vehicle(id); }
   Pose vehicle_pose(std::uint64_t id) const;
@@ -110,7 +110,7 @@ class Filter {
   const GlobalMap<Pose>* map() const { return submaps_.map(); }        // null: a single map
   const Landmarks& landmarks() const { return submaps_.landmarks(); }  // the map that the caller sees
   const Landmarks& local_landmarks() const { return local_; }          // of the open submap or the single map
-  // Of [pose; landmarks of landmarks()], in space: 6 + 3 count on a side.
+  // Covariance of [pose; landmarks of landmarks()], in space: 6 + 3 count on a side.
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
     submaps_.pose_joint_covariance(indices, count, matrix);
   }

@@ -50,7 +50,7 @@ class FrameAssociator<Pose>::PairInnovations final : public Innovations {
   Index rows() const override { return rows_; }
   double threshold(Index rows) const override { return thresholds_.joint(rows); }
   void innovation(Index a, double* nu) const override { std::copy_n(pairs_.pair(a).residual.data(), rows_, nu); }
-  // J_a P J_b^T, and the noise of the mount's angles where all observations of a frame have it in common.
+  // J_a P J_b^T, and the noise of the mount's angles if all observations of a frame have it in common.
   void covariance(Index a, Index b, double* block) const override {
     Matrix3 S;
     if (a == b) {
@@ -101,8 +101,8 @@ void FrameAssociator<Pose>::choose_pairs(const Frame<Pose>& frame) {
              association_.nodes(), association_.pairs(), count);
 }
 
-// Whether the pair may be chance: the prediction is uncertain, and another landmark or another observation lies so near
-// that it could be taken for this one.
+// Whether the pair may be wrong by chance: the prediction is uncertain, and another landmark or another observation is
+// so near that it could be mistaken for this one.
 template <class Pose>
 bool FrameAssociator<Pose>::confusable(const Frame<Pose>& frame, Index observation, Index pair) const {
   const Sensor<Pose>& sensor = frame.sensor;
@@ -120,9 +120,9 @@ bool FrameAssociator<Pose>::confusable(const Frame<Pose>& frame, Index observati
   return false;
 }
 
-// Whether the observation is of a landmark that the map lacks, though it lies near some landmarks. It is where each of
-// those was paired in this frame, for a sensor sees a landmark once a frame, and where no other observation lies so
-// near that noise could have made two observations of one.
+// Whether the observation is of a new landmark although some landmarks of the map are near it. This holds if each of
+// these was paired in this frame (a sensor sees a landmark once a frame), and if no other observation is so near that
+// noise could have made two observations of one landmark.
 template <class Pose>
 bool FrameAssociator<Pose>::is_new(const Frame<Pose>& frame, Index observation) const {
   const Sensor<Pose>& sensor = frame.sensor;
@@ -148,7 +148,7 @@ void FrameAssociator<Pose>::add_new(const Frame<Pose>& frame, Index observation,
     report_.match(observation) = {kNoId, Decision::rejected, Reason::no_place, 0.0, 0.0};
 }
 
-// Paired observations go to the update. Of the others, those that are far from every landmark are new.
+// Paired observations go to the update. Another observation is of a new landmark if it is far from every landmark.
 template <class Pose>
 void FrameAssociator<Pose>::settle(const Frame<Pose>& frame, SortedFrame<Pose>& sorted) {
   const Index rows = frame.sensor.rows();

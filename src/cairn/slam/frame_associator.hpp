@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sorts the observations of a frame that brings no ids: which landmark each one is of, or whether it is a new landmark
+// Sorts the observations of a frame that brings no ids: finds the landmark of each one, or that it is of a new landmark
 // (docs/association.md).
 #pragma once
 

@@ -44,8 +44,8 @@ void FramePairs<Pose>::predict_images(const Sensor<Pose>& sensor) {
   }
 }
 
-// A pair is not within the bound where its values of one row are farther apart than that row's variance allows:
-// nu_r^2 <= bound S_rr. Sorted by this row, most pairs are never looked at.
+// A pair is within the bound only if nu_r^2 <= bound S_rr in each row r. Observations and images are sorted by one row,
+// so that most pairs are never looked at.
 template <class Pose>
 void FramePairs<Pose>::find(const Frame<Pose>& frame) {
   constexpr double kRounding = 1.0 + 1e-9;
@@ -85,7 +85,7 @@ void FramePairs<Pose>::consider(const Frame<Pose>& frame, Index observation, Ind
   // The likelihood of a pair also depends on how wide its gate is: -2 log p = d^2 + log det S + constant.
   const double cost =
       options_.by_likelihood ? distance + std::log(S.topLeftCorner(rows, rows).determinant()) : distance;
-  Index at = begin + found_[observation];  // sorted by cost; the worst pair goes where there is no room
+  Index at = begin + found_[observation];  // sorted by cost; if there is no room, the worst pair is dropped
   if (at - begin == kMostOfOne && cost >= candidates_[--at].distance) return;
   for (; at > begin && cost < candidates_[at - 1].distance; --at) {
     candidates_[at] = candidates_[at - 1];
@@ -96,8 +96,8 @@ void FramePairs<Pose>::consider(const Frame<Pose>& frame, Index observation, Ind
   found_[observation] = std::min(found_[observation] + 1, kMostOfOne);
 }
 
-// Closes the gaps that the fixed room of each observation left, and numbers the landmarks of all pairs. Where there are
-// more landmarks than the window holds, those of earlier observations get in.
+// Closes the gaps that the fixed room of each observation left, and numbers the landmarks of all pairs. If there are
+// more landmarks than the window holds, the landmarks of earlier observations are used.
 template <class Pose>
 void FramePairs<Pose>::gather(Index observations) {
   pair_count_ = window_count_ = 0;

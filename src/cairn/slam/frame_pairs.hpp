@@ -16,7 +16,7 @@ class FramePairs {
  public:
   static constexpr Index kMostOfOne = 8;  // pairs of one observation: the best ones
 
-  // What the sensor should see of a landmark.
+  // The predicted observation of a landmark.
   struct Image {
     Index slot;
     bool in_window;  // it belongs to a pair
@@ -72,7 +72,7 @@ class FramePairs {
 extern template class FramePairs<SE2>;
 extern template class FramePairs<SE3>;
 
-// What association has room for.
+// The capacity of association.
 template <class Pose>
 struct AssociationCapacity {
   explicit AssociationCapacity(const FilterOptions<Pose>& options)

@@ -13,9 +13,9 @@ class FramePlacer {
  public:
   FramePlacer(const FilterOptions<Pose>& options, LocalMap<Pose>& map, FrameReport& report);
 
-  // After the update was committed, or where it had no candidate.
+  // To be called after the update was committed, or if it had no candidate.
   void place(EkfUpdate<Pose>& update, const Frame<Pose>& frame, SortedFrame<Pose>& sorted);
-  // Where observations bring no ids, later landmarks get ids above this one.
+  // If observations bring no ids, later landmarks get ids above this one.
   void reserve_id(std::uint64_t id);
 
  private:

@@ -29,7 +29,7 @@ struct UpdateReport {
   bool association_exhausted = false;
   double association_seconds = 0.0;
   Index deferred = 0;  // landmarks that do not count yet after the update
-  Index removed = 0;   // landmarks that were missed, or that never came to count
+  Index removed = 0;   // removed landmarks: missed, or deferred for too long
 };
 
 class FrameReport {

@@ -40,7 +40,7 @@ void FrameSorter<Pose>::sort_landmarks(const Frame<Pose>& frame, SortedFrame<Pos
   }
 }
 
-// The position of a companion is seen as a landmark is, and takes part in the gates and the batch like one.
+// A companion's position is observed like a landmark and takes part in the gates and the batch like a landmark.
 template <class Pose>
 void FrameSorter<Pose>::sort_companions(const Frame<Pose>& frame, SortedFrame<Pose>& sorted) {
   for (Index i = frame.landmarks; i < frame.count(); ++i) {

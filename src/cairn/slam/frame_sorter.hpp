@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sorts observations by the ids that they bring: landmarks where ids are known, and companions in any case.
+// Sorts observations by the ids that they bring: landmarks if ids are known, and companions in any case.
 #pragma once
 
 #include "core/id_table.hpp"
@@ -14,7 +14,7 @@ class FrameSorter {
  public:
   FrameSorter(Arena& arena, const FilterOptions<Pose>& options, const LocalMap<Pose>& map, FrameReport& report);
 
-  // Both throw where an id comes twice in the frame.
+  // Both throw if an id comes twice in the frame.
   void sort_landmarks(const Frame<Pose>& frame, SortedFrame<Pose>& sorted);
   void sort_companions(const Frame<Pose>& frame, SortedFrame<Pose>& sorted);
 

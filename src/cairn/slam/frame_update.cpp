@@ -24,7 +24,7 @@ EkfUpdate<Pose> FrameUpdate<Pose>::begin(const Frame<Pose>& frame, const SortedF
   return map_.state().begin({window_, sorted.candidates(), shared ? &mount : nullptr});
 }
 
-// Fills the batch at the iterate; or, where `residual_only` is given, only the residual. False where a landmark has no
+// Fills the batch at the iterate or, if `residual_only` is given, only the residual. Returns false if a landmark has no
 // image.
 template <class Pose>
 bool FrameUpdate<Pose>::fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted,
@@ -70,7 +70,7 @@ class FrameUpdate<Pose>::Gates : public UpdateGates<Pose> {
 
   Match& match(Index a) { return report_.match(sorted_.candidate(a).observation); }
 
-  // Every candidate's match tells its distance, also where both gates accept the candidate.
+  // Every candidate's match contains its distance, even if both gates accept the candidate.
   double distance(Index a) {
     match(a).distance = Base::distance(a);
     match(a).threshold = threshold_;

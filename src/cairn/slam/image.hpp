@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The image of one landmark: what a sensor should observe of it from the estimated pose, and how sure that is.
+// The image of one landmark: its predicted observation from the estimated pose, and the covariance of the prediction.
 #pragma once
 
 #include "ekf/state.hpp"
@@ -7,7 +7,7 @@
 
 namespace cairn {
 
-// The prediction of the point in a slot, and its covariance without the mount's part. False where it has no image.
+// The prediction of the point in a slot, and its covariance without the mount's part. Returns false if it has no image.
 template <class Pose>
 bool image_of(const State<Pose>& state, const Sensor<Pose>& sensor, Index slot, Prediction<Pose>& prediction,
               Matrix3& covariance);

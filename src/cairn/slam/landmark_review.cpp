@@ -25,7 +25,7 @@ void LandmarkReview<Pose>::run(const Frame<Pose>& frame) {
   report_.last().deferred = map_.table().deferred();
 }
 
-// A landmark that an observation was compared with is not missed, also where that observation was rejected.
+// A landmark that an observation was compared with is not missed, even if that observation was rejected.
 template <class Pose>
 void LandmarkReview<Pose>::note_sightings(Index observations) {
   LandmarkTable& table = map_.table();
@@ -70,7 +70,7 @@ void LandmarkReview<Pose>::remove_missed(const Frame<Pose>& frame) {
   }
 }
 
-// Whether the sensor should see a landmark: its image lies in the view, and would do so three standard deviations off.
+// Whether the sensor should see a landmark: its image is at least three standard deviations inside the view.
 template <class Pose>
 bool LandmarkReview<Pose>::in_view(const Frame<Pose>& frame, Index slot) const {
   constexpr double kOff = 3.0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// After each frame: which deferred landmarks count from now on, and which landmarks go because they were not seen.
+// After each frame: which deferred landmarks count from now on, and which landmarks are removed because they were not
+// seen.
 #pragma once
 
 #include "slam/frame_report.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The names of a filter's points: which landmark or companion stands in which slot, and how often it was seen.
+// The names of a filter's points: which landmark or companion is in which slot, and how often it was seen.
 //
 // The slots are in three parts: companions, landmarks that count, deferred landmarks. A deferred landmark does not
-// count yet: it was not observed often enough. The table moves names only; LocalMap moves the values of the state in
-// step.
+// count yet, because it was not observed often enough. The table moves names only; LocalMap moves the values of the
+// state in step.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ class LandmarkTable {
   std::optional<Index> find(std::uint64_t id) const;            // slot of a landmark
   std::optional<Index> find_companion(std::uint64_t id) const;  // its number, which is its slot
   std::uint64_t id(Index slot) const { return ids_[slot]; }
-  std::uint64_t vehicle() const { return vehicle_; }  // the vehicle from which the filter looks
+  std::uint64_t vehicle() const { return vehicle_; }  // the active vehicle
   void name_vehicle(std::uint64_t id) { vehicle_ = id; }
 
   // --- sightings ---
@@ -56,7 +56,7 @@ class LandmarkTable {
   void count_first_deferred() { --deferred_; }
   void add_companion(std::uint64_t id);  // the first landmark moves behind the last one
   void remove_companion(Index number);   // the last companion gets the number, the last landmark becomes the first one
-  void look_from(Index companion);       // the companion and the vehicle that the filter looked from change places
+  void look_from(Index companion);       // the companion and the active vehicle change places
 
  private:
   void move(Index from, Index to);

@@ -36,8 +36,8 @@ void LocalMap<Pose>::count_from_now(Index deferred_slot) {
   table_.count_first_deferred();
 }
 
-// The gap must not part the landmarks that count: the last one of these takes the place of the one that goes, and the
-// last one of all landmarks takes that one's place.
+// The landmarks that count must stay contiguous. The last landmark that counts moves to the slot of the removed
+// landmark, and the last one of all landmarks moves to the slot that this leaves.
 template <class Pose>
 void LocalMap<Pose>::forget(Index slot) {
   Index at = slot;
@@ -67,7 +67,7 @@ void LocalMap<Pose>::split(std::uint64_t id, std::uint64_t fresh, const PointSqu
   const bool counts = table_.counts(slot);
   state_.duplicate(slot, covariance);
   name_placed(fresh);
-  // The new landmark counts if the landmark counts that it was part of.
+  // The new landmark counts if the landmark from which it is split counts.
   const Index placed = table_.size() - 1;
   if (counts && !table_.counts(placed)) count_from_now(placed);
 }
@@ -88,8 +88,7 @@ Index LocalMap<Pose>::companion_at(std::uint64_t id) const {
 template <class Pose>
 void LocalMap<Pose>::add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise) {
   if (has_vehicle(id))
-    throw Error(ErrorCode::argument, "vehicle: there is one of number %llu already",
-                static_cast<unsigned long long>(id));
+    throw Error(ErrorCode::argument, "vehicle: number %llu already exists", static_cast<unsigned long long>(id));
   if (table_.companions() == options_.max_companions)
     throw Error(ErrorCode::capacity,
                 "vehicle: there is room for %td others, and all are taken; create the filter with more",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The landmarks of the open submap, or of the single map: the state, and the names of its points. All that moves slots
+// The landmarks of the open submap, or of the single map: the state, and the names of its points. Every change of slots
 // goes through this class, so that values and names move in step.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace cairn {
 
-// The Landmarks are those that count. They speak of space for a vehicle in the plane, too.
+// The interface Landmarks shows the landmarks that count. It is spatial for a vehicle in the plane, too.
 template <class Pose>
 class LocalMap final : public Landmarks {
  public:
@@ -33,19 +33,19 @@ class LocalMap final : public Landmarks {
   void name_placed(std::uint64_t id);  // names the landmark that the state got last
   void count_from_now(Index deferred_slot);
   void forget(Index slot);
-  // A landmark `fresh` that stands where `id` does, but for an error of its own.
+  // Places a landmark `fresh` at the position of `id`, with an additional independent error.
   void split(std::uint64_t id, std::uint64_t fresh, const PointSquare& covariance);
-  Index slot_at(std::uint64_t id) const;  // throws where there is none
+  Index slot_at(std::uint64_t id) const;  // throws if there is none
 
   // --- vehicles --- by the caller's names for them
   bool has_vehicle(std::uint64_t id) const;
-  Index companion_at(std::uint64_t id) const;  // throws where there is none
-  // Its ordinary error is J_pose times that of the vehicle looked from, and noise.
+  Index companion_at(std::uint64_t id) const;  // throws if there is none
+  // The companion's ordinary error is J_pose times that of the active vehicle, plus noise.
   void add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise);
-  void remove_vehicle(std::uint64_t id);  // not the one looked from
+  void remove_vehicle(std::uint64_t id);  // not the active one
   void look_from(std::uint64_t id);
 
-  // Of [pose; landmarks that count], ordinary errors, kDof + kDim count on a side, both triangles.
+  // Covariance of [pose; landmarks that count], ordinary errors, kDof + kDim count on a side, both triangles.
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 
   // --- Landmarks ---

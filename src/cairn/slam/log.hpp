@@ -13,7 +13,7 @@ class Log {
   void set(Function function, void* payload) { function_ = function, payload_ = payload; }
   void say(const char* format, ...) const __attribute__((format(printf, 2, 3)));
 
-  // Makes the call. A numerical error is worth a line in the log, for the caller may only look at the status.
+  // Makes the call. A numerical error is also written to the log, because the caller may only look at the status.
   template <class Call>
   void watch(Call&& call) const {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a caller hands to a filter: observations of a frame, and rows that the caller linearised.
+// The inputs of an update: observations of a frame, and rows that the caller linearised.
 #pragma once
 
 #include <algorithm>

@@ -47,7 +47,7 @@ const View* SensorRack<Pose>::view(int number) const {
 
 template <class Pose>
 void SensorRack<Pose>::set_view(int number, const View& view) {
-  any(number);  // throws where there is no sensor of this number
+  any(number);  // throws if there is no sensor of this number
   places_[number].has_view = true;
   places_[number].view = view;
 }
@@ -58,7 +58,7 @@ void SensorRack<Pose>::point_head(int number, double pan, double stick) {
   if constexpr (Pose::kDim == 3)
     head = std::get_if<StereoHead>(&any(number));
   else
-    any(number);  // throws where there is no sensor of this number
+    any(number);  // throws if there is no sensor of this number
   if (head == nullptr)
     throw Error(ErrorCode::argument, "sensor: number %d is no stereo head and can't be pointed", number);
   head->point(pan, stick);

@@ -25,7 +25,7 @@ class SortedFrame {
 
   void clear() { candidate_count_ = new_count_ = 0; }
   void add_candidate(const Frame<Pose>& frame, Index observation, Index slot, const Prediction<Pose>& prediction);
-  // False where the observation, from this pose, places no landmark.
+  // Returns false if the observation, from this pose, places no landmark.
   bool add_new(const Frame<Pose>& frame, Index observation, const Pose& pose);
 
   Index candidates() const { return candidate_count_; }

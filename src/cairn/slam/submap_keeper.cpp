@@ -111,8 +111,8 @@ Submap<Pose> SubmapKeeper<Pose>::take_submap() const {
   return submap;
 }
 
-// Closes the open submap, whatever it holds, and starts anew at the vehicle's pose (Mars paper, eq. 14-16). A fix is
-// applied to the new base: both or neither.
+// Closes the open submap, even an empty one, and starts a new one at the vehicle's pose (Mars paper, eq. 14-16). A fix
+// is applied to the new base; if either step fails, neither is done.
 template <class Pose>
 FixReport SubmapKeeper<Pose>::join(ClosedBy reason, const AbsoluteFix<Pose>* fix, double threshold) {
   ClosingReport next;

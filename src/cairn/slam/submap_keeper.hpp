@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The global map of a filter: closes submaps into it, and tells where the vehicle is in it. A filter with a single map
+// The global map of a filter: closes submaps into it, and computes the vehicle's pose in it. A filter with a single map
 // has no global map: its local map is the map that the caller sees.
 #pragma once
 
@@ -21,7 +21,7 @@ struct ClosingReport {
   ClosedBy reason = ClosedBy::none;
   Index landmarks = 0;
   JoinReport join;
-  NamingReport naming;  // where observations bring no ids
+  NamingReport naming;  // if observations bring no ids
   double seconds = 0.0;
 };
 
@@ -36,7 +36,7 @@ class SubmapKeeper {
   using Square = typename Pose::Square;
 
   SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, const Log& log);
-  static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of the map, where that is known beforehand
+  static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of the map, if it is known beforehand
 
   const GlobalMap<Pose>* map() const { return map_.get(); }  // null: a single map
   void use_map(std::unique_ptr<GlobalMap<Pose>> map) { map_ = std::move(map); }
@@ -48,16 +48,16 @@ class SubmapKeeper {
   // --- closing --- throws with nothing changed
   void close();
   void close_if_full();  // a closing that fails leaves the submap open, and later frames try again
-  // The map's base gets an absolute fix. The open submap does not know where it lies in the map: it is closed, so that
-  // the vehicle's pose is the base.
+  // The map's base gets an absolute fix. The open submap has no pose in the map as a state. Therefore it is closed, so
+  // that the vehicle's pose is the base.
   FixReport fix(const AbsoluteFix<Pose>& fix, double threshold);
   const ClosingReport& closing() const { return closing_; }
 
-  // --- the vehicle in the map that the caller sees --- base and open submap share nothing
+  // --- the vehicle in the map that the caller sees --- errors of base and open submap are independent
   Pose pose() const { return map_ != nullptr ? map_->base() * local_.state().pose() : local_.state().pose(); }
   Square pose_covariance() const;
   double pose_nees(const Pose& truth) const;
-  // Of [pose; landmarks of landmarks()], in space: 6 + 3 count on a side.
+  // Covariance of [pose; landmarks of landmarks()], in space: 6 + 3 count on a side.
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 
  private:

@@ -18,7 +18,7 @@ class SubmapPolicy {
   ClosedBy limit() const;                    // that the open submap has reached
 
   // Closings that fail are tried again, each time after twice as many frames.
-  bool wait();     // true, and a frame less to wait, where it is too early to try again
+  bool wait();     // returns true and counts one frame if it is too early to try again
   void put_off();  // a closing failed
   void restart();  // a submap was closed
 

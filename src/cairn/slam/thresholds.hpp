@@ -12,7 +12,7 @@ class Thresholds {
   struct Probabilities {
     double single;        // of one observation, or of a batch that is judged as a whole
     double joint;         // of all observations of a frame together
-    double new_landmark;  // an observation that lies within it of a landmark places none
+    double new_landmark;  // an observation within this distance of a landmark places none
   };
   Thresholds(Arena& arena, const Probabilities& probabilities, Index most_rows);
 
@@ -27,7 +27,7 @@ class Thresholds {
   double single_[kMostSingle + 1] = {};
   double new_landmark_[kMostNew + 1] = {};
   double* joint_;  // by rows
-  bool* known_;    // by rows: joint_ was computed
+  bool* known_;    // by rows: whether joint_ was computed
 };
 
 }  // namespace cairn

@@ -51,7 +51,7 @@ void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& fix) {
   report_.start(1);
   if (!fix.defined(submaps_.pose())) {
     report_.match(0).reason = Reason::no_image;
-    log_.say("update: no heading, the body's x axis stands too steep");
+    log_.say("update: no heading, because the body's x axis is too close to the vertical");
     return report_.finish();
   }
   if (submaps_.map() != nullptr) return fix_map(fix);
@@ -124,7 +124,7 @@ void WholeBatchUpdate<Pose>::rows(const LinearRows& linear) {
 template <class Pose>
 void WholeBatchUpdate<Pose>::merge(std::uint64_t id, std::uint64_t other) {
   using Square = Eigen::Matrix<double, kDim, kDim>;
-  constexpr double kExact = 1e-6;  // of the smaller variance
+  constexpr double kExact = 1e-6;  // fraction of the smaller variance
   if (id == other) throw Error(ErrorCode::argument, "id: a landmark cannot be merged with itself");
   if (options_.max_observations < 2)
     throw Error(ErrorCode::capacity, "id: merging looks at two landmarks at once, and max_observations is 1");

@@ -22,7 +22,7 @@ class WholeBatchUpdate {
 
   void fix(const AbsoluteFix<Pose>& fix);
   void rows(const LinearRows& rows);
-  // Where the gate accepts that two landmarks are one, `other` is gone.
+  // If the gate accepts that two landmarks are one, `other` is removed.
   void merge(std::uint64_t id, std::uint64_t other);
 
  private:

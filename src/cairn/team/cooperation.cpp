@@ -13,8 +13,9 @@ namespace cairn {
 std::unique_ptr<Cooperation> Cooperation::create(const TeamOptions& options) {
   const bool submaps = options.mode == TeamMode::submaps;
   if (submaps == options.filter.single_map())
-    throw Error(ErrorCode::argument, submaps ? "options.submap_landmarks is 0; a team that fuses submaps needs some"
-                                             : "options.submap_landmarks: this team's filter holds a single map");
+    throw Error(ErrorCode::argument,
+                submaps ? "options.submap_landmarks is 0; a team that fuses submaps needs a limit above 0"
+                        : "options.submap_landmarks: this team's filter holds a single map");
   switch (options.mode) {
     case TeamMode::mono:
       return std::make_unique<MonoMode>(options);

@@ -31,19 +31,19 @@ class Cooperation {
   virtual ~Cooperation() = default;
 
   // --- teammates --- add throws with nothing changed
-  virtual void add(std::uint64_t /*vehicle*/) {}  // where it starts is not known
+  virtual void add(std::uint64_t /*vehicle*/) {}  // its start pose is unknown
   virtual void add(std::uint64_t /*vehicle*/, const SE2& /*start*/, const Matrix3& /*covariance*/) {}
-  // A teammate's motion was missed, or it left: where it is, is not known any more.
+  // A teammate's motion was missed, or the teammate left: its pose is unknown.
   virtual void lose_sight(std::uint64_t /*vehicle*/) {}
 
-  // --- packets --- Takes the packets of one time, ordered by the vehicles' numbers. What a filter refuses is counted;
-  // of this vehicle, own_error() keeps it.
+  // --- packets --- Takes the packets of one time, ordered by the vehicles' numbers. Refusals by a filter are counted;
+  // own_error() returns the refusal of this vehicle's own packet.
   void take(std::vector<Packet>& packets);
   void forget_own_error() { own_error_.reset(); }
   const std::optional<Error>& own_error() const { return own_error_; }
 
   // --- queries ---
-  // As of the vehicle's last packet that was taken; throws not_found for a teammate whose pose is not known.
+  // The pose at the vehicle's last packet that was taken; throws not_found for a teammate whose pose is unknown.
   virtual VehicleEstimate estimate(std::uint64_t vehicle) const;
   virtual const Filter<SE2>& filter() const = 0;                      // whose map the caller sees
   const std::vector<Match>& matches() const { return own_matches_; }  // of this vehicle's scan that was taken last
@@ -56,17 +56,17 @@ class Cooperation {
 
   const TeamOptions& options() const { return options_; }
   bool is_own(const Packet& packet) const { return packet.vehicle == options_.mail.vehicle; }
-  const Packet* own_packet(const std::vector<Packet>& packets) const;  // null where there is none
-  // The filter's vehicle moves as the packet tells.
+  const Packet* own_packet(const std::vector<Packet>& packets) const;  // null if there is none
+  // Moves the filter's vehicle by the motions of the packet.
   void move(Filter<SE2>& filter, const Packet& packet);
-  // Updates the filter by a scan; the matches of an own one are kept.
+  // Updates the filter by a scan; the matches of an own scan are kept.
   void scan(VehicleFilter& filter, int sensor, const std::vector<Observation>& landmarks,
             const std::vector<Observation>& vehicles, bool own);
   // Moves and scans with this vehicle's radar.
   void move_and_scan(VehicleFilter& filter, const Packet& packet);
   ScanCounts& tally() { return counts_; }
 
-  // A refusal of what this vehicle did is the caller's to hear of; a refusal of a teammate's is counted.
+  // A refusal of this vehicle's packet is reported to the caller; a refusal of a teammate's packet is only counted.
   template <class Function>
   bool attempt(bool own, Function&& function) {
     try {

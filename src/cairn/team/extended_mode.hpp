@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Extended observations: a teammate's scan, seen through the mutual sighting, updates the filter of this vehicle
-// (cooperative paper, section 2.1). The teammate is no state: the sighting and the scan are all that is used of it.
+// (cooperative paper, section 2.1). The teammate is not in the state: only its sighting and its scan are used.
 #pragma once
 
 #include "team/cooperation.hpp"
@@ -17,7 +17,7 @@ class ExtendedMode final : public Cooperation {
   void take_turn(std::vector<Packet>& packets) override;
   void take_teammate(const Packet& own, const Packet& teammate);
 
-  bool full_;  // with the noise that a scan has in common through the sighting
+  bool full_;  // with the noise that all observations of a scan share through the sighting
   VehicleFilter own_;
   int extended_sensor_;
 };

@@ -15,7 +15,7 @@ class History {
 
   // Beyond the capacity the packet with the lowest number is dropped.
   void keep(std::uint64_t number, const std::vector<std::uint8_t>& bytes);
-  // Whether the packet that was sent with this number had exactly these bytes.
+  // Whether the packet with this number was sent with exactly these bytes.
   bool holds(std::uint64_t number, const std::uint8_t* bytes, std::size_t size) const;
   // The kept packets among `count` numbers from `first` on (count 0: all from there), 64 at most. The pointers are
   // valid until the next packet is kept.

@@ -30,7 +30,7 @@ class NearestObservers {
         }
   }
 
-  // Moves those observations out of the packet that have to wait until the nearest vehicle has placed the landmark.
+  // Moves observations out of the packet if they have to wait until the nearest vehicle has placed the landmark.
   std::vector<Observation> defer(Packet& packet) const {
     std::vector<Observation> deferred;
     if (nearest_.empty()) return deferred;
@@ -80,7 +80,7 @@ void JointMode::take_turn(std::vector<Packet>& packets) {
 
   const NearestObservers observers(filter, packets);
   std::vector<std::vector<Observation>> deferred(packets.size());
-  for (std::size_t t = packets.size(); t-- > 0;) {  // the filter looks from the last vehicle already
+  for (std::size_t t = packets.size(); t-- > 0;) {  // the last vehicle is already the active one
     Packet& packet = packets[t];
     const std::vector<Observation> vehicles = usable_sightings(packet, packets);
     deferred[t] = observers.defer(packet);
@@ -104,7 +104,8 @@ void JointMode::move_all(const std::vector<Packet>& packets) {
   }
 }
 
-// Sightings of vehicles that have no packet of this time are refused: where these vehicles were then is not known.
+// Sightings of vehicles that have no packet of this time are refused: the poses of these vehicles at this time are
+// unknown.
 std::vector<Observation> JointMode::usable_sightings(const Packet& packet, const std::vector<Packet>& packets) {
   std::vector<Observation> usable;
   for (const Observation& o : packet.vehicles) {
@@ -132,7 +133,7 @@ void JointMode::find_teammates(std::vector<Packet>& packets) {
   }
 }
 
-// The two sightings are consumed, whatever becomes of them.
+// The two sightings are consumed, even if they are refused.
 bool JointMode::find_teammate(Packet& lost, Packet& from) {
   const Observation* there = find_sighting(from.vehicles, lost.vehicle);
   const Observation* back = find_sighting(lost.vehicles, from.vehicle);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One filter over the poses of all vehicles and all landmarks, the same at every vehicle: each measurement is in it
-// once.
+// One filter over the poses of all vehicles and all landmarks. Every vehicle runs the same filter, and each measurement
+// is used in it once.
 #pragma once
 
 #include "team/cooperation.hpp"

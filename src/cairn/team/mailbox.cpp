@@ -30,11 +30,11 @@ Member* Mailbox::find(std::uint64_t vehicle) {
   return nullptr;
 }
 
-// A former member's entry stays where it is until the member leaves once more, so that undo_add() loses nothing.
+// A former member's entry is kept until the member leaves once more, so that undo_add() loses nothing.
 void Mailbox::add(std::uint64_t vehicle) {
   if (vehicle == kNoId) throw Error(ErrorCode::argument, "vehicle: CAIRN_ID_NONE is no vehicle's number");
   if (find(vehicle) != nullptr)
-    throw Error(ErrorCode::argument, "vehicle: %llu is of the team already", static_cast<unsigned long long>(vehicle));
+    throw Error(ErrorCode::argument, "vehicle: %llu is already in the team", static_cast<unsigned long long>(vehicle));
   if (members_.size() == options_.max_vehicles)
     throw Error(ErrorCode::capacity, "vehicle: the team has max_vehicles = %zu already", options_.max_vehicles);
   const auto former = former_.find(vehicle);
@@ -46,7 +46,7 @@ void Mailbox::remove(std::uint64_t vehicle) {
   const auto member =
       std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.id() == vehicle; });
   if (member == members_.end())
-    throw Error(ErrorCode::not_found, "vehicle: %llu is not of the team", static_cast<unsigned long long>(vehicle));
+    throw Error(ErrorCode::not_found, "vehicle: %llu is not in the team", static_cast<unsigned long long>(vehicle));
   if (is_own(*member))
     throw Error(ErrorCode::argument,
                 "vehicle: %llu is this vehicle itself, which cannot be removed; use cairn_team_leave to leave the team",
@@ -73,7 +73,8 @@ void Mailbox::move(const Increment<SE2>& increment) {
   if (!T.translation().allFinite() || !increment.covariance.allFinite())
     throw Error(ErrorCode::numerical, "prediction: the motion is not finite; nothing was changed");
   if (pending_.size() == kMostOfPacket)
-    throw Error(ErrorCode::capacity, "prediction: %zu motions since the last observation; tell of one in between",
+    throw Error(ErrorCode::capacity,
+                "prediction: %zu motions since the last observation are too many; call cairn_team_observe in between",
                 pending_.size());
   pending_.push_back(increment);
 }
@@ -82,7 +83,7 @@ void Mailbox::observe(double time, std::vector<Observation> landmarks, std::vect
   if (left_) throw Error(ErrorCode::state, "team: the vehicle has left it; create another one to come back");
   const bool first = !own().started() && own().empty();
   if (!first && !(time > newest_))
-    throw Error(ErrorCode::argument, "time: %g lies in the past, the last scan was of %g", time, newest_);
+    throw Error(ErrorCode::argument, "time: %g is in the past; the last scan was at %g", time, newest_);
   check_names(landmarks, "observations");
   check_names(vehicles, "vehicles");
   for (const Observation& o : vehicles)
@@ -93,7 +94,7 @@ void Mailbox::observe(double time, std::vector<Observation> landmarks, std::vect
   packet.vehicle = options_.vehicle;
   packet.number = own().end();
   packet.time = time;
-  packet.motions = pending_;  // which stay where sending fails
+  packet.motions = pending_;  // which are kept if sending fails
   packet.landmarks = std::move(landmarks);
   packet.vehicles = std::move(vehicles);
   send(packet);
@@ -122,7 +123,7 @@ void Mailbox::send(const Packet& packet) {
   outgoing_.push_back(std::move(bytes));
 }
 
-// For the packets of a gap, and for those that a silent teammate may have sent since its last one.
+// Requests the packets of a gap, and those that a silent teammate may have sent since its last one.
 void Mailbox::ask() {
   if (!options_.listens) return;
   for (const Member& member : members_) {
@@ -234,7 +235,7 @@ Mailbox::Readiness Mailbox::readiness(Member& member) {
   if (is_own(member)) return Readiness::idle;
   if (member.has_gap())
     return newest_ - member.first().time > options_.max_lag ? Readiness::overdue_gap : Readiness::awaited;
-  // Silent. Only an own step that waits has to wait for it, and not for ever.
+  // The member is silent. Only a waiting step of this vehicle has to wait for it, and only for max_lag.
   if (own().empty()) return Readiness::idle;
   const double since = member.silent_since(own().first().time);
   return newest_ - since > options_.max_lag ? Readiness::idle : Readiness::awaited;
@@ -262,7 +263,7 @@ bool Mailbox::next_turn(std::vector<Packet>& packets) {
   }
   if (earliest == std::numeric_limits<double>::infinity()) return false;
   // A teammate that is ahead waits for this vehicle's step, just as this vehicle's step waits for the teammate at every
-  // other vehicle: otherwise each vehicle would take the packets in an order of its own.
+  // other vehicle: otherwise the vehicles would take the packets in different orders.
   const bool looked = own().started() || !own().empty();
   if (options_.listens && !left_ && !(looked && earliest <= newest_ + options_.time_tolerance)) return false;
 
@@ -271,7 +272,7 @@ bool Mailbox::next_turn(std::vector<Packet>& packets) {
     if (member.ready() && !(member.first().time > earliest + options_.time_tolerance)) turns.push_back(&member);
   std::sort(turns.begin(), turns.end(), [](const Member* a, const Member* b) { return a->id() < b->id(); });
   packets.reserve(turns.size());
-  for (Member* member : turns) {  // consumed, whatever becomes of the packet
+  for (Member* member : turns) {  // consumed, even if the packet is refused
     Packet packet = member->consume();
     if (!is_own(*member)) ++counts_.taken;
     if (packet.kind != PacketKind::leave) packets.push_back(std::move(packet));

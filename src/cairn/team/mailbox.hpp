@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle's mailbox: its own steps become packets, its teammates' packets wait for their turn, and all that is of one
-// time comes out together, in an order that is the same at every vehicle. It knows packets, not filters.
+// A vehicle's mailbox: its own steps become packets, its teammates' packets wait for their turn, and all packets of one
+// time come out together, in an order that is the same at every vehicle. The mailbox handles packets and does not know
+// filters.
 #pragma once
 
 #include <deque>
@@ -41,7 +42,7 @@ class Mailbox {
 
   // --- this vehicle --- each throws with nothing changed
   void move(const Increment<SE2>& increment);
-  // Ends a step: motions since the last one and what was seen become a packet.
+  // Ends a step: the motions since the last step and the observations become a packet.
   void observe(double time, std::vector<Observation> landmarks, std::vector<Observation> vehicles);
   void leave();
   std::size_t unsettled() const { return members_.front().size(); }  // own steps that wait for teammates' packets
@@ -54,33 +55,34 @@ class Mailbox {
   }
 
   // --- packets to be sent ---
-  // The next one; null where there is none.
+  // The next one; null if there is none.
   const std::vector<std::uint8_t>* next_packet() const { return outgoing_.empty() ? nullptr : &outgoing_.front(); }
   void drop_packet() { outgoing_.pop_front(); }
   void ask();             // for all packets that are missing
-  void ask_if_missing();  // the same, where a gap or an own step that waits shows that something is missing
+  void ask_if_missing();  // the same, but only if a gap or a waiting own step shows that something is missing
 
   // --- packets that arrive ---
-  // `waiting` where the packet was stored under `name`: then turns may be due, and outcome() tells what became of it.
+  // `waiting` if the packet was stored under `name`: then turns may be due, and outcome() returns the packet's
+  // outcome.
   Arrival receive(const std::uint8_t* bytes, std::size_t size, PacketFault& fault, PacketName& name);
   Arrival outcome(const PacketName& name);
 
   // --- turns ---
-  // Gives up the packets of one teammate that were waited for in vain: its number, or nothing where no gap is overdue.
-  // To be called until there is none, before next_turn().
+  // Gives up the packets of one teammate for which the mailbox waited in vain. Returns the teammate's number, or
+  // nothing if no gap is overdue. To be called until it returns nothing, before next_turn().
   std::optional<std::uint64_t> skip_overdue_gap();
-  // Moves the packets of the earliest time into `packets`, ordered by the vehicles' numbers, without farewells. False
-  // where a teammate has to be waited for, or nothing waits.
+  // Moves the packets of the earliest time into `packets`, ordered by the vehicles' numbers, without farewells. Returns
+  // false if the mailbox has to wait for a teammate, or if no packet waits.
   bool next_turn(std::vector<Packet>& packets);
-  // Removes one vehicle whose farewell was consumed: its number, or nothing where there is none. To be called until
-  // there is none, after each turn.
+  // Removes one vehicle whose farewell was consumed. Returns its number, or nothing if there is none. To be called
+  // until it returns nothing, after each turn.
   std::optional<std::uint64_t> remove_departed();
 
   const MailCounts& counts() const { return counts_; }
 
  private:
-  // How the others stand to a member: they take its next packet, do not need it, have to wait for it, or have waited
-  // long enough for a gap to close.
+  // The state of a member for the next turn: its next packet can be taken, the turn does not need the member, the turn
+  // waits for the member, or the member's gap is overdue.
   enum class Readiness { ready, idle, awaited, overdue_gap };
 
   Member* find(std::uint64_t vehicle);
@@ -95,12 +97,12 @@ class Mailbox {
   Arrival store(Packet&& packet);
 
   MailboxOptions options_;
-  std::deque<Member> members_;                      // this vehicle first
-  std::map<std::uint64_t, Member> former_;          // removed or left: what was consumed once is not taken again
-  std::vector<Increment<SE2>> pending_;             // own motions since the last packet
-  double newest_ = 0.0;                             // time of the newest own step
-  bool left_ = false;                               // this vehicle sent its farewell
-  History history_;                                 // own packets
+  std::deque<Member> members_;              // this vehicle first
+  std::map<std::uint64_t, Member> former_;  // removed or left: packets that were consumed once are not taken again
+  std::vector<Increment<SE2>> pending_;     // own motions since the last packet
+  double newest_ = 0.0;                     // time of the newest own step
+  bool left_ = false;                       // this vehicle sent its farewell
+  History history_;                         // own packets
   std::deque<std::vector<std::uint8_t>> outgoing_;  // packets to be sent
   MailCounts counts_;
 };

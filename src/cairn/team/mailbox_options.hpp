@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a mailbox is created with.
+// The options of a mailbox.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@ struct MailboxOptions {
   std::size_t max_vehicles = 8;    // this vehicle among them
   std::size_t max_waiting = 4096;  // packets of one teammate that may wait for their turn
   std::size_t history = 1024;      // own packets that are kept for teammates that miss them
-  double max_lag = 30.0;           // s: for so long a teammate's missing packet is waited for
-  double time_tolerance = 0.01;    // s: packets that are no farther apart are of one time
+  double max_lag = 30.0;           // s: how long to wait for a teammate's missing packet
+  double time_tolerance = 0.01;    // s: packets that differ by no more count as of one time
   bool listens = true;             // teammates' packets are used
-  bool named = true;               // landmarks have ids: a packet with a landmark without one is refused
+  bool named = true;               // landmarks have ids: a packet with a landmark without an id is refused
 };
 
 }  // namespace cairn

@@ -11,8 +11,8 @@ constexpr std::size_t kChecksumsKept = 256;
 
 }  // namespace
 
-// Whether the vehicle sent the same packet with this number before. Checksums of packets long gone are not kept: these
-// count as the same.
+// Whether the vehicle sent the same packet with this number before. Checksums of old packets are not kept: an old
+// packet counts as the same.
 bool Member::repeats(const Packet& packet) const {
   const auto known = waiting_.find(packet.number);
   if (known != waiting_.end()) return known->second.checksum == packet.checksum;

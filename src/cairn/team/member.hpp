@@ -12,7 +12,7 @@
 
 namespace cairn {
 
-// What became of a packet that arrived.
+// The outcome of a packet that arrived.
 enum class Arrival { taken, waiting, request, leave, repeated, own, unknown, past, conflict, ignored, full, refused };
 
 class Member {
@@ -21,7 +21,7 @@ class Member {
 
   std::uint64_t id() const { return id_; }
   std::uint64_t next() const { return next_; }          // number of the packet to be consumed next
-  std::uint64_t end() const { return next_ + size(); }  // next free number, where no packet is missing
+  std::uint64_t end() const { return next_ + size(); }  // next free number, if no packet is missing
   bool started() const { return started_; }             // a packet was consumed
   bool left() const { return left_; }                   // its farewell was consumed
   double time() const { return time_; }                 // of the packet that was consumed last
@@ -35,8 +35,8 @@ class Member {
   bool has_gap() const { return !waiting_.empty() && !ready(); }
   std::uint64_t gap() const { return waiting_.begin()->first - next_; }  // number of packets that are missing
 
-  // Sorts a packet in that arrived; `waiting`, or the reason against it. `late`: a packet with a higher number was
-  // first.
+  // Sorts a packet in that arrived; `waiting`, or the reason against it. `late`: a packet with a higher number already
+  // waits.
   Arrival insert(Packet&& packet, std::size_t capacity, bool& late);
   // Adds this vehicle's newest packet, which has the number end().
   void append(Packet&& packet);
@@ -45,7 +45,8 @@ class Member {
   // Gives up the packets that are missing before the first one that waits.
   void skip_gap();
 
-  // Time since which a vehicle is waited for: of its last packet, or of this vehicle's step `now` of the first call.
+  // The time since when this vehicle waits for the member: the time of the member's last packet or, if it sent none,
+  // `now` of the first call.
   double silent_since(double now);
 
   // --- membership ---
@@ -61,7 +62,7 @@ class Member {
   bool started_ = false;
   bool left_ = false;
   double time_ = 0.0;
-  std::optional<double> waited_from_;  // where nothing ever arrived: time of this vehicle's step that waited first
+  std::optional<double> waited_from_;         // if nothing ever arrived: time of this vehicle's step that waited first
   std::map<std::uint64_t, Packet> waiting_;   // by number; none below next_
   std::deque<std::uint32_t> last_checksums_;  // of the packets that were consumed last
 };

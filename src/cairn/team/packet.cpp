@@ -71,7 +71,7 @@ constexpr std::size_t kMotion = 10 * sizeof(double), kSight = sizeof(std::uint64
 
 void write_motion(const Increment<SE2>& motion, Writer& to) {
   const SE2& T = motion.T_before_after;
-  const Vector2 u = T.rotation().matrix().col(0);  // the rotation as it is held: the same bits at every vehicle
+  const Vector2 u = T.rotation().matrix().col(0);  // the rotation in its stored form: the same bits at every vehicle
   const Matrix3& C = motion.covariance;
   for (const double value : {T.translation().x(), T.translation().y(), u.x(), u.y()}) to.real(value);
   for (const double value : {C(0, 0), C(1, 0), C(2, 0), C(1, 1), C(2, 1)}) to.real(value);
@@ -103,12 +103,13 @@ Observation read_sight(Reader& from) {
   return o;
 }
 
-// The test that the C interface puts to what callers bring, or (`semi`) one that what passed there passes.
+// The test of the C interface for a caller's matrices, or (`semi`) a weaker one, which every matrix that passed there
+// passes.
 template <int n>
 bool is_covariance(const Eigen::Matrix<double, n, n>& C, bool semi) {
   for (int k = 0; k < n; ++k) {
     if (semi ? !(C(k, k) >= 0.0) : !(C(k, k) > 0.0)) return false;
-    if (C(k, k) == 0.0 && !C.col(k).isZero(0.0)) return false;  // what has no variance varies with nothing
+    if (C(k, k) == 0.0 && !C.col(k).isZero(0.0)) return false;  // a component with zero variance has zero covariances
   }
   double L[n * n];
   return positive_definite(C.data(), n, semi ? kDefiniteSlack : 0.0, L);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets: what the vehicles of a team tell each other, as bytes that any transport may carry. Little-endian;
+// Packets: the messages between the vehicles of a team, as bytes that any transport may carry. Little-endian;
 // docs/team.md has the layout.
 #pragma once
 
@@ -32,10 +32,10 @@ struct Packet {
 enum class PacketFault {
   none,
   foreign,    // these bytes are no packet
-  version,    // its version is none that this library reads
+  version,    // this library does not read its version
   short_cut,  // bytes are missing, or there are too many
   checksum,
-  content  // it is whole, but no step of a vehicle: a value is not finite, noise is no covariance, a name comes twice
+  content  // complete, but not a valid step: a value is not finite, noise is no covariance, a name comes twice
 };
 
 constexpr std::uint16_t kPacketVersion = 1;

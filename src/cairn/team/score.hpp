@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a team is worth to a vehicle: what its covariance claims, and what the truth says. The comparison is with a
-// filter of this vehicle only, which runs beside the team.
+// The benefit of a team to a vehicle: by its covariance, and by the truth. The comparison is with a filter of this
+// vehicle only, which runs beside the team.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class Baseline {
 
 class Score {
  public:
-  // The team's estimate as of now against the truth; `baseline` is null where there is no comparison filter.
+  // Scores the team's current estimate against the truth; `baseline` is null if there is no comparison filter.
   void add(const Team& team, const Baseline* baseline, const SE2& truth);
 
   std::uint64_t steps() const { return steps_; }

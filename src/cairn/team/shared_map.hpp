@@ -6,8 +6,8 @@
 
 namespace cairn {
 
-// Queries that need more than the vehicle's own pose make the shared map look from this vehicle, and so change it: two
-// vehicles' views of one map must not be queried at the same time.
+// Queries that need more than the vehicle's own pose activate this vehicle in the shared map, and so change the map:
+// two vehicles' views of one map must not be queried at the same time.
 class SharedMap final : public GlobalMap<SE2> {
  public:
   SharedMap(DenseMap<SE2>& map, std::uint64_t vehicle) : map_(map), vehicle_(vehicle) {}

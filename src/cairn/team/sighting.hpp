@@ -10,7 +10,7 @@
 
 namespace cairn {
 
-// The sighting of a vehicle in a list; null where there is none.
+// The sighting of a vehicle in a list; null if there is none.
 inline const Observation* find_sighting(const std::vector<Observation>& sightings, std::uint64_t vehicle) {
   for (const Observation& o : sightings)
     if (o.id == vehicle) return &o;
@@ -31,8 +31,8 @@ inline Matrix2 sighting_noise(const Observation& o, const RangeBearingParameters
 }
 
 // Two vehicles saw each other at one time: `there` is this vehicle's sighting, `back` that of the teammate. Together
-// they tell the teammate's position and heading. The range is the mean of both, weighted by their variances, or only
-// this vehicle's.
+// they determine the teammate's position and heading. The range is the mean of both, weighted by their variances, or
+// only this vehicle's.
 inline MutualSighting mutual_sighting(const Observation& there, const Matrix2& noise, const Observation& back,
                                       const Matrix2& noise_back, bool both_ranges) {
   MutualSighting sighting;
@@ -47,7 +47,7 @@ inline MutualSighting mutual_sighting(const Observation& there, const Matrix2& n
   return sighting;
 }
 
-// Adds a vehicle to the filter, placed by the mutual sighting with the vehicle that the filter looks from.
+// Adds a vehicle to the filter, placed by the mutual sighting with the filter's active vehicle.
 inline void add_by_sighting(Filter<SE2>& filter, std::uint64_t id, const MutualSighting& seen) {
   const SE2 T = filter.pose(), T_body_teammate = teammate_in_body(seen);
   const ProductJacobians J(T, T_body_teammate);

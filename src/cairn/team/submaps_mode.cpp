@@ -25,7 +25,7 @@ std::unique_ptr<VehicleFilter> SubmapsMode::make_filter(std::uint64_t vehicle) {
 }
 
 void SubmapsMode::add(std::uint64_t /*vehicle*/) {
-  throw Error(ErrorCode::state, "start: a team that fuses submaps has to know where a teammate started");
+  throw Error(ErrorCode::state, "start: a team that fuses submaps needs the start pose of every teammate");
 }
 
 void SubmapsMode::add(std::uint64_t vehicle, const SE2& start, const Matrix3& covariance) {

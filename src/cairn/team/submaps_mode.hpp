@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each vehicle works in submaps of its own, and closed submaps join one map through the landmarks that they have in
-// common. Submaps share no information: sightings of vehicles would tie them together, and are left out (cooperative
-// paper, section 1).
+// Each vehicle has its own submaps, and closed submaps join one map through the landmarks that they have in common.
+// Submaps share no information: sightings of vehicles would correlate them, and are left out (cooperative paper,
+// section 1).
 #pragma once
 
 #include <map>

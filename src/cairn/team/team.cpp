@@ -38,7 +38,7 @@ void Team::add(std::uint64_t vehicle, const SE2& start, const Matrix3& covarianc
 void Team::remove(std::uint64_t vehicle) {
   mailbox_.remove(vehicle);
   cooperation_->lose_sight(vehicle);
-  take_turns();  // nobody waits for it any more
+  take_turns();  // nobody waits for this vehicle any longer
 }
 
 std::optional<Error> Team::observe(double time, std::vector<Observation> landmarks, std::vector<Observation> vehicles) {
@@ -55,7 +55,7 @@ std::optional<Error> Team::observe(double time, std::vector<Observation> landmar
 
 void Team::leave() {
   mailbox_.leave();
-  take_turns();  // teammates' packets wait for no own step any more
+  take_turns();  // teammates' packets no longer wait for a step of this vehicle
 }
 
 Arrival Team::receive(const std::uint8_t* bytes, std::size_t size, PacketFault& fault) {
@@ -89,7 +89,7 @@ VehicleEstimate Team::estimate(std::uint64_t vehicle) const {
 double Team::pose_nees(const SE2& truth) const {
   const VehicleEstimate now = estimate(options_.mail.vehicle);
   return State<SE2>::nees(options_.filter.error, options_.filter.initial_pose.translation(), truth, now.pose,
-                        now.covariance);
+                          now.covariance);
 }
 
 }  // namespace cairn

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle's view of its team: what its mailbox gives out in an order that all vehicles agree on updates the filters
-// of its way of cooperating (docs/team.md).
+// A vehicle's view of its team. The mailbox gives out packets in an order that all vehicles agree on, and these packets
+// update the filters of the chosen way of cooperating (docs/team.md).
 #pragma once
 
 #include <memory>
@@ -26,22 +26,22 @@ class Team {
 
   // --- this vehicle --- each throws with nothing changed, and nothing sent
   void propagate(const Increment<SE2>& increment) { mailbox_.move(increment); }
-  // Ends a step with what is seen at `time`: it becomes a packet, and all turns that are due are taken. The answer is
-  // the reason where the filter refused this vehicle's scan; that is sent to the team all the same.
+  // Ends a step with the observations at `time`: the step becomes a packet, and all turns that are due are taken. If
+  // the filter refuses this vehicle's scan, the reason is returned; the packet is sent to the team all the same.
   std::optional<Error> observe(double time, std::vector<Observation> landmarks, std::vector<Observation> vehicles);
   void leave();
 
   // --- packets ---
-  // The next one to be sent; null where there is none.
+  // The next packet to be sent; null if there is none.
   const std::vector<std::uint8_t>* next_packet() const { return mailbox_.next_packet(); }
   void drop_packet() { mailbox_.drop_packet(); }
   Arrival receive(const std::uint8_t* bytes, std::size_t size, PacketFault& fault);
   void ask() { mailbox_.ask(); }  // for all packets that are missing
 
   // --- queries ---
-  // This vehicle's pose is as of now: it includes this vehicle's motions that no turn has taken yet.
+  // This vehicle's pose is the current one: it includes this vehicle's motions that no turn has taken yet.
   VehicleEstimate estimate(std::uint64_t vehicle) const;
-  // Normalised error squared of this vehicle's pose; negative where its covariance is singular.
+  // Normalised error squared of this vehicle's pose; negative if its covariance is singular.
   double pose_nees(const SE2& truth) const;
   const Landmarks& landmarks() const { return cooperation_->filter().landmarks(); }
   const std::vector<Match>& matches() const {

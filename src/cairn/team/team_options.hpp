@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a team is created with.
+// The options of a team.
 #pragma once
 
 #include "sensor/range_bearing.hpp"

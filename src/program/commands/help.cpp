@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program says about itself.
+// The help texts and the version of the program.
 #include <cstdio>
 
 #include "program/commands/commands.hpp"

@@ -51,7 +51,7 @@ class Drive {
   virtual std::size_t landmarks_at_once(std::uint64_t forget_after) const = 0;
   // Gives the filter its sensor and the noise of the motion. Returns the sensor's number.
   virtual std::int32_t equip(cairn_filter* filter) const = 0;
-  // Whether each step tells how the sensor's mount is turned.
+  // Whether each step contains the angles of the sensor's mount.
   virtual bool has_mount() const = 0;
   // False after the last step.
   virtual bool next(DriveStep& step) = 0;

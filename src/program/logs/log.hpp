@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A recorded run, independent of its file format: the motions, the observations, and the truth where it is known.
+// A recorded run, independent of its file format: the motions, the observations, and the truth if it is known.
 #pragma once
 
 #include <cairn/cairn.h>
@@ -15,7 +15,7 @@
 
 namespace cairn::program::logs {
 
-// A file that is no log, or a broken one. The message is one line: file, line or variable, cause.
+// The file is no log, or the log is broken. The message is one line: file, line or variable, cause.
 class LogError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -48,8 +48,8 @@ struct Log {
   std::string format;              // for people
   std::vector<std::string> notes;  // what the reader left out
   SensorKind sensor = SensorKind::kStereoHead;
-  cairn_stereo_head head{};                                  // where the sensor is a stereo head
-  cairn_stereo_camera camera{};                              // where it is a stereo camera
+  cairn_stereo_head head{};                                  // if the sensor is a stereo head
+  cairn_stereo_camera camera{};                              // if it is a stereo camera
   cairn_twist_noise twist_noise{};                           // of every twist
   std::vector<Step> steps;                                   // never empty
   std::map<std::uint64_t, std::array<double, 3>> landmarks;  // true positions, m

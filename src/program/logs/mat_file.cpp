@@ -27,7 +27,7 @@ std::uint32_t read_word(const std::string& content, std::size_t offset, bool lit
 }
 
 // The file is a chain of elements, each with its type and size in front. Walk it to the end, because libmatio reads a
-// file that was cut short without an error, as far as it goes.
+// truncated file up to its end without an error.
 void check_chain(const std::string& path, const std::string& content) {
   if (content.size() < kHeaderBytes) throw LogError(path + ": the MATLAB file is cut short within its header");
   const std::string order = content.substr(126, 2);  // how the writer's machine stores the letters MI
@@ -51,7 +51,7 @@ void check_chain(const std::string& path, const std::string& content) {
   }
 }
 
-void drop_message(int, char*) {}  // libmatio would print it; the reader has a message of its own
+void drop_message(int, char*) {}  // libmatio would print it; the reader makes its own message
 
 template <typename Number>
 bool copy_values(const matvar_t& variable, std::vector<double>& values) {

@@ -28,7 +28,7 @@ bool all_finite(const double* values, std::size_t count) {
   return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
 }
 
-// Quaternion of a rotation matrix, by the largest of its four components (Shepperd): no small divisor anywhere.
+// Quaternion of a rotation matrix, by the largest of its four components (Shepperd), so that no divisor is small.
 void quaternion_of_matrix(const double (&R)[3][3], double quaternion[4]) {
   const double trace = R[0][0] + R[1][1] + R[2][2];
   const double squares[4] = {trace, R[0][0], R[1][1], R[2][2]};

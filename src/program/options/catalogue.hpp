@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All options of the program, for its texts and to tell words from values before it is known which command is meant.
+// All options of the program. They are needed for its texts, and to distinguish words from values before the command is
+// known.
 #pragma once
 
 #include <string>
@@ -20,7 +21,7 @@ class Catalogue {
   const std::vector<OptionGroup>& groups() const { return groups_; }
 
  private:
-  RunOptions run_;  // the options set these, and nobody reads them
+  RunOptions run_;  // the options write these values, which are never read
   SimulateOptions mars_;
   UsvOptions boats_;
   MrclamOptions robots_;
@@ -29,7 +30,7 @@ class Catalogue {
 
 // `arguments` are the words after the command.
 bool asks_for_usv(const std::vector<std::string>& arguments);
-// The MRCLAM folder among the arguments of `run`; empty where there is none.
+// The MRCLAM folder among the arguments of `run`; empty if there is none.
 std::string mrclam_folder(const std::vector<std::string>& arguments);
 
 }  // namespace cairn::program

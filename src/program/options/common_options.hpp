@@ -17,7 +17,7 @@ struct CommonChoices {
   std::uint64_t seed = 1;
 };
 
-// `choices` has to live as long as the group.
+// `choices` must live as long as the group.
 OptionGroup common_options(CommonChoices& choices);
 
 }  // namespace cairn::program

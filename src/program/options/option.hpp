@@ -13,7 +13,7 @@
 
 namespace cairn::program {
 
-// The texts of an option. `Word` is printed bold where there is bold type; {default}, {default_degrees}, {lower} and
+// The texts of an option. `Word` is printed bold if the output has bold type; {default}, {default_degrees}, {lower} and
 // {upper} stand for values of the option.
 struct OptionText {
   const char* name;   // "--gate"

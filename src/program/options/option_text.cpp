@@ -30,7 +30,7 @@ bool is_placeholder(const std::string& value) {
   return std::isupper(static_cast<unsigned char>(value[0])) != 0;
 }
 
-// With the escapes that roff wants: hyphens of options are minus signs.
+// Adds the escapes that roff needs: hyphens of options are minus signs.
 std::string escaped(const std::string& text, bool literal) {
   std::string out;
   for (const char c : text) {
@@ -76,7 +76,7 @@ std::vector<std::string> roff_words(const std::string& text, const std::string& 
   return words;
 }
 
-// A sentence begins on a line of its own; longer ones are broken.
+// Each sentence begins on a new line; long sentences are broken.
 std::string roff_lines(const std::string& text, const std::string& value) {
   std::string out, line;
   const auto end_line = [&] {

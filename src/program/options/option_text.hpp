@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a group of options is printed.
+// Prints a group of options.
 #pragma once
 
 #include <string>

@@ -10,8 +10,8 @@
 
 namespace cairn::program {
 
-// Sets what `arguments` say; words that are no options go to `positional`. The option `first` (or NULL) is set before
-// all others, wherever it stands. A message about an unknown option names `command`. Throws UsageError.
+// Sets the options in `arguments`; words that are no options go to `positional`. The option `first` (or NULL) is set
+// before all others, at any position. A message about an unknown option names `command`. Throws UsageError.
 void parse(const std::vector<std::string>& arguments, const std::vector<OptionGroup>& groups,
            const std::string& command, const std::function<void(const std::string&)>& positional,
            const char* first = nullptr);

@@ -7,7 +7,7 @@
 namespace cairn::program {
 namespace {
 
-// Without an option the file or the library decides; no default to print.
+// Without an option the file or the library decides; there is no default to print.
 Option decided_elsewhere(const OptionText& text, const options::Bounds& bounds, std::optional<double>& target) {
   return number(text, bounds, 0, target);
 }

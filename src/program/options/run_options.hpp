@@ -20,7 +20,7 @@ struct RunOptions {
   logs::NoiseOverride noise;
 };
 
-// Of the sensors of a log. `options` has to live as long as the group.
+// Options of the sensors of a log. `options` must live as long as the group.
 OptionGroup log_options(RunOptions& options);
 
 // `arguments` are the words after the command. Throws UsageError.

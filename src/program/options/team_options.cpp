@@ -11,8 +11,8 @@ namespace {
 using options::kNotNegative;
 using options::kPositive;
 
-// Without ids the noise of a single observation tells neighbouring landmarks apart. Errors that last count only in
-// updates. A landmark counts after three observations that are independent of each other (docs/mrclam.md).
+// Without ids the noise of a single observation is used to distinguish neighbouring landmarks. Errors that last count
+// only in updates. A landmark counts after three observations that are independent of each other (docs/mrclam.md).
 constexpr double kSightingRange = 0.044, kSightingBearing = 0.016, kPersistence = 18;
 constexpr std::uint32_t kDeferredSightings = 54, kDeferredFrames = 2000;
 

@@ -26,14 +26,14 @@ struct MrclamOptions {
   CommonChoices common;
   TeamChoices team;
   MrclamNoise noise;
-  std::optional<double> range_noise, bearing_noise;  // as asked for; `noise` holds the values that count
+  std::optional<double> range_noise, bearing_noise;  // as requested; `noise` holds the values that are used
   std::string folder;
 };
 
 // Throws LibraryError.
 UsvOptions default_usv_options();
 
-// The argument has to live as long as the group, and holds the defaults that its texts tell.
+// The argument must live as long as the group. It holds the defaults that the texts contain.
 OptionGroup team_options(TeamChoices& team);
 OptionGroup boat_options(UsvOptions& options);
 OptionGroup robot_options(MrclamOptions& options);

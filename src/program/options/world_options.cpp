@@ -164,7 +164,7 @@ SimulateOptions default_simulate_options() {
   SimulateOptions options;
   check_sim(cairn_world_options_init(&options.world, sizeof options.world));
   options.filter.gate_probability = options.filter.batch_gate_probability = 1;  // a world has no outliers
-  // The largest frame that is possible says little about the usual one.
+  // The largest possible frame is much larger than a usual one.
   options.filter.submap_landmarks = kUsualSubmap;
   return options;
 }

@@ -25,7 +25,7 @@ struct SimulateOptions {
 // Throws LibraryError.
 SimulateOptions default_simulate_options();
 
-// `options` has to live as long as the groups, and holds the defaults that their texts tell.
+// `options` must live as long as the groups. It holds the defaults that their texts contain.
 std::vector<OptionGroup> world_options(SimulateOptions& options);
 
 // `arguments` are the words after the command. Throws UsageError.

@@ -14,7 +14,7 @@ std::string number(double value, const char* format = "%.4g") {
   return buffer;
 }
 
-// What is printed, then what was measured, for either filter.
+// The printed figure, then the measured one, for either filter.
 std::string row(const std::string& name, const std::string& paper_standard, const std::string& standard,
                 const std::string& paper_submaps, const std::string& submaps) {
   char buffer[160];

@@ -13,14 +13,14 @@
 
 namespace cairn::program {
 
-// How far a pose is off, truth minus estimate: [dp; dtheta] as the library defines it, and the NEES where the pose's
+// The error of a pose, truth minus estimate: [dp; dtheta] as the library defines it, and the NEES if the pose's
 // covariance is regular.
 struct PoseScore {
   double error[6];
   std::optional<double> nees;
 };
 
-// Nothing where the step has no true pose.
+// Returns nothing if the step has no true pose.
 std::optional<PoseScore> score_pose(const cairn_filter* filter, const DriveStep& step, const cairn_pose& estimate);
 
 // All landmarks of a filter's map, by ascending id.
@@ -28,15 +28,16 @@ std::vector<cairn_landmark> map_landmarks(const cairn_filter* filter);
 
 class Summary {
  public:
-  // Figures that take truth are left out where the drive has none.
+  // Figures that need the truth are left out if the drive has none.
   Summary(const Drive& drive, bool names_known) : drive_(drive), names_known_(names_known) {}
 
   void add(const DriveStep& step, const StepResult& result, const std::optional<PoseScore>& score);
-  // Once, after the last step: the closing of the submap that was still open then, and what the whole run took.
+  // To be called once, after the last step, with the closing of the submap that was still open, and the time of the
+  // whole run.
   void finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing, double seconds);
 
   const std::vector<Figure>& figures() const { return figures_; }
-  // What the drive calls one of the filter's landmarks: the id of the observation that placed it.
+  // The drive's id of one of the filter's landmarks: the id of the observation that placed it.
   std::uint64_t name_of(std::uint64_t landmark) const;
 
  private:
@@ -50,7 +51,7 @@ class Summary {
 
   const Drive& drive_;
   bool names_known_;
-  // Where the filter was not told names:
+  // If the filter was given no ids:
   std::unordered_map<std::uint64_t, std::uint64_t> names_;
   std::size_t paired_ = 0, wrongly_paired_ = 0, association_exhausted_ = 0;
   std::vector<double> step_seconds_;
@@ -72,7 +73,7 @@ class Summary {
   std::size_t submaps_ = 0;
   double closing_worst_ = 0;               // s
   double closing_outside_ = 0;             // s, of the closing after the last step
-  std::size_t filter_landmarks_most_ = 0;  // in the filter that takes the frames in
+  std::size_t filter_landmarks_most_ = 0;  // in the filter that processes the frames
   double filter_landmarks_sum_ = 0;
   double filter_landmarks_square_sum_ = 0;
   std::vector<Figure> figures_;

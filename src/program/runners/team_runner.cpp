@@ -64,7 +64,7 @@ TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
   choices.apply(filter);
   filter.initial_pose = drive_.start(vehicle);
   if (choices_.mode == CAIRN_TEAM_SUBMAPS) {
-    // By the way driven: one frame may hold all landmarks that there are.
+    // The limit is the distance driven: one frame may hold all existing landmarks.
     if (!choices.submap_landmarks) filter.submap_landmarks = std::min<std::uint32_t>(4096, 2 * room + 1);
     if (!(filter.submap_distance > 0)) filter.submap_distance = drive_.submap_distance();
     filter.join = CAIRN_JOIN_DENSE;
@@ -112,7 +112,8 @@ void TeamRunner::exchange() {
   }
 }
 
-// The library numbers what it has no names for; each number is a landmark by the observations that are its.
+// Without ids the library numbers the landmarks. The observations matched with a number decide which true landmark the
+// number is.
 void TeamRunner::note_pairs(std::size_t vehicle, const VehicleStep& step, VehicleScore& score) {
   std::size_t count = 0;
   check(cairn_team_decisions(teams_[vehicle].get(), nullptr, 0, &count));
@@ -132,13 +133,13 @@ void TeamRunner::note_pairs(std::size_t vehicle, const VehicleStep& step, Vehicl
 std::uint64_t TeamRunner::name_of(std::size_t vehicle, std::uint64_t landmark) const {
   if (choices_.filter.names_known()) return landmark;
   const auto votes = votes_[vehicle].find(landmark);
-  if (votes == votes_[vehicle].end()) return CAIRN_ID_NONE;  // teammates alone saw it
+  if (votes == votes_[vehicle].end()) return CAIRN_ID_NONE;  // only teammates saw it
   return std::max_element(votes->second.begin(), votes->second.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
 }
 
-// Returns the step's normalised error squared, NaN where the covariance is singular.
+// Returns the step's normalised error squared, NaN if the covariance is singular.
 double TeamRunner::score(std::size_t vehicle, const cairn_pose& truth, VehicleScore& score) {
   cairn_team* team = teams_[vehicle].get();
   cairn_pose pose;
@@ -199,7 +200,7 @@ TeamResult TeamRunner::run(const Observer& observe) {
           std::pow(landmark.position[0] - truth[0], 2) + std::pow(landmark.position[1] - truth[1], 2);
     }
   }
-  // Where all take everything in, one of them tells of all.
+  // If all vehicles process all packets, the counts of one vehicle are those of all.
   const bool all = choices_.mode == CAIRN_TEAM_JOINT || choices_.mode == CAIRN_TEAM_SUBMAPS;
   for (std::size_t v = 0; v < (all ? 1 : teams_.size()); ++v) {
     cairn_team_report report{};

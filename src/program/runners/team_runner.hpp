@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a team through a drive: each vehicle keeps an estimate of its own, and the runner carries the packets.
+// Runs a team through a drive: each vehicle has its own estimate, and the runner carries the packets.
 #pragma once
 
 #include <functional>
@@ -21,18 +21,18 @@ struct TeamChoices {
 
 extern const std::vector<const char*> kModeNames;  // by the CAIRN_TEAM_ constants
 
-// Of one vehicle, over all scored steps.
+// Scores of one vehicle, over all scored steps.
 struct VehicleScore {
   std::size_t steps = 0, nees_steps = 0;
   double claimed = 0;       // sum of ||C_qq||, Frobenius, m^2
   double square_error = 0;  // sum, m^2
   double nees = 0;          // sum
   double landmark_square = 0;
-  std::size_t landmarks = 0, landmarks_known = 0;  // of its map; of these, whose truth is known
+  std::size_t landmarks = 0, landmarks_known = 0;  // of its map; of these, those with known truth
   std::size_t paired = 0, paired_wrongly = 0;
   double rmse() const;
   double landmark_rmse() const;
-  double anees() const;  // a degree of freedom
+  double anees() const;  // for each degree of freedom
   void add(const VehicleScore& other);
 };
 
@@ -43,10 +43,10 @@ struct VehicleEstimate {
 
 struct TeamResult {
   std::vector<VehicleScore> vehicles;
-  std::vector<double> nees_by_step;  // of the first vehicle; NaN where it was not scored
+  std::vector<double> nees_by_step;  // of the first vehicle; NaN if it was not scored
   double seconds = 0;                // in the library
   std::size_t recursions = 0;        // steps of one vehicle
-  std::size_t rejected = 0;          // of what all vehicles saw
+  std::size_t rejected = 0;          // of the observations of all vehicles
 };
 
 class TeamRunner {
@@ -55,7 +55,8 @@ class TeamRunner {
 
   using Observer = std::function<void(const TeamStep&, const std::vector<VehicleEstimate>&)>;
   TeamResult run(const Observer& observe);
-  // The map of one vehicle; landmarks by their true ids, where observations have none by those they are most often of.
+  // The map of one vehicle. Landmarks have their true ids; if observations have no ids, a landmark gets the true id of
+  // most of its observations.
   std::vector<cairn_landmark> map(std::size_t vehicle) const;
 
  private:
@@ -73,7 +74,7 @@ class TeamRunner {
   std::vector<std::map<std::uint64_t, std::map<std::uint64_t, std::size_t>>> votes_;  // by vehicle and landmark
 };
 
-// The figures of a run, or of several summed up; `alone`: the same of every vehicle by itself, or null.
+// The figures of a run, or of several summed up. `alone` (or null): the result of the same run without cooperation.
 std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& result, const TeamResult* alone);
 
 }  // namespace cairn::program

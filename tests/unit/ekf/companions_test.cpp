@@ -23,7 +23,7 @@ Eigen::Matrix<double, N, N> random_covariance(Random& random, double sigma) {
   return sigma * sigma * A * A.transpose();
 }
 
-// The filter and the reference, and who is who: the active vehicle, companions and landmarks by slot.
+// The filter and the reference, and the numbers of the reference: the active vehicle, companions and landmarks by slot.
 template <class Pose>
 struct Both {
   static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
@@ -42,7 +42,7 @@ struct Both {
     return measure.used();
   }
 
-  // `noise` scales all that is uncertain, and all residuals.
+  // `noise` scales all uncertainties and all residuals.
   Both(ErrorKind error, unsigned seed, double noise_scale)
       : random(seed), scale(noise_scale), arena(bytes()), state(arena, error, capacity()) {
     const Pose start = random_pose();
@@ -196,8 +196,8 @@ struct Both {
     return out;
   }
 
-  // Largest differences: of a state in its own size or standard deviations of `scale`, of a covariance's entry in those
-  // of its two states.
+  // Largest differences: for a state relative to its size or to its standard deviation in `scale`, for an entry of the
+  // covariance relative to the standard deviations of its two states.
   double worst_state() const {
     double worst = 0;
     const auto of_pose = [&](const Pose& a, const Pose& b) {
@@ -228,7 +228,7 @@ struct Both {
     }
     return std::max(worst, worst_relative());
   }
-  // What a sensor of R^T (l - p) feels, in the size of the two that make the difference.
+  // The error that affects a sensor of R^T (l - p), relative to the size of the two states of the difference.
   double worst_relative() const {
     double worst = 0;
     const Index pose = dense.pose_at(active);
@@ -276,7 +276,7 @@ void standard_error_is_the_dense_filter() {
   CHECK(most == 4);
 }
 
-// What is no update is linear in either error, at the same estimates.
+// Every call except an update is linear in either error, at the same estimates.
 template <class Pose>
 void invariant_error_without_updates_is_the_dense_filter() {
   for (unsigned seed = 31; seed <= 42; ++seed) {
@@ -292,7 +292,8 @@ void invariant_error_without_updates_is_the_dense_filter() {
   }
 }
 
-// An update moves the two apart by a product of two errors: nothing but that where noise is small.
+// An update moves the two filters apart by a product of two errors. With small noise this product is the only
+// difference.
 template <class Pose>
 void invariant_error_agrees_where_noise_is_small() {
   for (const double scale : {1e-3, 1e-5}) {
@@ -346,7 +347,7 @@ void looking_from_another_changes_no_ordinary_covariance() {
     }
 }
 
-// A companion seen from this vehicle, then driven: by hand, without the reference.
+// A companion is seen from this vehicle, then driven. The expected values are computed by hand, without the reference.
 template <class Pose>
 void a_companion_that_was_seen() {
   constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
@@ -363,7 +364,7 @@ void a_companion_that_was_seen() {
     Increment<Pose> step{Pose(Pose::Rotation::exp(0.3 * random.normal_vector<kTurn>()),
                               typename Pose::Point(random.normal_vector<kDim>())),
                          Q};
-    REQUIRE(state.propagate(step));  // held back when the companion comes
+    REQUIRE(state.propagate(step));  // held back when the companion is added
     const Pose after = start * step.T_before_after;
     Square F = Square::Identity(), B = Square::Zero();
     F.template topRightCorner<kDim, kTurn>() = Pose::Rotation::turn(after.translation() - start.translation());
@@ -386,12 +387,12 @@ void a_companion_that_was_seen() {
     CHECK((joint.template bottomLeftCorner<kDim, kDof>() - (J * moved).template topRows<kDim>()).norm() <
           1e-12 * moved.norm() * J.norm());
 
-    // This vehicle goes on: the companion's pose does not change, nor its covariance.
+    // This vehicle moves on: the companion's pose and its covariance do not change.
     const Square seen = state.companion_covariance(0);
     REQUIRE(state.propagate(step));
     CHECK(Both<Pose>::relative(state.companion_covariance(0), seen) < 1e-12);
     CHECK(pose_error(state.companion(0), there).norm() < 1e-13);
-    // Now the companion does, with the own one's motion taken in at the change.
+    // Now the companion moves; activating it applies this vehicle's pending motion.
     const Pose own = state.pose();
     const Square own_covariance = state.pose_covariance();
     state.activate(0);
@@ -408,8 +409,8 @@ void a_companion_that_was_seen() {
   }
 }
 
-// A vehicle that is told where it stands, exactly, while this vehicle's heading is not known: it can be looked from, and what
-// it sees is taken in.
+// A companion is added with an exactly known pose, while this vehicle's heading is unknown. The companion can be
+// activated, and its observations are used.
 template <class Pose>
 void a_companion_that_is_known_exactly() {
   constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A filter that knows nothing of slots, companions, pending motion or the invariant error: all poses and landmarks
-// stand in one dense covariance of ordinary errors, and each step goes through its full matrix.
+// A filter without slots, companions, pending motion and the invariant error: all poses and landmarks are in one dense
+// covariance of ordinary errors, and each step multiplies by its full matrix.
 #pragma once
 
 #include <Eigen/Dense>
@@ -39,7 +39,7 @@ struct DenseState {
     poses[n] = poses[n] * increment.T_before_after;
   }
 
-  // Rows of a new state before row `at`, which is J times that of pose n and noise of its own.
+  // Inserts the rows of a new state before row `at`. Its error is J times the error of pose n, plus independent noise.
   void insert(Index at, std::size_t n, const Dynamic& J, const Dynamic& noise) {
     const Index size = P.rows(), more = J.rows();
     Dynamic T = Dynamic::Zero(size + more, size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The legal order of an update's calls, and that nothing but a commit or a new landmark changes a bit of the state.
+// The legal order of an update's calls. Only a commit or a new landmark may change a bit of the state.
 #include "ekf/ekf_update.hpp"
 
 #include <doctest/doctest.h>
@@ -21,7 +21,8 @@ namespace {
 
 constexpr ErrorKind kBoth[] = {ErrorKind::invariant, ErrorKind::standard};
 
-// Sightings y = R^T (l - p) of some points with a mount's error besides, wrong by centimetres: the rows of one update.
+// The rows of one update: sightings y = R^T (l - p) of some points, also with a mount's error. The residuals are some
+// centimetres.
 template <class Pose>
 class Sightings {
  public:
@@ -68,7 +69,7 @@ class Sightings {
   void linearise(EkfUpdate<Pose>& update) const {
     update.linearise([&](double* residual_only) { return fill(update, residual_only); });
   }
-  // A whole frame, with a landmark placed behind the commit.
+  // A whole frame, with a landmark placed after the commit.
   void run(State<Pose>& state) const {
     EkfUpdate<Pose> update = state.begin(window());
     linearise(update);
@@ -112,7 +113,7 @@ void advance(EkfUpdate<Pose>& update, const Sightings<Pose>& sightings, Stage fr
 template <class Pose>
 struct Call {
   const char* name;
-  std::vector<Stage> legal;  // where it does not throw
+  std::vector<Stage> legal;  // if it does not throw
   std::function<void()> run;
 };
 
@@ -185,7 +186,7 @@ TEST_CASE_TEMPLATE("ekf update: a call out of order throws, and the update goes 
         }
         CHECK(message.find("EkfUpdate: ") == 0);
         CHECK(same_bits(bits_of(sample.state), before));
-        // Straight is a run without step(), which the commit does not depend on.
+        // `straight` is a run without step(): the commit does not depend on step().
         advance(update, sightings, stage, committed);
         CHECK(sightings.place(sample.state, update));
         CHECK(same_bits(bits_of(sample.state), expected));

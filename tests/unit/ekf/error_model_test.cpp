@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The filter's own error against the ordinary one: e_x = xi_x + G(x) xi_R (docs/invariant_error.md), by differences through the
-// retraction, at poses without a turn, with one of 1e-8, with any and with half a turn.
+// The filter's own error against the ordinary error: e_x = xi_x + G(x) xi_R (docs/invariant_error.md), by differences
+// through the retraction. The rotations are zero, 1e-8, random and half a turn.
 #include "ekf/error_model.hpp"
 
 #include <doctest/doctest.h>
@@ -41,8 +41,7 @@ typename Pose::Square ordinary_by_own(const ErrorModel<Pose>& model, const typen
   return J;
 }
 
-// Rows that depend on pose and landmark in every way: relative ones, which also see where both stand, and how the pose
-// is turned.
+// Rows that depend on pose and landmark in every way: on the relative position, on both positions, and on the attitude.
 template <class Pose>
 struct Rows {
   static constexpr int kRows = 3;
@@ -120,7 +119,7 @@ TEST_CASE_TEMPLATE("error model: error() is what retract() applied, up to half a
       const typename Pose::Tangent error = model.error(truth, pose);
       const double size = 1 + pose.translation().norm();
       if (length < 3.14159) CHECK((error - xi).norm() < 1e-12 * size);
-      // Two turns of half a circle are the same rotation: the pose is the same with either.
+      // Half a turn in either direction is the same rotation, and gives the same pose.
       CHECK(pose_error(moved(model, pose, error), truth).norm() < 1e-12 * size);
     }
   }
@@ -218,7 +217,7 @@ TEST_CASE_TEMPLATE("error model: add_turn gives the Jacobian of rows by the own 
     const ErrorModel<Pose> model(kind);
     CAPTURE(model.invariant());
     for (const Pose& pose : awkward_poses<Pose>(11)) {
-      if (pose.translation().norm() > 500) continue;  // the differences themselves lose the digits
+      if (pose.translation().norm() > 500) continue;  // the numerical differences lose these digits
       const Point l = pose.translation() + Point(4 * random.normal_vector<kDim>());
       const ByPose J_pose = pose_jacobian([&](const Pose& T) { return rows(T, l); }, pose);
       const ByPoint J_point = jacobian<kDim>([&](const Point& x) { return rows(pose, x); }, l);
@@ -227,12 +226,12 @@ TEST_CASE_TEMPLATE("error model: add_turn gives the Jacobian of rows by the own 
       model.add_turn(kRows, J_pose, pose.translation(), block.data());
       const double size = (1 + pose.translation().norm()) * (1 + pose.translation().norm());
 
-      // Of the pose's error, the landmark where it is.
+      // The pose's error changes, the landmark stays.
       const ByPose by_pose =
           jacobian_at_zero<kDof>([&](const typename Pose::Tangent& xi) { return rows(moved(model, pose, xi), l); });
       CHECK((block - by_pose).norm() < 10 * kTolerance * size);
 
-      // Of all own errors: the landmark turns with the pose's xi_R.
+      // All of the filter's own errors change: the landmark turns with the pose's xi_R.
       model.add_turn(kRows, J_point, l, block.data());
       const ByPose by_all = jacobian_at_zero<kDof>([&](const typename Pose::Tangent& xi) {
         const typename Pose::Rotation::Tangent turn = xi.template tail<kTurn>();

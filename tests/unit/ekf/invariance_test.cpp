@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What no landmark can tell: where the map as a whole lies, and how it is turned. A filter that claims to learn it from
-// landmarks is overconfident; that is the defect of the standard error, and why the invariant one is the default
-// (Barrau and Bonnabel, An EKF-SLAM algorithm with consistency properties; Zhang et al., RI-EKF SLAM).
+// Landmarks give no information on the position and the heading of the whole map. A filter that gains such information
+// from landmarks is overconfident. This is the defect of the standard error, and the reason why the invariant error is
+// the default (Barrau and Bonnabel, An EKF-SLAM algorithm with consistency properties; Zhang et al., RI-EKF SLAM).
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -25,7 +25,7 @@ struct Run {
     for (const Seen& seen : frame) observations.push_back({seen.id, {seen.z[0], seen.z[1], seen.z[2]}, {}});
     filter.update(0, observations.data(), static_cast<Index>(frame.size()));
   }
-  // Of pose and all landmarks, ordinary.
+  // Covariance of the pose and all landmarks, ordinary errors.
   Dynamic covariance() const {
     std::vector<std::size_t> all(filter.landmarks().size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -33,7 +33,7 @@ struct Run {
     filter.pose_joint_covariance(all.data(), all.size(), P.data());
     return P;
   }
-  // How the ordinary errors change where everything is shifted by t and turned by phi about the map's origin.
+  // The change of the ordinary errors if everything is shifted by t and turned by phi about the map's origin.
   Dynamic gauge() const {
     Dynamic N = Dynamic::Zero(6 + 3 * static_cast<Index>(filter.landmarks().size()), 6);
     N.block<3, 3>(3, 3).setIdentity();
@@ -45,7 +45,7 @@ struct Run {
     for (std::size_t i = 0; i < filter.landmarks().size(); ++i) fill(6 + 3 * static_cast<Index>(i), filter.landmarks().position(i));
     return N;
   }
-  // Fisher information that the filter claims to have on the gauge.
+  // Fisher information on the gauge according to the filter.
   Matrix6 gauge_information() const {
     const Dynamic N = gauge();
     return N.transpose() * covariance().llt().solve(N);
@@ -73,7 +73,7 @@ FilterOptions<SE3> options_for(ErrorKind error, unsigned seed) {
   return options;
 }
 
-// A drive of `frames` frames; the filter only hears of the motion's noise where it is told of any.
+// A drive of `frames` frames. The filter gets motion noise only if `motion_noise` is not zero.
 double gauge_gain(ErrorKind error, unsigned seed, int frames, const Matrix6& motion_noise) {
   const FilterOptions<SE3> options = options_for(error, seed);
   const StereoHead head = scenario_head(0.02, seed % 2 == 0);
@@ -143,7 +143,7 @@ TEST_CASE("ekf: landmarks teach the invariant filter nothing of the gauge, and t
     CAPTURE(seed);
     CHECK(gauge_gain(ErrorKind::invariant, seed, 25, none) == doctest::Approx(1).epsilon(1e-8));
     CHECK(gauge_gain(ErrorKind::invariant, seed, 25, some) < 1 + 1e-8);
-    // Its Jacobians are taken at estimates that move: directions that are not observed become so, by its own account.
+    // Its Jacobians are evaluated at changing estimates: unobservable directions seem to be observed.
     CHECK(gauge_gain(ErrorKind::standard, seed, 25, some) > 1.05);
   }
 }
@@ -161,16 +161,17 @@ TEST_CASE("ekf: a vehicle that stands and looks learns nothing of its own pose")
     if (error == ErrorKind::invariant) {
       CHECK(moved < 1e-10);
       CHECK((P - start).norm() < 1e-10 * start.norm());
-    } else {  // the false gain: attitude known better than at the start, from nothing
+    } else {  // the false gain: without information the attitude becomes more certain than at the start
       CHECK(moved > 1e-4);
       CHECK(P.bottomRightCorner<3, 3>().trace() < 0.99 * start.bottomRightCorner<3, 3>().trace());
     }
   }
 }
 
-// A position says nothing of the attitude of a vehicle that stands. Seen from the invariant error it does: the fix's
-// Jacobian G(p) changes with the estimate, as the standard filter's does with landmarks, so some of what the invariant
-// error wins on landmarks it pays back on absolute positions. The test is here so that an improvement gets noticed.
+// A position gives no information on the attitude of a vehicle that stands. With the invariant error it seems to give
+// some: the Jacobian G(p) of the fix changes with the estimate, like the Jacobian of a landmark with the standard
+// error. So the invariant error, which is better for landmarks, is worse for absolute positions. This test shows when
+// that improves.
 TEST_CASE("ekf: a vehicle that stands and gets position fixes learns nothing of its attitude" *
           doctest::description("known limit of the invariant error") * doctest::should_fail()) {
   FilterOptions<SE3> options;
@@ -185,7 +186,7 @@ TEST_CASE("ekf: a vehicle that stands and gets position fixes learns nothing of 
   CHECK(filter.pose_covariance()(5, 5) > 0.9 * 0.09);
 }
 
-TEST_CASE("ekf: with the standard error, position fixes teach a vehicle that stands its position alone") {
+TEST_CASE("ekf: with the standard error, position fixes give a vehicle that stands only its position") {
   FilterOptions<SE3> options;
   options.error = ErrorKind::standard;
   options.gate_probability = 1;

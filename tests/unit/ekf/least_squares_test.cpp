@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the filter must come to in the end: where the problem is linear and Gaussian the one right answer, that of least
-// squares over everything that was ever measured, all positions of the vehicle kept as unknowns; and on a long drive a
-// covariance that is still one.
+// The final result of the filter. If the problem is linear and Gaussian, it must be the least-squares solution over all
+// measurements, with all positions of the vehicle as unknowns. After a long drive the covariance must still be positive
+// definite.
 #include <doctest/doctest.h>
 
 #include <Eigen/Cholesky>
@@ -22,7 +22,7 @@ struct LeastSquares {
   Dynamic information = Dynamic::Zero(kUnknowns, kUnknowns);
   DynamicVector weighted = DynamicVector::Zero(kUnknowns);
 
-  // z = x_b - x_a + noise; x_a is absent where a < 0.
+  // z = x_b - x_a + noise; x_a is absent if a < 0.
   void add(Eigen::Index a, Eigen::Index b, const Vector3& z, const Matrix3& covariance) {
     Eigen::Matrix<double, 3, Eigen::Dynamic> J = Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, kUnknowns);
     J.middleCols<3>(3 * b).setIdentity();
@@ -51,7 +51,7 @@ TEST_CASE("ekf: equals least squares over the whole drive where the problem is l
     options.max_landmarks = kLandmarks;
     options.max_observations = kLandmarks;
     options.gate_probability = options.batch_gate_probability = 1;
-    // Turned somehow, and exactly known how: no noise on it at the start, nor on the way.
+    // Any attitude, but exactly known: no noise on it at the start or on the way.
     const SO3 R = SO3::exp(Vector3(0.4, -0.8, 1.3));
     options.initial_pose = SE3(R, Vector3(12, -7, 3));
     const Matrix3 start = random_covariance_of_points(random, 0.8);
@@ -139,7 +139,7 @@ TEST_CASE("ekf: the covariance stays positive definite over a long drive") {
     const int number = filter.add(head);
     SE3 truth = options.initial_pose;
     for (int step = 0; step < 3000; ++step) {
-      // Round a circle of 4 m, so that every landmark keeps coming back.
+      // A circle of 4 m, so that every landmark is seen again and again.
       const Vector3 v(1, 0, 0), w(0, 0, 0.25);
       for (int i = 0; i < 2; ++i) {
         truth = truth * SE3::exp((Vector6() << 0.2 * v, 0.2 * w).finished());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motion that is held back, against a dense covariance that each motion goes through at once.
+// Motion that is held back, against a dense covariance to which each motion is applied at once.
 #include "ekf/pending_motion.hpp"
 
 #include <doctest/doctest.h>
@@ -80,7 +80,7 @@ struct Held {
     dense = (F * dense * F.transpose() + L * increment.covariance * L.transpose()).eval();
     pose = next;
   }
-  // P_now from the parts of the held motion, as an update puts them together.
+  // P_now from the parts of the held motion, combined like in an update.
   Dynamic assembled() {
     motion.prepare(layout, points.data());
     std::vector<double> columns(static_cast<std::size_t>(ld * kDof), kNaN);

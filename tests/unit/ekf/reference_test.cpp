@@ -9,8 +9,8 @@ using namespace cairn::test;
 
 namespace {
 
-// Both do some thousand operations on numbers of very different size. The reference's differences are good to 1e-13;
-// what is left is rounding, and grows with how much an update shrinks a covariance.
+// Both do some thousand operations on numbers of very different size. The reference's numerical differences are
+// accurate to 1e-13. The remaining error is rounding. It grows with the factor by which an update reduces a covariance.
 constexpr double kTolerance = 1e-9;
 constexpr ErrorKind kBoth[] = {ErrorKind::invariant, ErrorKind::standard};
 
@@ -38,7 +38,7 @@ void drive_with(const Sensor<SE3>& sensor, ErrorKind error, unsigned seed, doubl
     CHECK(pair.update(number, drive.look(sensor, 6, noise_scale, angles)));
     check(pair);
     if (step % 3 == 2 && pair.filter().landmarks().size() > 2) {
-      if (step == 5) drive.move(pair);  // a removal before the motion's noise has been taken in
+      if (step == 5) drive.move(pair);  // a removal before the motion's noise was applied
       pair.remove(pair.reference().ids()[static_cast<std::size_t>(step) % pair.reference().ids().size()]);
       check(pair);
     }
@@ -88,7 +88,7 @@ TEST_CASE("ekf: all sensors, absolute measurements and linear updates in turn") 
     CAPTURE(static_cast<int>(error));
     Random random(7);
     FilterOptions<SE3> options = random_options(error, random);
-    options.initial_pose = SE3(SO3::exp(Vector3(0.1, 0.2, 2)), Vector3(30, -10, 5));  // level enough for a heading
+    options.initial_pose = SE3(SO3::exp(Vector3(0.1, 0.2, 2)), Vector3(30, -10, 5));  // nearly level
     Pair pair(options);
     Drive drive(70, options);
     for (const Sensor<SE3>* sensor : sensors) pair.add(*sensor);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mount whose error all rows of a frame share, against a dense filter that has the mount among its states. Residuals
-// of zero leave the estimates where they are, so that both error models have one answer in ordinary errors.
+// A mount whose error all rows of a frame share, against a dense filter that has the mount in its state. The residuals
+// are zero, so that the estimates do not change and both error models give the same result in ordinary errors.
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>

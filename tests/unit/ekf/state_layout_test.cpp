@@ -23,7 +23,7 @@ StateLayout<Pose> layout_of(Index companions, Index points) {
   return layout;
 }
 
-// How often each state belongs to a block; blocks that reach outside count for nothing.
+// The number of blocks to which each state belongs; blocks that reach outside are ignored.
 class Cover {
  public:
   explicit Cover(Index states) : times_(static_cast<std::size_t>(states), 0) {}
@@ -63,7 +63,7 @@ TEST_CASE_TEMPLATE("state layout: the blocks tile the states", Pose, SE2, SE3) {
       Index end = 0;
       for (Index b = 0; b < layout.blocks(); ++b) {
         const Block block = layout.block(b);
-        CHECK(block.offset == end);  // blocks stand in the order of their numbers
+        CHECK(block.offset == end);  // blocks are in the order of their numbers
         end = block.offset + block.size;
         cover.add(block.offset, block.size);
       }

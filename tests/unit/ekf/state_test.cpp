@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The covariance of a state between and around updates: motion held back, marginals, pivots, and refusals that must leave
-// no trace.
+// The covariance of a state between and around updates: motion held back, marginals, pivots, and refusals that must
+// change nothing.
 #include "ekf/state.hpp"
 
 #include <doctest/doctest.h>
@@ -59,7 +59,8 @@ struct Bare {
     state.gather(all.data(), state.size(), P.data(), P.rows());
     return P;
   }
-  // The reference's, whose coordinates count from the map's origin and not from the start: xi_x + G(start) xi_R.
+  // The covariance of the reference, whose coordinates count from the map's origin and not from the start: xi_x +
+  // G(start) xi_R.
   Dynamic expected_covariance() const {
     const Dynamic& P = reference.covariance();
     Dynamic shift = Dynamic::Identity(P.rows(), P.rows());
@@ -106,7 +107,7 @@ TEST_CASE("state: motion that is held back equals motion applied at every step")
       CHECK(bare.difference() < 1e-10);
       if (i % 7 == 2) bare.place(5 * random.normal_vector<3>());  // with motion pending
       if (i % 7 == 4) {
-        CHECK(bare.state.smallest_pivot() > 0);  // takes the motion in, changes nothing else
+        CHECK(bare.state.smallest_pivot() > 0);  // applies the motion, changes nothing else
         CHECK(bare.difference() < 1e-10);
       }
       if (i == 24) {
@@ -189,7 +190,7 @@ TEST_CASE("state: the smallest pivot is that of the scaled covariance, and looki
     CHECK((bare.covariance() - P).norm() == 0);
   }
   Bare bare(ErrorKind::standard, SE3(), Matrix6::Zero());
-  CHECK(bare.state.smallest_pivot() == 1);  // all is exactly known
+  CHECK(bare.state.smallest_pivot() == 1);  // everything is exactly known
   Matrix6 indefinite = Matrix6::Identity();
   indefinite(1, 0) = indefinite(0, 1) = 2;
   bare.state.start(SE3(), indefinite);
@@ -271,7 +272,7 @@ TEST_CASE("ekf: an update that would lose positive definiteness leaves everythin
     const Matrix3 pose_half = -0.5 * pair.filter().pose_covariance().topLeftCorner<3, 3>();
     CHECK_THROWS_AS(pair.filter().update_position(drive.truth().translation(), pose_half, Vector3::Zero()), Error);
     CHECK(equal());
-    // And what follows is what would have followed.
+    // The next steps are the same as without the refused calls.
     CHECK(pair.update(0, drive.look(head, 6)));
     CHECK(twin.update(0, same.look(head, 6)));
     CHECK(equal());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gates of an update's batch, against a search that inverts the innovation of every rest; and what the update then
-// makes of the blocks that are left.
+// The gates of an update's batch, against a search that inverts the innovation of every subset; and the update with the
+// remaining blocks.
 #include "ekf/update_gates.hpp"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,7 @@ using DynamicVector = Eigen::VectorXd;
 constexpr ErrorKind kBoth[] = {ErrorKind::invariant, ErrorKind::standard};
 constexpr Index kPoints = 8;
 
-// Rows of a batch, one block a point, by ordinary errors.
+// Rows of a batch, one block for each point, by ordinary errors.
 template <class Pose>
 struct Rows {
   static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
@@ -100,7 +100,7 @@ TEST_CASE_TEMPLATE("update gates: an update's gates refuse what an exhaustive se
       CHECK(update.nis() == doctest::Approx(expected.distance).epsilon(1e-8));
       CHECK(same_bits(bits_of(world.state), bits_of(twin.state)));  // the gates leave the state as it is
 
-      // The update that follows is that of the blocks that are left, as if there had been no others.
+      // The update with the remaining blocks equals an update that never had the other blocks.
       update.solve();
       update.commit();
       EkfUpdate<Pose> direct = twin.state.begin({rows.slots.data(), count});

@@ -69,7 +69,8 @@ GateResult exhaustive_gates(const Eigen::MatrixXd& S, const Eigen::VectorXd& res
   }
 }
 
-// What gate_blocks() refuses, in numbers of the whole batch: the joint gate counts the blocks that the single one left.
+// The blocks that gate_blocks() refuses, by their numbers in the whole batch: the joint gate itself counts only the
+// blocks that the single gate left.
 class RefusalLog {
  public:
   explicit RefusalLog(Index count) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Both gates on random batches with outliers, against a search that inverts the innovation of every rest.
+// Both gates on random batches with outliers, against a search that inverts the innovation of every subset.
 #include "linear/joint_gate.hpp"
 
 #include <doctest/doctest.h>
@@ -22,7 +22,7 @@ using Dynamic = Eigen::MatrixXd;
 using DynamicVector = Eigen::VectorXd;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A batch for gate_blocks() that is nothing but S and a residual.
+// A batch for gate_blocks() that consists only of S and a residual.
 class PlainBatch {
  public:
   PlainBatch(const Dynamic& S, const DynamicVector& residual, Index rows)

@@ -40,7 +40,7 @@ struct Stored {
       for (Index r = 0; r < n; ++r) A(r, c) = triangle.symmetric(r, c);
     return A;
   }
-  // Whether all that is not in the lower triangle of the first n rows still holds poison.
+  // Whether everything outside of the lower triangle of the first n rows still holds poison.
   bool poisoned_around(Index n) const {
     const Index ld = triangle.ld();
     for (std::size_t i = 0; i < memory.size(); ++i) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Index kSlots = 24, kLandmarks = 20;
 
-// What a table must hold, in any order within a part.
+// The expected content of a table, in any order within a part.
 struct Names {
   std::vector<std::uint64_t> companions, counting, deferred;
 };
@@ -63,11 +63,12 @@ TEST_CASE("landmark table: slots stay in three parts, and names stay with what b
   Names names;
   Random random(5);
   std::uint64_t next = 1;
-  // As LocalMap does it, which exchanges the values of the state in the same places.
+  // The same order of calls as in LocalMap, which exchanges the values of the state in the same places.
   for (int step = 0; step < 3000; ++step) {
     const double kind = random.uniform(0, 1);
     if (kind < 0.45 && table.landmarks() < kLandmarks) {
-      // A landmark that counts comes only where no landmark is deferred: it would stand behind those.
+      // A landmark that counts is added only while no landmark is deferred: otherwise it would stand behind the
+      // deferred ones.
       const bool deferred = table.deferred() > 0 || random.uniform(0, 1) < 0.5;
       table.append(next, deferred);
       table.add_observations(table.size() - 1, next - 1);

@@ -45,7 +45,7 @@ Packet sent(Mailbox& mailbox) {
   return packet;
 }
 
-// Vehicles of the next turn; empty where there is none.
+// Vehicles of the next turn; empty if there is none.
 std::vector<std::uint64_t> turn(Mailbox& mailbox) {
   std::vector<Packet> packets;
   std::vector<std::uint64_t> vehicles;
@@ -105,7 +105,7 @@ TEST_CASE("mailbox: whoever is waited for comes before an overdue gap of a later
   give(mailbox, step_of(3, 1, 0.0));
   give(mailbox, step_of(2, 1, 8.0));
   mailbox.observe(12.0, {}, {});
-  CHECK_FALSE(mailbox.skip_overdue_gap());  // vehicle 2's is not overdue
+  CHECK_FALSE(mailbox.skip_overdue_gap());  // the gap of vehicle 2 is not overdue
   CHECK(mailbox.counts().lost == 0);
 }
 
@@ -143,7 +143,7 @@ TEST_CASE("mailbox: what was consumed once is not taken again after a return") {
   CHECK_THROWS_AS(mailbox.add(2), Error);
   CHECK(give(mailbox, step_of(2, 0, 1.0)) == Arrival::repeated);
   CHECK(give(mailbox, step_of(2, 0, 1.5)) == Arrival::conflict);
-  CHECK(give(mailbox, step_of(2, 2, 3.0)) == Arrival::waiting);  // what waited was forgotten
+  CHECK(give(mailbox, step_of(2, 2, 3.0)) == Arrival::waiting);  // the waiting packets were forgotten
   CHECK(mailbox.counts().conflict == 1);
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("mailbox: requests name what is missing, and are answered from the his
   CHECK(request.kind == PacketKind::request);
   CHECK((request.subject == 1 && request.first == 0 && request.count == 4));
   CHECK(give(answering, request) == Arrival::request);
-  CHECK(sent(answering).number == 2);  // numbers 0 and 1 are kept no more
+  CHECK(sent(answering).number == 2);  // numbers 0 and 1 are no longer kept
   CHECK(sent(answering).number == 3);
   CHECK(answering.next_packet() == nullptr);
   CHECK(answering.counts().resent == 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets as bytes: what goes in comes out, to the bit; the layout as documented; and limits.
+// Packets as bytes: decoding returns the encoded values to the bit; the layout as documented; and limits.
 #include "team/packet.hpp"
 
 #include <doctest/doctest.h>
@@ -164,7 +164,8 @@ TEST_CASE("packet: the layout, little-endian") {
 }
 
 TEST_CASE("packet: two of different content differ in what tells them apart") {
-  // Over a packet with its own checksum any CRC is the same number: it is that of the rest that tells.
+  // The CRC over a packet together with its own checksum is the same number for all packets. Only the CRC of the rest
+  // distinguishes packets.
   Random random(3);
   const std::vector<std::uint8_t> a = encode(any_packet(random, 1, 2, 1)), b = encode(any_packet(random, 1, 2, 1));
   CHECK(crc32(a.data(), a.size()) == crc32(b.data(), b.size()));

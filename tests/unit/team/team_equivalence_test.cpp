@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Extended observations with the noise that a scan has in common are the joint filter of which the teammate's pose has
-// a flat prior: it is found by the mutual sighting at every scan, looks, and is forgotten. With independent noise they
-// claim more.
+// Extended observations with the noise that all observations of a scan share equal a joint filter in which the
+// teammate's pose has a flat prior: at every scan the mutual sighting places the teammate, the teammate's scan is used,
+// and the teammate is removed. With independent noise the covariance is too small.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -123,7 +123,7 @@ TEST_CASE("team: extended observations with their common noise are the joint fil
       CAPTURE(seed);
       const Claims c = drive(error, seed);
       CHECK(std::abs(c.full / c.flat - 1) < 0.005);
-      CHECK(c.full < 0.97 * c.alone);     // it is worth something
-      CHECK(c.diagonal < 0.99 * c.full);  // and independent noise claims what is not there
+      CHECK(c.full < 0.97 * c.alone);     // cooperation reduces the covariance
+      CHECK(c.diagonal < 0.99 * c.full);  // and independent noise is overconfident
     }
 }

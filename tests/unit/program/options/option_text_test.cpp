@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What --help and the manual page make of an option's texts.
+// The texts of an option in --help and on the manual page.
 #include "program/options/option_text.hpp"
 
 #include <doctest/doctest.h>

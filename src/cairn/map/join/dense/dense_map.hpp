@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The dense joining: one filter over the base and all landmarks (Mars paper, eq. 17-32, corrected). Equal to a filter
-// that never heard of submaps where all is linear and Gaussian. Takes all its memory at creation, but for the workspace
-// of a joining.
+// The dense joining: one filter over the base and all landmarks (Mars paper, eq. 17-32, corrected). If all models are
+// linear and Gaussian, the result equals that of a filter without submaps. The map takes all its memory at creation,
+// except the workspace of a joining.
 #pragma once
 
 #include "core/id_table.hpp"
@@ -31,8 +31,8 @@ class DenseMap final : public GlobalMap<Pose> {
   Pose submap_base(std::size_t submap) const override { return closed_[submap].base; }
   const std::vector<std::uint64_t>& submap_ids(std::size_t submap) const override { return closed_[submap].ids; }
 
-  // Submaps of several vehicles: what is said of the base is of the one looked from, at first the map's first vehicle.
-  // Others are added before the first submap.
+  // Submaps of several vehicles: the base is that of the active vehicle, at first the map's first vehicle. Others are
+  // added before the first submap.
   void name_vehicle(std::uint64_t id) { vehicle_ = id; }
   void add_vehicle(std::uint64_t id, const Pose& pose, const typename Pose::Square& covariance);
   void look_from(std::uint64_t id);
@@ -56,7 +56,7 @@ class DenseMap final : public GlobalMap<Pose> {
   friend class DenseTransaction<Pose>;
 
   struct Closed {
-    Pose base;  // as it was known then
+    Pose base;  // as it was estimated then
     std::vector<std::uint64_t> ids;
   };
 

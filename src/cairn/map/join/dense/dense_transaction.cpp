@@ -25,8 +25,8 @@ std::vector<Eigen::Index> states_of(const std::vector<Eigen::Index>& landmarks) 
 
 // The update that fuses the submap's known landmarks. Their estimates are observations from the submap's base:
 // y = R_S^T (l - p_S), with one full noise block, their covariance in the submap. This is eq. 30 of the Mars paper with
-// the rotation that its constant Jacobian leaves out. It is a batch for gate_blocks(), which removes landmarks from the
-// window as well: the noise block spans all rows, so that the batch is filled anew.
+// the rotation that its constant Jacobian leaves out. It is a batch for gate_blocks(). A landmark that the gates remove
+// leaves the window as well, and the batch is filled again, because the noise block spans all rows.
 template <class Pose>
 class DenseTransaction<Pose>::Fusing {
  public:
@@ -45,7 +45,7 @@ class DenseTransaction<Pose>::Fusing {
   template <class Bound>
   bool consistent(Bound&& bound) {
     update_->factor();
-    return count() == 0 || update_->nis() <= bound(kDim * count());  // no rows have no bound
+    return count() == 0 || update_->nis() <= bound(kDim * count());  // a batch without rows has no bound
   }
   InverseInnovation invert() { return update_->invert(); }
   void refactor() { update_->factor(); }
@@ -105,7 +105,7 @@ DenseTransaction<Pose>::~DenseTransaction() {
   if (backup_) map_.state_.restore(*backup_);
 }
 
-// The rest of the submap's error, that of the end pose and the new landmarks, is K y + w by the fused landmarks' y.
+// The error of the rest of the submap (end pose and new landmarks) is K y + w, with the error y of the fused landmarks.
 template <class Pose>
 typename State<Pose>::Handover DenseTransaction<Pose>::split_rest(const Submap<Pose>& submap,
                                                                   const Eigen::MatrixXd& joint) const {
@@ -125,7 +125,7 @@ typename State<Pose>::Handover DenseTransaction<Pose>::split_rest(const Submap<P
   return handover;
 }
 
-// Moves the rest of the submap by what the fusing moved its known landmarks, and composes it with the map.
+// Corrects the rest of the submap by the correction of its known landmarks in the fusion, and composes it with the map.
 template <class Pose>
 void DenseTransaction<Pose>::hand_over(const Submap<Pose>& submap, typename State<Pose>::Handover& handover,
                                        const Eigen::VectorXd& shift) {
@@ -197,7 +197,7 @@ void DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
   closed_.emplace(typename DenseMap<Pose>::Closed{map_.base(), submap.ids});
   if (map_.closed_.size() == map_.closed_.capacity()) map_.closed_.reserve(2 * map_.closed_.size() + 8);
 
-  // Nothing was changed so far. The composition takes memory once more: if there is none, the update is taken back.
+  // Nothing was changed so far. The composition allocates again: if there is no memory, the update is taken back.
   backup_.emplace(state.backup());
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDim * pairs_.size()));
   if (!pairs_.empty()) {
@@ -230,7 +230,7 @@ template <class Pose>
 JoinReport DenseTransaction<Pose>::commit() {
   const State<Pose>& state = map_.state_;
   backup_.reset();
-  if (!closed_) return report_;  // a fix and nothing else
+  if (!closed_) return report_;  // only a fix
   for (std::size_t a = 0; a < fresh_.size(); ++a)
     map_.append(fresh_ids_[a], fresh_counts_[a], map_.size() - fresh_.size() + a);
   for (std::size_t a = 0; a < pairs_.size(); ++a) map_.counts_[pairs_[a].slot - state.companions()] += pair_counts_[a];

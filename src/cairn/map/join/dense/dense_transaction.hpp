@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One change of a dense map: a submap is gated, fused and composed, the new base may get a fix. What is not committed
-// is taken back.
+// One change of a dense map: a submap is gated, fused and composed, and the new base may get a fix. A change that is
+// not committed is taken back.
 #pragma once
 
 #include <optional>
@@ -36,11 +36,11 @@ class DenseTransaction final : public MapTransaction<Pose> {
   void hand_over(const Submap<Pose>& submap, typename State<Pose>::Handover& handover, const Eigen::VectorXd& shift);
 
   DenseMap<Pose>& map_;
-  std::optional<typename State<Pose>::Backup> backup_;  // what the map was, where it was changed
+  std::optional<typename State<Pose>::Backup> backup_;  // the old values of the changed parts of the map
   std::vector<Pair> pairs_;                             // that passed the gates
   std::vector<Eigen::Index> fresh_;                     // landmarks of the submap that the map does not know
   std::vector<std::uint64_t> fresh_ids_, fresh_counts_, pair_counts_;
-  std::vector<Point> before_;  // where the map's landmarks were
+  std::vector<Point> before_;  // the old positions of the map's landmarks
   std::optional<typename DenseMap<Pose>::Closed> closed_;
   JoinReport report_;
 };

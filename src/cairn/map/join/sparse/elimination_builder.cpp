@@ -110,7 +110,8 @@ FrontPointer EliminationBuilder<Pose>::make(int bit, const TreeKey& key, const F
   return front;
 }
 
-// What no leaf elsewhere holds is eliminated; the crown eliminates the rest, in ascending order.
+// A front eliminates the variables that no other leaf holds; the crown eliminates all remaining ones, in ascending
+// order.
 template <class Pose>
 void EliminationBuilder<Pose>::sort_variables(TreeFront& front, int children) {
   const auto take = [&](Variable v, std::int32_t held) {

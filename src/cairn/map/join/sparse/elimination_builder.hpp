@@ -13,20 +13,20 @@
 
 namespace cairn {
 
-// Of one update. A touch names fronts that are made anew, down to and with its bit.
+// The builder of one update. A touch names fronts that are made anew, down to its bit (included).
 template <class Pose>
 class EliminationBuilder {
  public:
   using TouchIterator = std::vector<TreeTouch>::const_iterator;
   static constexpr std::int16_t kNever = std::numeric_limits<std::int16_t>::max();  // of a variable: not eliminated
 
-  // How many leaves hold each variable; where each is eliminated, which is brought up to date; and the leaves whose
-  // information was asked for, which are added.
+  // The number of leaves that hold each variable; the place where each is eliminated, which is updated; and the list to
+  // which the leaves are added whose information was requested.
   EliminationBuilder(const LeafSource& source, const std::vector<std::int32_t>& degree,
                      std::vector<std::int16_t>& eliminated_at, std::vector<std::uint32_t>& assembled)
       : source_(source), degree_(degree), eliminated_at_(eliminated_at), assembled_(assembled) {}
 
-  // The subtree of these touches, sorted by key, in place of the old one. Null where a pivot failed.
+  // The subtree of these touches, sorted by key, in place of the old one. Null if a pivot failed.
   FrontPointer build(const FrontPointer& old, TouchIterator begin, TouchIterator end);
   // The front above the whole tree.
   FrontPointer crown(const FrontPointer& top);

@@ -24,7 +24,7 @@ struct TreeFront {
   std::vector<std::int32_t> held;    // leaves below that hold a variable of the boundary
   Index e = 0, b = 0;                // states of both
   std::vector<double> factor;        // (e + b) x e, column-major: L_EE over L_BE
-  std::vector<double> complement;    // packed lower triangle, b x b: what the boundary knows of what lies below
+  std::vector<double> complement;    // packed lower triangle, b x b: information of the leaves below on the boundary
 
   bool leaf() const { return child[0] == nullptr; }
   using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
@@ -33,11 +33,11 @@ struct TreeFront {
 };
 using FrontPointer = std::shared_ptr<const TreeFront>;
 
-// Of a front and all below it.
+// Memory of a front and all fronts below it.
 std::size_t memory_bytes(const TreeFront& front);
 
-// Where the states of some of a front's variables (ascending) stand among its own: the eliminated ones, then the
-// boundary.
+// The offsets of the states of some of a front's variables (ascending) among all its states: the eliminated ones, then
+// the boundary.
 template <class Pose>
 std::vector<Index> state_map(const std::vector<Variable>& part, const TreeFront& front);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the passes through the elimination tree share: which fronts are touched, and the elimination of one front.
+// Shared by the passes through the elimination tree: which fronts are touched, and the elimination of one front.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,8 +18,8 @@ inline void sort_by_key(std::vector<TreeTouch>& touches) {
                    [](const TreeTouch& a, const TreeTouch& b) { return a.key < b.key; });
 }
 
-// The touches of each child of a front, out of those of the front, sorted by key. A key that no leaf has yet leaves the
-// tree somewhere: from there on it touches nothing.
+// Divides the touches of a front, sorted by key, among its children. A key that no leaf has yet leaves the tree at some
+// front and touches nothing below it.
 struct TouchHalves {
   TouchHalves(const TreeFront& front, TouchIterator begin, TouchIterator end) : bounds{begin, end, end} {
     const auto elsewhere = [&](const TreeTouch& touch) { return touch.key.split(front.key) < front.bit; };
@@ -37,14 +37,14 @@ struct TouchHalves {
   TouchIterator bounds[3];
 };
 
-// What the forward pass leaves at a front that was touched.
+// The result of the forward pass at a front that was touched.
 struct TreePass {
   Eigen::MatrixXd y;      // L_EE^-1 b
-  Eigen::MatrixXd above;  // what goes up to the boundary
+  Eigen::MatrixXd above;  // contribution to the boundary
   bool stirs = false;
   std::unique_ptr<TreePass> child[2];
 
-  // Adds what the child on a side hands up, to these rows.
+  // Adds the contribution of the child on a side to these rows.
   template <class Columns>
   void add_child(int side, const std::vector<Index>& map, Columns& b) const {
     const Eigen::MatrixXd& up = child[side]->above;
@@ -59,7 +59,7 @@ struct TreePass {
   }
 };
 
-// From y to the solution of what a front eliminates, by that of its boundary.
+// Computes the solution of a front's eliminated variables from y and the solution of its boundary.
 template <class Columns, class Boundary>
 void substitute(const TreeFront& front, const Boundary& boundary, Columns& y) {
   y.noalias() -= front.boundary_block().transpose() * boundary;

@@ -30,7 +30,7 @@ void EliminationRelaxer<Pose>::settle(const TreeFront& crown, const std::vector<
   backward(crown, Eigen::VectorXd(0), nullptr, touches.begin(), touches.end(), Eigen::VectorXd(0), false);
 }
 
-// Forces that rest at fronts which are touched are counted anew.
+// Forces that are kept at touched fronts are computed anew.
 template <class Pose>
 void EliminationRelaxer<Pose>::forget(const TreeFront& front, TouchIterator begin, TouchIterator end) {
   const TouchHalves halves(front, begin, end);
@@ -43,7 +43,8 @@ void EliminationRelaxer<Pose>::forget(const TreeFront& front, TouchIterator begi
   }
 }
 
-// What all that rests exerts on its fronts' boundaries. It may reach far above, so it is counted by variable.
+// Adds up the forces of all kept motions and kept forces on their fronts' boundaries. A boundary variable may be
+// eliminated far above, so the forces are added up by variable.
 template <class Pose>
 void EliminationRelaxer<Pose>::gather_rests() {
   slots_.assign(variables_, -1);
@@ -81,16 +82,16 @@ std::unique_ptr<TreePass> EliminationRelaxer<Pose>::forward(const TreeFront& fro
     at += dimension<Pose>(v);
   }
   pass->eliminate(front, b);
-  if (!pass->stirs) {  // by the motion that the forces would cause here, were the boundary held
+  if (!pass->stirs) {  // by the motion that the forces would cause here if the boundary were fixed
     const Vector x = front.eliminated_block().transpose().triangularView<Eigen::Upper>().solve(Vector(pass->y));
     pass->stirs = matters(front.eliminated, x);
   }
   return pass;
 }
 
-// Moves a front and what hangs on it: `boundary` is how its boundary moves; `forces` (a y) and `pass` are empty where
-// nothing pulls. With `far`, whatever the motion matters to is visited; without, as settle() asks for, what is
-// touched.
+// Moves a front and the fronts below it. `boundary` is the motion of its boundary; `forces` (a y) and `pass` are empty
+// if there is no force. With `far`, all fronts are visited to which the motion matters; without it (for settle()), only
+// the touched ones.
 template <class Pose>
 void EliminationRelaxer<Pose>::backward(const TreeFront& front, const Vector& forces, const TreePass* pass,
                                         TouchIterator begin, TouchIterator end, const Vector& boundary, bool far) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One step of an iteration on an elimination tree, in which what hardly moves rests (see EliminationTree::relax()).
+// One step of an iteration on an elimination tree that does not visit parts which hardly move (see
+// EliminationTree::relax()).
 #pragma once
 
 #include "geometry/se2.hpp"
@@ -19,14 +20,14 @@ class EliminationRelaxer {
 
   // The whole step; `touches` are sorted by key. Returns by how much the cost falls if it is quadratic.
   double relax(const TreeFront& crown, const std::vector<TreeTouch>& touches);
-  // Hands down all that rests on the way to what is touched.
+  // Hands down the kept motions and forces on the way to the touched fronts.
   void settle(const TreeFront& crown, const std::vector<TreeTouch>& touches);
 
  private:
   using Vector = Eigen::VectorXd;
 
-  // How much of what may rest may remain of a motion that is carried on: nearly all parts of a map have such remainders
-  // then, and what they do to second order adds up.
+  // The tolerance for the remainder of a motion after its rigid part was carried on, relative to the tolerance for kept
+  // motions. Nearly all parts of a map have such remainders then, and their second-order effects add up.
   static constexpr double kStraight = 0.1;
 
   void forget(const TreeFront& front, TouchIterator begin, TouchIterator end);
@@ -41,7 +42,7 @@ class EliminationRelaxer {
   std::size_t variables_;
   TreeRests& rests_;
   TreeRelaxation<Pose>& system_;
-  std::vector<std::int32_t> slots_;  // by variable: where in forces_, -1: none
+  std::vector<std::int32_t> slots_;  // by variable: index in forces_, -1: none
   std::vector<typename Pose::Tangent> forces_;
 };
 

@@ -64,8 +64,8 @@ std::unique_ptr<TreePass> EliminationSolver<Pose>::forward(const TreeFront& fron
   return pass;
 }
 
-// `x` holds the solution of the boundary in its lower rows; `active` tells by the front's variables which of them
-// make it worth to go on below.
+// `x` holds the solution of the boundary in its lower rows; `active` tells for each of the front's variables whether it
+// is a reason to go on below.
 template <class Pose>
 void EliminationSolver<Pose>::backward(const TreeFront& front, const TreePass* pass, Matrix& x,
                                        std::vector<char>& active) {

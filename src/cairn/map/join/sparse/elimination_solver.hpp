@@ -16,7 +16,7 @@ class EliminationSolver {
 
   EliminationSolver(Index columns, TreeSystem& system) : columns_(columns), system_(system) {}
 
-  // Of a whole tree; `touches` are sorted by key.
+  // Solves with a whole tree; `touches` are sorted by key.
   void solve(const TreeFront& crown, const std::vector<TreeTouch>& touches);
 
  private:

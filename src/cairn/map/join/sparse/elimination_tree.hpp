@@ -3,9 +3,9 @@
 //
 // Its leaves are submaps: dense blocks of information over the variables that they share with others. A leaf has a key:
 // the cell of space where its submap lies, as a Morton code, and its number. The keys' binary trie is the tree: it
-// halves space again and again, so that an addition changes one path, and nothing is ever balanced anew. A front
+// halves space again and again, so that an addition changes one path, and the tree is never rebalanced. A front
 // eliminates the variables that no leaf outside its subtree holds, and hands the Schur complement over the others, its
-// boundary, up to its parent. What lies apart in space has little boundary in common.
+// boundary, up to its parent. Parts of the map that are far apart have small boundaries in common.
 //
 // Fronts are immutable and shared: an update makes new ones on the paths that it touches and leaves the rest, so that a
 // tree is copied, or taken back, by copying a pointer.
@@ -41,36 +41,38 @@ class EliminationTree {
   using RigidMotion = cairn::RigidMotion<Pose>;
   using Covariances = TreeCovariances;
 
-  // How many leaves hold a variable; one that has more than those in the tree is eliminated last of all.
+  // The number of leaves that hold a variable. A variable that more leaves hold than there are in the tree is
+  // eliminated last.
   void set_degree(Variable v, std::int32_t degree);
 
-  // False, with nothing changed, where a pivot is not positive. `refactored` and `assembled` get the fronts and the
-  // leaves whose information was asked for.
+  // Returns false, with nothing changed, if a pivot is not positive. `refactored` and `assembled` get the fronts and
+  // the leaves whose information was requested.
   bool update(const LeafSource& source, const Changes& changes, std::size_t& refactored,
               std::vector<std::uint32_t>& assembled);
 
-  // Solves H x = b, several columns at a time. `touch` says where b may be not zero (and where x is wanted whatever
-  // happens): leaves, or eliminated variables.
+  // Solves H x = b, several columns at a time. `touch` names the leaves or eliminated variables where b may be nonzero,
+  // and where x is required in any case.
   Touch touch(const TreeKey& leaf) const { return {leaf, TreeKey::kBits}; }
   Touch touch(Variable v, const TreeKey& leaf_that_holds_it) const { return {leaf_that_holds_it, eliminated_at(v)}; }
   void solve(std::vector<Touch> touches, Index columns, System& system) const;
 
   // One step of an iteration whose right-hand side is the force at the values that each leaf was evaluated at. A front
-  // whose boundary hardly moves, and which the forces within hardly stir, is not visited: the motion and the forces
-  // rest there, and what both exert on the boundary is counted in from then on, until they have added up to something.
-  // So the parts of a map that a step only shifts a little cost nothing, and yet no force is ever out of balance. (One
-  // that is forgotten is small, but has its counterpart elsewhere: alone it bends a long chain of submaps by metres.)
-  // Where the boundary moves far, but almost as a rigid whole, all below is carried along, and what remains of the
-  // motion rests: no force among leaves that are carried changes, so that none of them is visited either.
-  // To be touched: every leaf that was evaluated since the last step, and every one that a change named since.
-  // Returns by how much the cost falls if it is quadratic.
+  // is not visited if its boundary hardly moves and the forces inside hardly move it. The front keeps the motion and
+  // the forces, and every later step includes their force on the boundary, until they have added up to something that
+  // matters. So the parts of a map that a step only shifts a little cost nothing, and all forces stay in balance. (A
+  // kept force is small but has a counterpart elsewhere: if only one of the two were dropped, the other would bend a
+  // long chain of submaps by metres.) If the boundary moves far, but almost as a rigid body, all fronts below are
+  // carried along, and the remainder of the motion is kept: forces between carried leaves do not change, so that none
+  // of these leaves is visited either. `touches` must contain every leaf that was evaluated since the last step, and
+  // every leaf that a change named since. Returns the decrease of the cost if the cost is quadratic.
   double relax(std::vector<Touch> touches, Relaxation& system);
-  // Hands down what is kept on the way to the leaves that are about to change; before update().
+  // Hands down the kept motions and forces on the way to the leaves that are about to change; to be called before
+  // update().
   void settle(const Changes& changes, Relaxation& system);
 
-  // Covariances by selected inversion: of all variables of each leaf asked for, in their order.
+  // Covariances by selected inversion: of all variables of each requested leaf, in their order.
   void covariances(std::vector<TreeKey> leaves, Covariances& visitor) const;
-  // Of the variable that was eliminated last.
+  // Covariance of the variable that was eliminated last.
   Eigen::MatrixXd last_covariance() const;
 
   std::size_t memory_bytes() const;  // of the fronts
@@ -78,7 +80,7 @@ class EliminationTree {
  private:
   int eliminated_at(Variable v) const { return eliminated_at_[v]; }
 
-  FrontPointer crown_;  // above the trie: eliminates what is left
+  FrontPointer crown_;  // above the trie: eliminates the remaining variables
   TreeRests rests_;
   std::vector<std::int32_t> degree_;
   std::vector<std::int16_t> eliminated_at_;  // bit of the front that eliminates a variable; EliminationBuilder::kNever

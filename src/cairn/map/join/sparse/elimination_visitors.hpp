@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interfaces by which the elimination tree asks its owner for numbers and hands out results.
+// The interfaces through which the elimination tree gets numbers from its owner and returns results.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ class LeafSource {
   virtual const std::vector<Variable>& variables(std::uint32_t leaf) const = 0;
   // Lower triangle of its information, in the order of its variables; H comes zeroed.
   virtual void information(std::uint32_t leaf, double* H, Index ld) const = 0;
-  // Whether it tells where its variables stand, not only how they stand to each other.
+  // Whether it has information on the absolute positions of its variables, not only on their relative positions.
   virtual bool absolute(std::uint32_t leaf) const = 0;
 };
 
@@ -27,11 +27,11 @@ class TreeSystem {
   virtual ~TreeSystem() = default;
   // Adds to the right-hand side of a variable, dimension<Pose>(v) x columns.
   virtual void right_hand_side(Variable v, double* b, Index ld) const = 0;
-  // Receives the solution of a variable. False: whatever depends on this variable only needs no visit.
+  // Receives the solution of a variable. False: everything that depends only on this variable needs no visit.
   virtual bool solution(Variable v, const double* x, Index ld) = 0;
 };
 
-// A point p goes by move + turn x (p - centre), to first order.
+// A point p moves by move + turn x (p - centre), to first order.
 template <class Pose>
 struct RigidMotion {
   typename Pose::Point centre, move;
@@ -42,15 +42,16 @@ struct RigidMotion {
 template <class Pose>
 class TreeRelaxation : public TreeSystem {
  public:
-  // Whether a motion of this variable is worth handing down.
+  // Whether a motion of this variable is large enough to be handed down.
   virtual bool matters(Variable v, const double* x) const = 0;
   // The rigid motion nearest to that of some variables; subtracts it from their motion.
   virtual RigidMotion<Pose> take_rigid(const std::vector<Variable>& variables, Eigen::VectorXd& motion) const = 0;
   // A variable follows a rigid motion.
   virtual void carry(Variable v, const RigidMotion<Pose>& motion) = 0;
-  // All of the leaf's variables follow it, or rest; so must everything that depends on the leaf only.
+  // All of the leaf's variables follow the motion or hardly move otherwise. Everything that depends only on the leaf
+  // must follow, too.
   virtual void carry_leaf(std::uint32_t leaf, const RigidMotion<Pose>& motion) = 0;
-  // All of the leaf's variables stand at their new values now.
+  // All of the leaf's variables have their new values now.
   virtual void visit(std::uint32_t leaf) = 0;
 };
 

@@ -13,7 +13,8 @@ void LeafInformation<Pose>::information(std::uint32_t number, double* H, Index l
   std::vector<Rotation> R{state_.axes(base_variable(number)), state_.axes(base_variable(number + 1))};
   for (const Index i : leaf.factor->shared()) R.push_back(state_.axes(landmark_variable(leaf.landmarks[i])));
   Eigen::MatrixXd own = leaf.factor->hessian(state_.values(number), R);
-  // What tells of one base only goes with the submap that ends there; of the first, with the one that begins there.
+  // The information on a single base (its prior or its fixes) is added to the submap that ends there; that of the first
+  // base to the submap that begins there.
   const auto add = [&](Index base, Eigen::MatrixXd J, const Eigen::MatrixXd& information) {
     J.middleCols<kDim>(0) = (J.middleCols<kDim>(0) * R[base].matrix()).eval();
     J.middleCols<kTurn>(kDim) = (J.middleCols<kTurn>(kDim) * R[base].adjoint()).eval();
@@ -26,7 +27,7 @@ void LeafInformation<Pose>::information(std::uint32_t number, double* H, Index l
       add(1, fix.jacobian(state_.bases[number + 1]).topRows(fix.rows()),
           noise.ldlt().solve(Eigen::MatrixXd::Identity(fix.rows(), fix.rows())));
     }
-  // To the tree's order, by blocks of poses and of landmarks.
+  // Copies the information to the tree's order, by blocks of poses and of landmarks.
   const auto put = [&](Index i, Index j, auto rows, auto columns) {
     using Block = Eigen::Matrix<double, decltype(rows)::value, decltype(columns)::value>;
     using Transposed = Eigen::Matrix<double, decltype(columns)::value, decltype(rows)::value>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The information that the submaps of a sparse map bring into its elimination tree.
+// The information that the submaps of a sparse map add to its elimination tree.
 #pragma once
 
 #include "map/join/sparse/sparse_state.hpp"

@@ -7,7 +7,7 @@ namespace cairn {
 
 template <class Pose>
 typename SparseAnchors<Pose>::Square SparseAnchors<Pose>::prior_information() const {
-  // What is known exactly counts as known to a micrometre and to a tenth of a microradian.
+  // An exactly known value counts as known to a micrometre and to a tenth of a microradian.
   Square covariance = prior_covariance_;
   for (int i = 0; i < Pose::kDof; ++i) covariance(i, i) += i < Pose::kDim ? 1e-12 : 1e-14;
   const typename Pose::Tangent scale = covariance.diagonal().cwiseSqrt().cwiseInverse();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ties a sparse map to its frame: the prior of its first base, and absolute fixes of its bases.
+// The information that fixes a sparse map in its frame: the prior of its first base, and absolute fixes of its bases.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class SparseAnchors {
   Square prior_jacobian(const Pose& base) const;
 
   void add(std::uint32_t base, const AbsoluteFix<Pose>& fix) { fixes_[base].push_back(fix); }
-  // Null where there is none.
+  // Null if there is none.
   const Fixes* fixes_of(std::uint32_t base) const {
     const auto found = fixes_.find(base);
     return found != fixes_.end() ? &found->second : nullptr;

@@ -36,7 +36,7 @@ void SparseChange<Pose>::save_base(Number base) {
   state_.base_saved[base] = number_;
 }
 
-// And where its private landmarks stand.
+// And the positions of its private landmarks.
 template <class Pose>
 void SparseChange<Pose>::save_leaf(Number leaf) {
   if (state_.leaves[leaf].saved == number_) return;
@@ -129,7 +129,7 @@ void SparseChange<Pose>::finish(JoinReport& report) {
   kept_ = true;
 }
 
-// To the spatial index, which may want memory for single moves, but none to hear that all have moved.
+// Reports the motions to the spatial index. The index may allocate for single moves, but moved_all() needs no memory.
 template <class Pose>
 void SparseChange<Pose>::note_moves() noexcept {
   try {

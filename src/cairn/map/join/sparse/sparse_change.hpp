@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One change of a sparse map's state: it saves what it touches, and takes everything back unless it is kept.
+// One change of a sparse map's state: it saves everything that it touches, and takes everything back unless it is kept.
 #pragma once
 
 #include <utility>
@@ -10,7 +10,8 @@
 
 namespace cairn {
 
-// Saves at most once what existed before. New bases, landmarks and leaves stand behind the old ones and need no copy.
+// Saves each existing value at most once. New bases, landmarks and leaves are appended after the old ones and need no
+// copy.
 template <class Pose>
 class SparseChange {
  public:
@@ -20,30 +21,31 @@ class SparseChange {
   using Rotation = typename Pose::Rotation;
 
   SparseChange(SparseState<Pose>& state, SpatialIndex& index);
-  ~SparseChange();  // takes back what is not kept
+  ~SparseChange();  // takes back a change that was not kept
   SparseChange(const SparseChange&) = delete;
   SparseChange& operator=(const SparseChange&) = delete;
 
-  // Before a landmark or a base moves, and before a leaf changes.
+  // To be called before a landmark or a base moves, and before a leaf changes.
   void save_landmark(Number landmark);
   void save_base(Number base);
   void save_leaf(Number leaf);
-  void save_turn(Number leaf);  // where only Leaf::turned changes
+  void save_turn(Number leaf);  // if only Leaf::turned changes
 
   void add_base(const Pose& base);
   Number add_landmark(const Point& position);  // without an id, which callers do not see
   void show_landmark(Number landmark, std::uint64_t id);
   typename State::Leaf new_leaf(std::shared_ptr<const SubmapData<Pose>> data) const;  // of the next number
-  // Another submap holds a landmark that existed before, and observed it so often.
+  // Another submap holds an existing landmark, with this number of observations.
   void extend(Number landmark, Number submap, std::uint64_t count);
-  // Before extend(): notes what changes with it, the landmark's only submap so far or the fronts that eliminated it.
+  // To be called before extend(): notes what changes with the landmark: its only submap so far, or the fronts that
+  // eliminated it.
   void note_held_again(Number landmark, std::vector<Number>& reshaped, TreeChanges& changes) const;
 
   std::size_t old_visible() const { return visible_; }
   double cost_growth() const;
-  // Places what follows from the solution, reports how far landmarks moved, and keeps the change.
+  // Computes the values that follow from the solution, reports how far landmarks moved, and keeps the change.
   void finish(JoinReport& report);
-  // Keeps a change that no finish() needs: of the prior.
+  // Keeps a change that needs no finish(): a change of the prior.
   void keep() { kept_ = true; }
 
  private:

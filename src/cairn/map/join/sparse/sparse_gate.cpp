@@ -13,16 +13,16 @@
 
 namespace cairn {
 
-// Whether the fused landmarks' estimates contradict each other, jointly or one by one; the single distances are judged
-// from below: a landmark's share of S^-1 nu is the force that the new submap exerts on it, and the covariance of its
-// nu, given all other states, is the sum of the inverses of what the new submap and the old ones know of it.
+// Whether the fused landmarks' estimates contradict each other, jointly or one by one. The single distances are lower
+// bounds: a landmark's share of S^-1 nu is the force that the new submap exerts on it, and the covariance of its nu,
+// given all other states, is the sum of the inverses of its information in the new submap and in the old ones.
 template <class Pose>
 bool may_contradict(const SparseState<Pose>& state, std::uint32_t number, const JoinReport& report) {
   constexpr int kDim = Pose::kDim;
   using PointSquare = typename Pose::Rotation::Matrix;
   if (report.distance > report.threshold) return true;
   const typename SparseState<Pose>::Leaf& leaf = state.leaves[number];
-  // Among many good landmarks one is likely to exceed the single gate: the bound is such that all of them pass.
+  // Among many good landmarks one is likely to exceed the single gate: the bound is chosen so that all of them pass.
   const double count = std::max(1.0, static_cast<double>(report.fused));
   const double bound = chi_square_quantile(kDim, std::pow(state.options.gate_probability, 1.0 / count));
   for (Index i = 0; i < leaf.factor->shared_count(); ++i) {
@@ -86,7 +86,7 @@ class KnownLandmarks {
     return residual_.dot(u_) <= bound(m);
   }
   InverseInnovation invert() { return {inverse_.data(), u_.data(), residual_.dot(u_), workspace_.data()}; }
-  void refactor() {}  // nobody asks for S again
+  void refactor() {}  // S is not needed again
   Index* kept() { return kept_.data(); }
   bool* refused() { return refused_.get(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which landmarks of a submap contradict a sparse map.
+// Finds the landmarks of a submap that contradict a sparse map.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace cairn {
 
-// A quick test of a submap that has joined: true where its fused landmarks may contradict the map.
+// A quick test of a submap that has joined: true if its fused landmarks may contradict the map.
 template <class Pose>
 bool may_contradict(const SparseState<Pose>& state, std::uint32_t leaf, const JoinReport& report);
 
-// The exact gates, for a submap that has not joined: by its landmarks, whether one is to be left out.
+// The exact gates, for a submap that has not joined. Returns for each of its landmarks whether it is to be left out.
 template <class Pose>
 std::vector<char> find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap);
 

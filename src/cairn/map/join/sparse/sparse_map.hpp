@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sparse joining: all submaps solved for together, each as one dense observation of its base, its end and its
-// landmarks, by damped Gauss-Newton on a factor that a closing changes only where it reaches (docs/submaps.md).
+// The sparse joining: solves for all submaps together by damped Gauss-Newton. Each submap is one dense observation of
+// its base, its end and its landmarks. A closing changes only the affected part of the factor (docs/submaps.md).
 #pragma once
 
 #include <memory>
@@ -53,8 +53,8 @@ class SparseMap final : public GlobalMap<Pose> {
   std::size_t memory_bytes() const { return state_.memory_bytes(); }
   double cost() const { return state_.cost(); }  // half the sum of all squared normalised residuals
 
-  // Appends another map of space, whose landmarks get these ids here; `plan` tells which landmarks are the same and how
-  // the frames lie (sparse_merger.hpp). A call that throws leaves the map as it was.
+  // Appends another map of space, whose landmarks get these ids here; `plan` contains the common landmarks and the
+  // transform between the frames (sparse_merger.hpp). A call that throws leaves the map as it was.
   void append(const SparseMap& other, const MergePlan& plan, const MergeOptions& options, MergeReport& report);
 
  private:

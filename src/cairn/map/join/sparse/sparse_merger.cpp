@@ -12,9 +12,9 @@
 namespace cairn {
 namespace {
 
-// Variances of the far end of a bridge that knows nothing: a million metres, ten thousand turns.
+// Variances of the far end of a bridge without information: a million metres, ten thousand turns.
 constexpr double kNothingPosition = 1e12, kNothingTurn = 1e8;
-// Variances of a base that stands at the origin: like all that is known exactly (SparseAnchors::prior_information()).
+// Variances of a base at the origin: the same as for every exactly known value (SparseAnchors::prior_information()).
 constexpr double kExactPosition = 1e-12, kExactTurn = 1e-14;
 constexpr int kRounds = 20;
 
@@ -32,7 +32,7 @@ Matrix6 diagonal(double position, double turn) {
   return variances.asDiagonal();
 }
 
-// Whether a bridge ends at a base that is fixed: that may be all that connects parts of the map.
+// Whether a bridge ends at a base that is fixed: the bridge may be the only connection between parts of the map.
 bool anchored(const SparseState<SE3>& state) {
   for (const auto& [base, fixes] : state.solution.anchors.fixes()) {
     const SubmapData<SE3>& before = *state.leaves[base - 1].data;
@@ -55,7 +55,7 @@ SparseMerger::SparseMerger(State& state, SpatialIndex& index, const State& other
 void SparseMerger::append(MergeReport& report) {
   if (anchored(other_))
     throw Error(ErrorCode::state,
-                "other: it was merged by has_transform, which ties its parts to its own frame; merge the map into it");
+                "other: it was merged by has_transform, which fixes its parts in its own frame; merge the map into it");
   double before = state_.cost();
   for (Number leaf = 0; leaf < other_.leaves.size(); ++leaf)
     before += other_.leaves[leaf].factor->evaluate(other_.values(leaf)).cost;
@@ -63,7 +63,7 @@ void SparseMerger::append(MergeReport& report) {
   append_landmarks();
   append_leaves();
   solve();
-  // To first order the cost grows by half of what the two estimates of the common landmarks have against each other.
+  // To first order the cost grows by half of the squared distance between the two estimates of the common landmarks.
   report.distance = std::max(0.0, 2.0 * (state_.cost() - before));
   report.rows = 3 * plan_.pairs.size() - (options_.prior ? 0 : 6);
   report.threshold = chi_square_quantile(static_cast<double>(report.rows), options_.joint_gate_probability);
@@ -72,7 +72,7 @@ void SparseMerger::append(MergeReport& report) {
   change_.finish(joined);
 }
 
-// The bridges, then the other's bases. Returns the cost that the other's first base brings along: against its prior.
+// Appends the bridges, then the other map's bases. Returns the cost of the other map's first base against its prior.
 double SparseMerger::append_bases() {
   const SE3& T = plan_.alignment.T_a_b;
   const SE3 first = T * other_.bases[0];
@@ -85,7 +85,7 @@ double SparseMerger::append_bases() {
                 AbsoluteFix<SE3>::position(Vector3::Zero(), kExactPosition * Matrix3::Identity(), Vector3::Zero()));
     anchors.add(origin, AbsoluteFix<SE3>::attitude(SO3(), kExactTurn * Matrix3::Identity()));
     state_.bases.back() = SE3();
-    // The other's start pose in the map's frame: e_p = e_pT + G(R_T p) e_RT + R_T e_p0, e_R = e_RT + R_T e_R0.
+    // The other map's start pose in the map's frame: e_p = e_pT + G(R_T p) e_RT + R_T e_p0, e_R = e_RT + R_T e_R0.
     const SE3& T_known = options_.prior->T_a_b;
     const SE3& prior = other_.solution.anchors.prior();
     Matrix6 by_T = Matrix6::Identity(), turn = Matrix6::Zero();
@@ -112,7 +112,7 @@ void SparseMerger::bridge(const SE3& T_base_end, const Matrix6& covariance) {
   state_.leaves.push_back(std::move(leaf));
 }
 
-// A landmark that was removed from the other map still ties its submaps together; nobody sees it.
+// A landmark that was removed from the other map still connects its submaps, but callers do not see it.
 void SparseMerger::append_landmarks() {
   const SE3& T = plan_.alignment.T_a_b;
   here_.resize(other_.landmarks.size());
@@ -168,9 +168,9 @@ void SparseMerger::solve() {
   for (int round = 1; round < kRounds && !solution.settled; ++round) solver.optimise(unused);
 }
 
-// Names the common landmark that the other's submaps pull at hardest, judged from below: the covariance of the
-// difference of its two estimates, given all other states, is the sum of the inverses of what either map's submaps know
-// of it.
+// Names the common landmark with the largest lower bound of the squared distance between its two estimates: the
+// covariance of their difference, given all other states, is the sum of the inverses of the landmark's information in
+// the submaps of either map.
 void SparseMerger::throw_worst(MergeReport& report) const {
   double most = -1.0;
   std::pair<std::size_t, std::size_t> worst = plan_.pairs[0];

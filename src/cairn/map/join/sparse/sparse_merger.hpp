@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Appends a sparse map of space to another one: its submaps follow the map's own, moved by how the frames lie, and all
-// are solved for together.
+// Appends a sparse map of space to another one: its submaps are appended to the map's own, moved by the transform
+// between the frames, and all are solved for together.
 //
 // The map's submaps are one chain of bases: submap j leads from base j to base j + 1. A bridge connects the other
-// chain: a submap without landmarks that leads from the last base of the one to the first base of the other and knows
-// nothing. Where the transform between the frames is known beforehand, a second bridge tells it: from a base that is
-// fixed at the map's origin to the other's first base.
+// chain: a submap without landmarks and without information that leads from the last base of the map to the first base
+// of the other map. If the transform between the frames is known beforehand, a second bridge contains it: from a base
+// that is fixed at the map's origin to the other map's first base.
 #pragma once
 
 #include <vector>
@@ -39,8 +39,8 @@ class SparseMerger {
   const MergePlan& plan_;
   const MergeOptions& options_;
   SparseChange<SE3> change_;
-  Number first_leaf_, offset_ = 0;  // of the first bridge, and of the other's first submap
-  std::vector<Number> here_;        // the other's landmarks, by their numbers there
+  Number first_leaf_, offset_ = 0;  // of the first bridge, and of the other map's first submap
+  std::vector<Number> here_;        // the other map's landmarks, by their numbers there
   std::vector<Number> reshaped_;    // leaves with landmarks that are shared only now
   TreeChanges changes_;
 };

@@ -145,12 +145,12 @@ void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t*
     joint = state.solution.base_covariance;
     return;
   }
-  // The errors asked for are A e + w, where e are the errors of some variables; private landmarks of one submap share
+  // The requested errors are A e + w, where e are the errors of some variables; private landmarks of one submap share
   // w.
   const Variable newest = base_variable(state.bases.size() - 1);
   std::vector<Variable> variables{newest};
   std::vector<TreeTouch> touches{state.solution.tree.touch(newest, state.leaves.back().key)};
-  std::map<Number, std::vector<std::size_t>> privates;  // by leaf: which of those asked for
+  std::map<Number, std::vector<std::size_t>> privates;  // by leaf: which of the requested ones
   const auto want = [&](Variable v, Number leaf) {
     variables.push_back(v);
     touches.push_back(state.solution.tree.touch(v, state.leaves[leaf].key));

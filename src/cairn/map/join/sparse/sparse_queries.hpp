@@ -10,22 +10,22 @@
 
 namespace cairn {
 
-// Covariances of single landmarks, kept until the map changes. Queries may run side by side.
+// Covariances of single landmarks, kept until the map changes. Queries may run at the same time.
 template <class Pose>
 class SparseCovariances {
  public:
   using PointSquare = typename Pose::Rotation::Matrix;
 
-  // Computes those of several landmarks together, which is cheaper.
+  // Computes the covariances of several landmarks together, which is cheaper.
   void prepare(const SparseState<Pose>& state, const std::vector<std::size_t>& indices);
   PointSquare of(const SparseState<Pose>& state, std::size_t index);
 
  private:
   void fill(const SparseState<Pose>& state, const std::vector<std::size_t>& indices);
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::vector<PointSquare> covariances_;
-  std::vector<std::uint32_t> covariance_of_;  // the change that a covariance belongs to
+  std::vector<std::uint32_t> covariance_of_;  // by landmark: number of the change to which the covariance belongs
 };
 
 // GlobalMap::base_joint_covariance().

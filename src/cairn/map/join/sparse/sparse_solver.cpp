@@ -10,8 +10,8 @@
 
 namespace cairn {
 
-// A rigid motion of many must stay one, whatever its size: with the turn theta of its own base, of that which saw it
-// first, a point goes by V(theta) delta, as (Exp(theta) - I) (p - c) = V(theta) (theta x (p - c)).
+// A rigid motion of many variables must stay rigid, even if it is large. With the turn theta of its own base (the base
+// that saw it first) a point moves by V(theta) delta, because (Exp(theta) - I) (p - c) = V(theta) (theta x (p - c)).
 template <class Pose>
 void SparseSolver<Pose>::place(const Step& step, double factor, const Before& from) {
   std::unordered_map<Number, PointSquare> turned;  // V by base
@@ -37,7 +37,7 @@ void SparseSolver<Pose>::place(const Step& step, double factor, const Before& fr
     state_.leaves[step.carried()[i].first].turned = Rotation::exp(factor * step.carried()[i].second) * from.turned[i];
 }
 
-// Puts the step's variables where it takes them, and evaluates the leaves that it visits; returns their cost.
+// Moves the step's variables and evaluates the leaves that the step visits; returns their cost.
 template <class Pose>
 double SparseSolver<Pose>::take_step(const Step& step, double factor, const Before& from) {
   place(step, factor, from);
@@ -49,8 +49,8 @@ double SparseSolver<Pose>::take_step(const Step& step, double factor, const Befo
   return cost;
 }
 
-// Takes the step back. The leaves get back what they were evaluated to, which may have been elsewhere: where
-// motions of other variables rest, the tree counts what these do to them.
+// Takes the step back. The leaves get back their earlier evaluations. These may belong to other values of the
+// variables: if the tree keeps motions of other variables, it includes their effect on the leaves.
 template <class Pose>
 void SparseSolver<Pose>::take_back(const Step& step, Before& from) {
   place(step, 0.0, from);
@@ -62,8 +62,8 @@ void SparseSolver<Pose>::take_back(const Step& step, Before& from) {
   }
 }
 
-// The newest of the stale leaves come first; those beyond kAtOnce wait for the next time. Motions that rest in the tree
-// above what changes are handed down before.
+// The newest of the stale leaves come first; those beyond kAtOnce wait for the next time. Motions that the tree keeps
+// above the changed fronts are handed down before.
 template <class Pose>
 void SparseSolver<Pose>::refactor(TreeChanges changes, JoinReport& report) {
   typename State::Solution& solution = state_.solution;
@@ -121,9 +121,10 @@ template <class Pose>
 void SparseSolver<Pose>::optimise(JoinReport& report) {
   typename State::Solution& solution = state_.solution;
   constexpr int kHalvings = 6;
-  // A chain's slackness grows by the cube of its length, and so does what stiffness of another shape does to it.
+  // The flexibility of a chain grows with the cube of its length, and so does the effect of a stiffness that belongs to
+  // another shape.
   const double borne = std::clamp(10.0 * std::pow(static_cast<double>(state_.leaves.size()), -1.5), 5e-5, 0.3);
-  constexpr double kSlack = 0.01;  // of the cost: leaves that were not visited lately tell that of a while ago
+  constexpr double kSlack = 0.01;  // of the cost: leaves that were not visited lately have an older cost
   solution.settled = false;
   double tolerance = state_.options.step_tolerance;
   for (int i = 0; i < state_.options.most_iterations && !solution.settled; ++i) {
@@ -136,14 +137,15 @@ void SparseSolver<Pose>::optimise(JoinReport& report) {
     ++report.iterations;
     Before from = save(step);
     report.carried += step.carried().size();
-    // Where motions rest, the leaves' costs belong to other values than those that the step starts from. For a small
-    // step the difference is small; a step that hands everything down is compared with the cost where it starts.
+    // If the tree keeps motions, the leaves' costs belong to other values than those from which the step starts. For a
+    // small step the difference is small; a step that hands everything down is compared with the cost at its start.
     double before = 0.0;
     for (const typename Before::Evaluation& evaluation : from.evaluations) before += evaluation.cost;
     if (tolerance == 0.0) before = take_step(step, 0.0, from);
     double after = take_step(step, 1.0, from);
     if (!(after <= before + kSlack) && tolerance > 0.0) {
-      // Too far for a linear step. Next, all that moves is visited, and the step, a direction of descent, is halved.
+      // The step is too large for the linear model. In the next try all moving parts are visited, and the step, a
+      // direction of descent, is halved.
       take_back(step, from);
       solution.tree = before_step;
       tolerance = 0.0;
@@ -154,20 +156,20 @@ void SparseSolver<Pose>::optimise(JoinReport& report) {
       factor *= 0.5;
       after = take_step(step, factor, from);
     }
-    if (!(after <= before + kSlack)) {  // nowhere to go from here
+    if (!(after <= before + kSlack)) {  // no smaller step lowers the cost
       take_back(step, from);
       solution.tree = before_step;
       break;
     }
     solution.pending = step.visited();
-    // A submap that has been bent is linearised anew, before the next step.
+    // A submap whose shape has changed is linearised anew before the next step.
     for (const Number leaf : solution.pending)
       if (state_.strain(leaf) > borne) solution.stale.push_back(leaf);
     std::sort(solution.stale.begin(), solution.stale.end());
     solution.stale.erase(std::unique(solution.stale.begin(), solution.stale.end()), solution.stale.end());
-    // What the quadratic model missed is of third order in the step, m = k x^3 where it foresaw D = h x^2 / 2. The next
-    // step, which the force 3 k x^2 would take, then lowers the cost by 9 m^2 / (4 D). Where that is nothing, the
-    // force waits for the next closing: it is counted among those that are pending.
+    // The error of the quadratic model is of third order in the step: m = k x^3, if the model predicted D = h x^2 / 2.
+    // The next step, caused by the force 3 k x^2, would lower the cost by 9 m^2 / (4 D). If this is negligible, the
+    // force waits for the next closing: its leaves are among the pending ones.
     const double miss = before - after - foreseen;
     const bool foretold = 2.25 * miss * miss <= state_.options.cost_tolerance * foreseen;
     solution.settled = (factor == 1.0 && (foretold || step.largest() < state_.options.convergence_tolerance)) ||

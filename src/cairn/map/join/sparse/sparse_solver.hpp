@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damped Gauss-Newton on a sparse map's factor (docs/submaps.md). The factor may be of older linearisation points; the
-// gradient never is, so that what the steps converge to is the minimum.
+// Damped Gauss-Newton on a sparse map's factor (docs/submaps.md). The factor may belong to older linearisation points,
+// but the gradient is always current, so that the steps converge to the minimum.
 #pragma once
 
 #include <vector>
@@ -10,15 +10,15 @@
 
 namespace cairn {
 
-// Solves within one change, which saves whatever the solver moves.
+// Solves within one change, which saves everything that the solver moves.
 template <class Pose>
 class SparseSolver {
  public:
   SparseSolver(SparseState<Pose>& state, SparseChange<Pose>& change) : state_(state), change_(change) {}
 
-  // Makes the tree anew where `changes` reach, and where leaves are stale.
+  // Makes the affected parts of the tree anew: those of `changes` and of stale leaves.
   void refactor(TreeChanges changes, JoinReport& report);
-  // Iterates until it converges, or until a closing has had its share of iterations (Solution::settled tells which).
+  // Iterates until it converges, or until the limit of iterations of a closing (Solution::settled tells which).
   void optimise(JoinReport& report);
 
  private:

@@ -31,14 +31,14 @@ FactorValues<Pose> SparseState<Pose>::values(Number number) const {
   return values;
 }
 
-// Where the tree keeps the leaf of this number.
+// The key of the leaf of this number in the tree.
 template <class Pose>
 TreeKey SparseState<Pose>::key_of(Number number) const {
   const Point offset = bases[number].translation() - options.initial_pose.translation();
   return TreeKey(Embedding<Pose>::up(offset), number);
 }
 
-// The leaf's factor and variables, by which of its landmarks are shared now.
+// Makes the leaf's factor and variables for the landmarks that are shared now.
 template <class Pose>
 void SparseState<Pose>::shape(Leaf& leaf, Number number) const {
   std::vector<Index> shared_ones;
@@ -64,9 +64,9 @@ void SparseState<Pose>::shape(Leaf& leaf, Number number) const {
   }
 }
 
-// The tree knows errors in axes that turn with the map: a base's in its own, a landmark's in those of the base that saw
-// it first. The information of a submap then depends on relative poses only, so that its linearisation stays good when
-// the map around it turns as a whole.
+// The errors in the tree are in axes that turn with the map: a base's error in its own axes, a landmark's error in the
+// axes of the base that saw it first. The information of a submap then depends on relative poses only, so that its
+// linearisation stays valid when the map around it turns as a whole.
 template <class Pose>
 const typename SparseState<Pose>::Rotation& SparseState<Pose>::axes(Variable v) const {
   const auto number = static_cast<Number>(v >> 1);
@@ -100,7 +100,7 @@ void SparseState<Pose>::note_linearisation(Number number) {
   for (const Variable v : leaf.variables) leaf.axes_then.push_back(T_base_map.rotation() * axes(v));
 }
 
-// How far the leaf's landmarks and axes have moved against its base since it was linearised, in the map's scales.
+// The largest motion of the leaf's landmarks and axes against its base since it was linearised, in the map's scales.
 template <class Pose>
 double SparseState<Pose>::strain(Number number) const {
   const Leaf& leaf = leaves[number];
@@ -121,7 +121,7 @@ void SparseState<Pose>::evaluate(Number number) {
   Leaf& leaf = leaves[number];
   const typename Factor::Evaluation own = leaf.factor->evaluate(values(number));
   leaf.cost = own.cost;
-  Eigen::VectorXd gradient(own.gradient.size());  // apart: a resize that fails would leave the old one torn
+  Eigen::VectorXd gradient(own.gradient.size());  // a failing resize must not spoil the old one
   for (Index i = 0; i < own.gradient.size(); ++i) gradient(leaf.order[i]) = own.gradient(i);
   leaf.gradient.swap(gradient);
   if (number == 0) {
@@ -174,7 +174,7 @@ std::size_t SparseState<Pose>::memory_bytes() const {
   return bytes;
 }
 
-// What the leaf's factor exerts on its i-th shared landmark, in map axes.
+// The force of the leaf's factor on its i-th shared landmark, in map axes.
 template <class Pose>
 typename SparseState<Pose>::Point SparseState<Pose>::force_on(const Leaf& leaf, Index i) const {
   return leaf.turned * Point(leaf.gradient.template segment<kDim>(leaf.order[Factor::column(i)]));

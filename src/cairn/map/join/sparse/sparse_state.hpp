@@ -16,7 +16,7 @@
 
 namespace cairn {
 
-// A copy is a state of its own; it shares what never changes. Submap j, the leaf j of the tree, leads from base j to
+// A copy is independent; it shares only data that never changes. Submap j, the leaf j of the tree, leads from base j to
 // base j + 1.
 template <class Pose>
 struct SparseState {
@@ -53,10 +53,10 @@ struct SparseState {
     std::vector<Rotation> axes_then;
     double cost = 0.0;
     Eigen::VectorXd gradient;  // in the order of `variables`, in map axes when it was evaluated
-    Rotation turned;           // how far it was turned since, carried along with other leaves
+    Rotation turned;           // turn since then, carried along with other leaves
     Number saved = 0;
   };
-  // A change saves this part whole when it begins.
+  // A change saves this whole part when it begins.
   struct Solution {
     Solution(const Pose& prior, const Square& covariance) : anchors(prior, covariance), base_covariance(covariance) {}
 
@@ -64,7 +64,7 @@ struct SparseState {
     EliminationTree<Pose> tree;
     Square base_covariance;
     // The units of a step: the smallest typical standard deviation of a landmark in its submap, and the turn that moves
-    // the submap's farthest landmark by as much.
+    // the submap's farthest landmark by the same distance.
     double length_scale = std::numeric_limits<double>::infinity(), turn_scale = length_scale;
     std::vector<Number> pending;  // leaves evaluated since the tree took their forces
     bool settled = true;          // whether the last optimisation converged
@@ -89,7 +89,7 @@ struct SparseState {
   double cost() const;
   std::size_t memory_bytes() const;
 
-  // Variables. Their errors are told in axes of their own, see axes().
+  // Variables. Each variable's error is in its own axes, see axes().
   static Index dimension(Variable v) { return cairn::dimension<Pose>(v); }
   const Rotation& axes(Variable v) const;
   const Point& place_of(Variable v) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One linear solution of a sparse map: where its step takes the variables.
+// One linear solution of a sparse map: the motion of its variables.
 #pragma once
 
 #include <algorithm>
@@ -22,14 +22,14 @@ class SparseStep final : public TreeRelaxation<Pose> {
     double value[Pose::kDof];
   };
 
-  // Motions below the tolerance rest.
+  // Motions below the tolerance are kept in the tree.
   SparseStep(const SparseState<Pose>& state, double tolerance) : state_(state), tolerance_(tolerance) {}
 
   const std::vector<Entry>& entries() const { return entries_; }
   const std::vector<Number>& visited() const { return visited_; }
-  // Leaves that were carried along, and by what they turn.
+  // Leaves that were carried along, and their turns.
   const std::vector<std::pair<Number, Tangent>>& carried() const { return carried_; }
-  double largest() const { return largest_; }  // in the map's scales, of what was solved for
+  double largest() const { return largest_; }  // in the map's scales, of the variables that were solved for
 
   // TreeRelaxation
   void right_hand_side(Variable v, double* b, Index ld) const override;

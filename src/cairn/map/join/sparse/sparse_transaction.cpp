@@ -21,7 +21,7 @@ void SparseTransaction<Pose>::join(const Submap<Pose>& submap) {
   solved_ = true;
   const Number leaf = try_join(submap, std::vector<char>(submap.ids.size(), 0));
   if (report_.rows == 0 || !may_contradict(state_, leaf, report_)) return;
-  // Something does not fit: the exact gates, which cost more, tell what.
+  // Some landmark does not fit: the exact gates, which cost more, find out which.
   change_.reset();
   const std::vector<char> left_out = find_contradicting(state_, submap);
   report_ = JoinReport();
@@ -38,17 +38,17 @@ typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::try_join(const
   solver.optimise(report_);
   report_.rows = kDim * report_.fused;
   if (report_.rows == 0) return leaf;
-  // To first order the cost grows by half of what the fused landmarks' two estimates have against each other.
+  // To first order the cost grows by half of the squared distance between the fused landmarks' two estimates.
   report_.threshold = chi_square_quantile(static_cast<double>(report_.rows), state_.options.joint_gate_probability);
   report_.distance = 2.0 * change_->cost_growth();
-  if (report_.distance > report_.threshold && !state_.solution.settled) {  // it may be too early to tell
+  if (report_.distance > report_.threshold && !state_.solution.settled) {  // perhaps not accurate yet
     solver.optimise(report_);
     report_.distance = 2.0 * change_->cost_growth();
   }
   return leaf;
 }
 
-// Appends the submap, its end and its new landmarks, and makes the factor anew where that reaches.
+// Appends the submap, its end and its new landmarks, and makes the affected part of the factor anew.
 template <class Pose>
 typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::append(const Submap<Pose>& submap,
                                                                          const std::vector<char>& left_out) {
@@ -97,8 +97,8 @@ typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::append(const S
     state_.evaluate(old);
     changes.leaves.push_back(state_.leaves[old].key);
   }
-  // A base is held by the submap that ends there and by the one that begins there. The newest one waits for the latter,
-  // and is eliminated last of all until then.
+  // A base is held by the submap that ends there and by the submap that begins there. For the newest base the latter
+  // does not exist yet; until then this base is eliminated last.
   tree.set_degree(base_variable(number), number == 0 ? 1 : 2);
   tree.set_degree(base_variable(number + 1), 2);
   changes.leaves.push_back(state_.leaves[number].key);
@@ -158,7 +158,7 @@ FixReport SparseTransaction<Pose>::fix(const AbsoluteFix<Pose>& fix, double thre
   return report;
 }
 
-// Without a submap there is the prior only: one linearisation.
+// Without a submap there is only the prior: one linearisation.
 template <class Pose>
 void SparseTransaction<Pose>::fix_prior(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& S) {
   change_->save_base(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A change of a sparse map, as its callers make it: a submap joins, a fix is applied.
+// A transaction of a sparse map: a submap joins, a fix is applied.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ class SparseTransaction final : public MapTransaction<Pose> {
  public:
   SparseTransaction(SparseState<Pose>& state, SpatialIndex& index);
 
-  // Two tries: the first one fuses all known landmarks, and the second one, where something may not fit, only those
-  // that pass the exact gates.
+  // Two tries: the first one fuses all known landmarks. If some landmark may not fit, the second one fuses only the
+  // landmarks that pass the exact gates.
   void join(const Submap<Pose>& submap) override;
   FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) override;
   JoinReport commit() override;
@@ -34,7 +34,7 @@ class SparseTransaction final : public MapTransaction<Pose> {
   SpatialIndex& index_;
   std::optional<SparseChange<Pose>> change_;
   JoinReport report_;
-  bool solved_ = false;  // whether the problem was solved anew, so that more follows from its solution
+  bool solved_ = false;  // whether the problem was solved anew, so that dependent values must be computed
 };
 
 extern template class SparseTransaction<SE2>;

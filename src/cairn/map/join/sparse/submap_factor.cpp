@@ -14,12 +14,12 @@ using Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// The least variances: what a submap knows exactly (it began there, and did not move) must not divide by zero. A
-// micrometre and a tenth of a microradian.
+// The smallest variances: a value that a submap knows exactly (it began there, and did not move) must not cause a
+// division by zero. They are those of a micrometre and a tenth of a microradian.
 constexpr double kLeastPosition = 1e-12, kLeastTurn = 1e-14;
 
-// A covariance scaled to unit diagonal, and its factor. Where it is singular, a grain of independent noise makes it
-// regular, and with it all of its principal parts.
+// A covariance scaled to unit diagonal, and its factor. If it is singular, a small independent noise makes it and all
+// of its principal submatrices regular.
 struct ScaledFactor {
   Vector scale;
   Eigen::LLT<Matrix> llt;
@@ -39,7 +39,8 @@ ScaledFactor factor(const Matrix& covariance) {
     for (Index i = 0; i < n; ++i) scaled(i, i) = std::max(scaled(i, i), 1.0) + grain;
     out.llt.compute(scaled);
     if (out.llt.info() != Eigen::Success || !out.llt.matrixLLT().allFinite()) continue;
-    if (out.llt.matrixLLT().diagonal().minCoeff() < 1e-7 && grain < 1e-8) continue;  // pivots of rounding alone
+    if (out.llt.matrixLLT().diagonal().minCoeff() < 1e-7 && grain < 1e-8)
+      continue;  // pivots that are only rounding error
     return out;
   }
   throw Error(ErrorCode::numerical, "submap: its covariance is not positive definite; it stays open");
@@ -62,7 +63,7 @@ SubmapData<Pose>::SubmapData(const Submap<Pose>& submap)
       ids(submap.ids),
       landmarks(submap.landmarks),
       covariance(submap.covariance) {
-  // Tests the whole covariance, so that no landmark that is private today can stop a later closing that shares it.
+  // Tests the whole covariance, so that no private landmark can make a later closing fail that shares it.
   factor<Pose>(submap.covariance);
 }
 
@@ -101,8 +102,8 @@ Vector SubmapFactor<Pose>::residual(const Values& values) const {
   return xi;
 }
 
-// The rows of a point x (the end's position or a shared landmark), whose own error is e_x: B (e_x - e_p) + base e_R +
-// end e_R_end.
+// The rows of a point x (the end's position or a shared landmark) with the error e_x: B (e_x - e_p) + base e_R + end
+// e_R_end.
 template <class Pose>
 struct SubmapFactor<Pose>::Jacobian {
   PointSquare B;
@@ -113,7 +114,7 @@ struct SubmapFactor<Pose>::Jacobian {
 // X' X_hat^-1 = Exp(tau) Exp(xi) for a change tau of X on the left, so that d xi = J_l(xi)^-1 tau with the group's left
 // Jacobian (Barfoot, State Estimation for Robotics, eq. 7.95): V^-1 (tau_x - Q J^-1 tau_R). Here
 // tau_R = R^T (e_R_end - e_R) and tau_x = dx + hat(x) tau_R = R^T (e_x - e_p + hat(l - p) e_R_end).
-// In the plane hat(x) tau_R is -turn(x) tau_R likewise.
+// In the plane hat(x) tau_R also is -turn(x) tau_R.
 template <class Pose>
 typename SubmapFactor<Pose>::Jacobian SubmapFactor<Pose>::jacobian(const Values& values, const Vector& xi) const {
   using Turn = typename Rotation::Turn;
@@ -191,7 +192,7 @@ Matrix SubmapFactor<Pose>::dense_jacobian(const Values& values) const {
 template <class Pose>
 Matrix SubmapFactor<Pose>::hessian(const Values& values, const std::vector<Rotation>& axes) const {
   const Index n = rows();
-  Matrix information(n, n);  // lower triangle, the diagonal blocks of landmarks whole
+  Matrix information(n, n);  // lower triangle; the diagonal blocks of landmarks are complete
   for (Index c = 0; c < n; ++c) {
     std::copy(information_.column(c) + c, information_.column(c) + n, information.col(c).data() + c);
     if (c < kDof) continue;

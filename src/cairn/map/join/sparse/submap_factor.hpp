@@ -2,9 +2,9 @@
 // A closed submap as one observation of its base, its end and its landmarks: the value is the submap's estimate, the
 // noise its whole covariance (docs/submaps.md).
 //
-// Landmarks that no other submap holds are private: whatever the others are, a private landmark has a position without
-// residual, so that eliminating it leaves the covariance of the others as it is. Only base, end and shared landmarks
-// enter the factor; the private ones follow from them.
+// Landmarks that no other submap holds are private. For any values of the other variables a private landmark has a
+// position without residual, so that its elimination does not change the covariance of the others. Only base, end and
+// shared landmarks enter the factor; the private landmarks follow from them.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@ struct SubmapData {
   Packed covariance;                            // of [end; landmarks], own error coordinates
 };
 
-// Values of what a factor depends on.
+// Values of the variables of a factor.
 template <class Pose>
 struct FactorValues {
   Pose base, end;
@@ -47,13 +47,13 @@ class SubmapFactor {
   using Data = SubmapData<Pose>;
   using Values = FactorValues<Pose>;
 
-  // `shared`: numbers of landmarks in the submap, ascending. Throws where the covariance can't be inverted.
+  // `shared`: numbers of landmarks in the submap, ascending. Throws if the covariance can't be inverted.
   SubmapFactor(std::shared_ptr<const Data> data, std::vector<Eigen::Index> shared);
 
   const Data& data() const { return *data_; }
   const std::vector<Eigen::Index>& shared() const { return shared_; }
   Eigen::Index rows() const { return information_.size(); }  // kDof + kDim shared
-  // Base, end, shared: ordinary errors in map axes.
+  // Columns of the Jacobian: base, end, shared landmarks; ordinary errors in map axes.
   Eigen::Index columns() const { return column(shared_count()); }
   static Eigen::Index column(Eigen::Index shared_landmark) { return 2 * kDof + kDim * shared_landmark; }
   Eigen::Index shared_count() const { return static_cast<Eigen::Index>(shared_.size()); }
@@ -66,16 +66,16 @@ class SubmapFactor {
     Vector gradient;    // of the cost, columns()
   };
   Evaluation evaluate(const Values& values) const;
-  // J^T Sigma^-1 J, lower triangle, its diagonal blocks of poses and of landmarks whole; by errors in the given axes of
-  // base, end and shared landmarks.
+  // J^T Sigma^-1 J, lower triangle, with complete diagonal blocks of poses and of landmarks; by errors in the given
+  // axes of base, end and shared landmarks.
   Matrix hessian(const Values& values, const std::vector<Rotation>& axes) const;
   // Block of the information of a single shared landmark, in map axes.
   PointSquare landmark_information(Eigen::Index i, const Rotation& base) const;
 
-  // The positions at which the submap's landmarks leave no residual of their own: a column each, in the map frame.
+  // The positions at which the submap's landmarks have no residual: one column each, in the map frame.
   Points place_private(const Values& values, const Vector& residual, const Vector& weighted) const;
-  // Landmarks of the submap by their number, as e = A [base; end; shared] + w with ordinary errors in map axes, w of
-  // covariance W: joint of all that are asked for. Shared landmarks are not to be asked for.
+  // The errors of landmarks of the submap, given by number: e = A [base; end; shared] + w with ordinary errors in map
+  // axes, w of covariance W, jointly for all requested landmarks. Shared landmarks must not be requested.
   void express_private(const std::vector<Eigen::Index>& landmarks, const Values& values, Matrix& A, Matrix& W) const;
 
   std::size_t memory_bytes() const { return information_.memory_bytes() + data_->covariance.memory_bytes(); }

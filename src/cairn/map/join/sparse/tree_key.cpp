@@ -20,7 +20,7 @@ std::uint64_t spread(std::uint64_t x) {
 }
 
 std::uint64_t cell(double offset) {
-  // The origin stands a third of the way through cells of every size, so that no large cell's wall comes near it.
+  // The origin lies at a third of the width of cells of every size, so that no boundary of a large cell is near it.
   constexpr double kOrigin = (1 << kCells) / 3.0;
   constexpr double kLast = (1 << kCells) - 1;
   const double c = std::floor(offset + kOrigin);
@@ -39,7 +39,7 @@ TreeKey::TreeKey(const Vector3& offset, std::uint32_t leaf_number)
 
 int TreeKey::split(const TreeKey& other) const {
   if (place != other.place) return leading_zeros(place ^ other.place);
-  return 32 + leading_zeros(leaf ^ other.leaf);  // 96 where both are equal
+  return 32 + leading_zeros(leaf ^ other.leaf);  // 96 if both are equal
 }
 
 }  // namespace cairn

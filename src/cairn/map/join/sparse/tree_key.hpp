@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where in the elimination tree a leaf stands.
+// The place of a leaf in the elimination tree.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct TreeKey {
   // Cells are 1 m wide; `offset` counts from a point that stays the same for all of a tree's life.
   TreeKey(const Vector3& offset, std::uint32_t leaf_number);
   bool bit(int i) const { return i < 64 ? (place >> (63 - i)) & 1 : (leaf >> (95 - i)) & 1; }
-  // The first bit in which two keys differ, kBits where there is none.
+  // The first bit in which two keys differ; kBits if there is none.
   int split(const TreeKey& other) const;
   bool operator<(const TreeKey& other) const { return place != other.place ? place < other.place : leaf < other.leaf; }
 };
