@@ -206,7 +206,7 @@ class TeamTest(unittest.TestCase):
         a.observe(0.0)
         z = [[100.0, 0.1]]
         for call, word in ((lambda: a.observe(0.0), "ARGUMENT: time"), (lambda: a.observe(float("nan")), "time"),
-                           (lambda: a.observe(1.0, vehicles=([1], z)), "own one"),
+                           (lambda: a.observe(1.0, vehicles=([1], z)), "this vehicle itself"),
                            (lambda: a.observe(1.0, ([4, 4], z * 2)), "twice"),
                            (lambda: a.observe(1.0, ([4], [[-1.0, 0.0]])), "negative"),
                            (lambda: a.observe(1.0, (range(65), z * 65)), "CAPACITY"),
