@@ -213,7 +213,7 @@ class TeamTest(unittest.TestCase):
                            (lambda: a.predict_twist(0.0, (0, 0, 0), (0, 0, 0)), "dt"),
                            (lambda: a.predict_increment(((0, 0, 0), (1, 0, 0, 0)), -np.eye(6)), "covariance"),
                            (lambda: a.add(1), "already"), (lambda: a.add(cairn.ID_NONE), "ARGUMENT"),
-                           (lambda: a.remove(1), "own"), (lambda: a.remove(7), "NOT_FOUND"),
+                           (lambda: a.remove(1), "this vehicle itself"), (lambda: a.remove(7), "NOT_FOUND"),
                            (lambda: a.pose(7), "NOT_FOUND"), (lambda: cairn.Team(max_lag=0.0), "max_lag"),
                            (lambda: cairn.Team(filter={"vehicle": "spatial"}), "PLANAR"),
                            (lambda: cairn.Team(filter={"submap_landmarks": 5}), "submap_landmarks"),
