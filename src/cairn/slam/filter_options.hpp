@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "ekf/error_model.hpp"
+#include "motion/motion.hpp"
 
 namespace cairn {
 
@@ -61,9 +62,17 @@ struct LandmarkOptions {
   Index missed_frames = FilterDefaults::missed_frames;  // it is removed if in view and not seen this often; 0: never
 };
 
+// Systematic errors of the motion that are states: by their numbers in MotionErrors, standard deviation at the start (0:
+// no state) and random walk in the square root of a second.
+struct SystematicOptions {
+  double motion_sigma[MotionErrors::kCount] = {};
+  double motion_walk[MotionErrors::kCount] = {};
+};
+
 template <class Pose>
 struct FilterOptions : CapacityOptions, UpdateOptions, SubmapOptions, AssociationOptions, LandmarkOptions {
   using PoseType = Pose;
+  SystematicOptions systematic;
   ErrorKind error = ErrorKind::invariant;
   Pose initial_pose;
   typename Pose::Square initial_covariance = Pose::Square::Zero();

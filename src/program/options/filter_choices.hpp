@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "program/options/option.hpp"
+#include "program/options/systematic_choices.hpp"
 
 namespace cairn::program {
 
@@ -22,6 +23,7 @@ struct FilterChoices {
 #include "options/filter_options.def"
 
   std::uint64_t forget_after = 0;  // frames; 0: never
+  SystematicChoices systematic;
 
   // Writes the options that are set.
   void apply(cairn_filter_options& options) const;
