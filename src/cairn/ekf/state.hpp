@@ -76,8 +76,9 @@ class State {
   // --- marginals ---
   // Joint covariance of the pose and `count` points, both triangles, in the state's own error coordinates.
   void gather(const Index* slots, Index count, double* out, Index ld) const;
-  // The same with the systematic errors behind the pose: [pose; systematic errors; points].
-  void gather_systematic(const Index* slots, Index count, double* out, Index ld) const;
+  // The same with the systematic errors behind the pose: [pose; systematic errors; points]. `ordinary`: of the ordinary
+  // errors of pose and points. Allocates.
+  void gather_systematic(const Index* slots, Index count, double* out, Index ld, bool ordinary = false) const;
   // Covariance of the systematic errors, both triangles.
   void systematic_covariance(double* out) const;
   // The same as gather() in ordinary errors.
@@ -136,9 +137,12 @@ class State {
     Index fused_count;
     const Point* fresh;  // landmarks not known here, in the submap's frame
     Index fresh_count;
-    // Error (of the error model) of [end pose; fresh landmarks] in the submap: K y + w. w has covariance W, and y is
-    // the ordinary error of the fused landmarks.
+    // Error (of the error model) of [end pose; what walked; fresh landmarks] in the submap: K y + w. w has covariance W,
+    // and y is the ordinary error of [systematic errors; fused landmarks].
     Eigen::MatrixXd K, W;
+    const Index* walking = nullptr;  // systematic errors that walked in the submap
+    Index walking_count = 0;
+    Eigen::VectorXd walked;  // how far
   };
   // The end pose becomes the state's pose, and the fresh landmarks are appended. The caller checks the capacity.
   // Allocates.

@@ -43,6 +43,11 @@ MapOptions<Pose> map_options(const FilterOptions<Pose>& options) {
   map.step_tolerance = options.step_tolerance;
   map.initial_pose = options.initial_pose;
   map.initial_covariance = options.initial_covariance;
+  const SystematicErrors errors(options.systematic, true);
+  for (Index i = 0; i < errors.count(); ++i) {
+    map.errors.sigma.push_back(errors.sigma(i));
+    if (errors.numbers(i).walked != SystematicErrors::kNone) map.errors.walking.push_back(i);
+  }
   return map;
 }
 
@@ -63,6 +68,44 @@ void SubmapKeeper<Pose>::make_map() {
     map_ = std::make_unique<SparseMap<Pose>>(map_options(options_));
   else
     map_ = std::make_unique<DenseMap<Pose>>(map_options(options_));
+  if (shares_errors()) open();
+}
+
+// The prior of the systematic errors is what the map knows of them. The closing takes exactly this prior out again
+// (docs/systematic_errors.md, eq. 12), so that it may be as narrow as it is.
+template <class Pose>
+void SubmapKeeper<Pose>::open() {
+  if (!shares_errors()) return local_.start(Pose(), Square::Zero());  // deferred landmarks have to be found again
+  const Index g = local_.systematic().count();
+  prior_ = map_->errors();
+  prior_covariance_ = map_->joint_with_errors(nullptr, 0).block(kDof, kDof, g, g);
+  local_.start(Pose(), Square::Zero(), {prior_.data(), prior_.data() + g},
+               {prior_covariance_.data(), prior_covariance_.data() + g * g});
+}
+
+template <class Pose>
+SubmapErrors SubmapKeeper<Pose>::take_errors(const std::vector<Index>& slots) const {
+  const SystematicErrors& errors = local_.systematic();
+  const State<Pose>& state = local_.state();
+  const auto count = static_cast<Index>(slots.size());
+  const Index states = state.systematic(), g = errors.count(), n = kDof + states + kDim * count;
+  Eigen::MatrixXd joint(n, n);
+  state.gather_systematic(slots.data(), count, joint.data(), n);
+  std::vector<Index> of_errors, of_rest;
+  for (Index i = 0; i < g; ++i) of_errors.push_back(kDof + errors.numbers(i).start);
+  for (Index i = 0; i < g; ++i)
+    if (errors.numbers(i).walked != SystematicErrors::kNone) of_errors.push_back(kDof + errors.numbers(i).walked);
+  for (Index i = 0; i < n; ++i)
+    if (i < kDof || i >= kDof + states) of_rest.push_back(i);
+  SubmapErrors out{prior_, prior_covariance_, {}, {}, joint(of_rest, of_errors), joint(of_errors, of_errors)};
+  out.value.resize(g);
+  out.walked.resize(static_cast<Index>(of_errors.size()) - g);
+  for (std::size_t i = 0; i < of_errors.size(); ++i) {
+    const double value = state.systematic(of_errors[i] - kDof);
+    const auto at = static_cast<Index>(i);
+    (at < g ? out.value(at) : out.walked(at - g)) = value;
+  }
+  return out;
 }
 
 template <class Pose>
@@ -108,6 +151,7 @@ Submap<Pose> SubmapKeeper<Pose>::take_submap() const {
   }
   submap.covariance.resize(n, n);
   state.gather(slots.data(), count, submap.covariance.data(), n);
+  if (shares_errors()) submap.errors = take_errors(slots);
   return submap;
 }
 
@@ -133,7 +177,7 @@ FixReport SubmapKeeper<Pose>::join(ClosedBy reason, const AbsoluteFix<Pose>* fix
     if (fix != nullptr) fixed = transaction->fix(*fix, threshold);
     next.join = transaction->commit();
   }
-  local_.start(Pose(), Square::Zero());  // deferred landmarks have to be found again
+  open();
   policy_.restart();
   next.submaps = map_->submap_count();
   next.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -189,10 +233,58 @@ FixReport SubmapKeeper<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold
   return moved() ? join(ClosedBy::fix, &fix, threshold) : map_->fix(fix, threshold);
 }
 
+// The map's joint estimate of base and systematic errors s, corrected by what the open submap found out about s; then
+// the body in the submap given s (docs/systematic_errors.md, eq. 14).
+template <class Pose>
+typename SubmapKeeper<Pose>::Place SubmapKeeper<Pose>::place(const std::size_t* indices, std::size_t count) const {
+  const Index g = local_.systematic().count(), moving = kDof + g, landmarks = kDim * static_cast<Index>(count);
+  const SubmapErrors errors = take_errors({});
+  const ErrorModel<Pose>& model = local_.state().model();
+  const ErrorRows found = found_out(errors);
+  Eigen::MatrixXd joint = map_->joint_with_errors(indices, count);
+  Eigen::VectorXd s = map_->errors(), correction = Eigen::VectorXd::Zero(moving);
+  if (found.rows.rows() > 0) {
+    const Eigen::MatrixXd cross = joint.middleCols(kDof, g) * found.rows.transpose();
+    const Eigen::MatrixXd S = found.rows * cross.middleRows(kDof, g) +
+                              Eigen::MatrixXd::Identity(found.rows.rows(), found.rows.rows());
+    const Eigen::MatrixXd gain = S.ldlt().solve(cross.transpose()).transpose();
+    correction = gain.topRows(moving) * (found.values - found.rows * s);
+    joint -= gain * cross.transpose();
+  }
+  const Pose base = retract(map_->base(), typename Pose::Tangent(correction.head<kDof>()));
+  s += correction.tail(g);
+
+  Square own;
+  local_.state().gather(nullptr, 0, own.data(), kDof);
+  GivenErrors given = given_errors(own, errors);
+  Pose local = local_.state().pose();
+  model.retract(given.K.topRows<kDof>() * (s - errors.value), local);
+  Square to_ordinary = Square::Identity();
+  if (model.invariant()) to_ordinary.template topRightCorner<kDim, kTurn>() = model.arm(local.translation());
+  const ProductJacobians J(base, local);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(kDof + landmarks, moving + landmarks);
+  A.topLeftCorner(kDof, kDof) = J.by_a;
+  A.block(0, kDof, kDof, g) = J.by_b * to_ordinary * given.K.topRows<kDof>();
+  A.bottomRightCorner(landmarks, landmarks).setIdentity();
+  const Square noise = J.by_b * to_ordinary * given.covariance.topLeftCorner<kDof, kDof>() *
+                       to_ordinary.transpose() * J.by_b.transpose();
+  Place out{base * local, A * joint * A.transpose()};
+  out.joint.topLeftCorner<kDof, kDof>() += noise;
+  out.joint = (0.5 * (out.joint + out.joint.transpose())).eval();
+  return out;
+}
+
+template <class Pose>
+Pose SubmapKeeper<Pose>::pose() const {
+  if (shares_errors()) return place(nullptr, 0).pose;
+  return map_ != nullptr ? map_->base() * local_.state().pose() : local_.state().pose();
+}
+
 template <class Pose>
 typename SubmapKeeper<Pose>::Square SubmapKeeper<Pose>::pose_covariance() const {
   const State<Pose>& state = local_.state();
   if (map_ == nullptr) return state.pose_covariance();
+  if (shares_errors()) return place(nullptr, 0).joint;
   return ProductJacobians(map_->base(), state.pose()).covariance(map_->base_covariance(), state.pose_covariance());
 }
 
@@ -216,6 +308,8 @@ void SubmapKeeper<Pose>::pose_joint_covariance(const std::size_t* indices, std::
   Eigen::MatrixXd joint(n, n);
   if (map_ == nullptr) {
     local_.pose_joint_covariance(indices, count, joint.data());
+  } else if (shares_errors()) {
+    joint = place(indices, count).joint;
   } else {
     const State<Pose>& state = local_.state();
     map_->base_joint_covariance(indices, count, joint.data());

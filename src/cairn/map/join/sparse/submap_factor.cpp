@@ -54,17 +54,67 @@ Matrix invert(const Matrix& covariance) {
   return scaled.scale.asDiagonal() * inverse * scaled.scale.asDiagonal();
 }
 
+// Converts to the numbers of ErrorPoints; in `given` the rows of what the errors walked.
+template <class Pose>
+FactorErrors factor_errors(const SubmapErrors& errors, const ErrorPoints<Pose>& points, GivenErrors& given) {
+  const Index walkers = errors.walked.size(), rows = given.K.rows(), first = rows - walkers;
+  FactorErrors out;
+  out.walked = errors.walked;
+  for (Index w = 0; w < walkers; ++w) {
+    const double unit = points.unit(points.walkers()[static_cast<std::size_t>(w)]);
+    out.walked(w) /= unit;
+    given.K.row(first + w) /= unit;
+    given.covariance.row(first + w) /= unit;
+    given.covariance.col(first + w) /= unit;
+  }
+  out.found = found_out(errors);
+  Matrix found = Matrix::Zero(out.found.rows.rows(), points.size());
+  out.value = Vector::Zero(points.size());
+  out.K = Matrix::Zero(rows, points.size());
+  for (Index i = 0; i < points.count(); ++i) {
+    out.value(points.at(i)) = errors.value(i) / points.unit(i);
+    out.K.col(points.at(i)) = points.unit(i) * given.K.col(i);
+    found.col(points.at(i)) = points.unit(i) * out.found.rows.col(i);
+  }
+  out.found.rows = found;
+  return out;
+}
+
 }  // namespace
 
 template <class Pose>
-SubmapData<Pose>::SubmapData(const Submap<Pose>& submap)
+ErrorPoints<Pose>::ErrorPoints(const SharedErrorOptions& options)
+    : unit_(options.sigma), at_(options.sigma.size()), walkers_(options.walking) {
+  const Index walking = static_cast<Index>(walkers_.size()), constant = options.count() - walking;
+  constant_ = (constant + Pose::kDim - 1) / Pose::kDim;
+  walking_ = (walking + Pose::kDim - 1) / Pose::kDim;
+  Index next_constant = 0, next_walking = Pose::kDim * constant_;
+  for (std::size_t i = 0; i < at_.size(); ++i) {
+    const bool walks = std::find(walkers_.begin(), walkers_.end(), static_cast<Index>(i)) != walkers_.end();
+    at_[i] = walks ? next_walking++ : next_constant++;
+  }
+}
+
+template <class Pose>
+bool ErrorPoints<Pose>::used(Index number) const {
+  return std::find(at_.begin(), at_.end(), number) != at_.end();
+}
+
+template <class Pose>
+SubmapData<Pose>::SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>& error_points)
     : error(submap.error),
       T_base_end(submap.T_base_end),
       ids(submap.ids),
       landmarks(submap.landmarks),
-      covariance(submap.covariance) {
+      points(error_points) {
+  GivenErrors given{Matrix(submap.covariance.rows(), 0), submap.covariance};
+  if (points.count() > 0) {
+    given = given_errors(submap.covariance, submap.errors);
+    errors = factor_errors(submap.errors, points, given);
+  }
   // Tests the whole covariance, so that no private landmark can make a later closing fail that shares it.
-  factor<Pose>(submap.covariance);
+  factor<Pose>(given.covariance);
+  covariance = Packed(given.covariance);
 }
 
 template <class Pose>
@@ -80,11 +130,30 @@ std::vector<Index> SubmapFactor<Pose>::states() const {
   for (Index d = 0; d < kDof; ++d) states.push_back(d);
   for (const Index i : shared_)
     for (Index d = 0; d < kDim; ++d) states.push_back(kDof + kDim * i + d);
+  for (Index w = data_->covariance.size() - data_->errors.walked.size(); w < data_->covariance.size(); ++w)
+    states.push_back(w);
   return states;
 }
 
 template <class Pose>
+Vector SubmapFactor<Pose>::error_shift(const Values& values) const {
+  return values.errors.head(data_->points.size()) - data_->errors.value;
+}
+
+template <class Pose>
+Matrix SubmapFactor<Pose>::K() const {
+  return data_->errors.K(states(), Eigen::all);
+}
+
+template <class Pose>
 Vector SubmapFactor<Pose>::residual(const Values& values) const {
+  Vector xi = whole_error(values);
+  if (data_->points.count() > 0) xi -= K() * error_shift(values);
+  return xi;
+}
+
+template <class Pose>
+Vector SubmapFactor<Pose>::whole_error(const Values& values) const {
   Vector xi(rows());
   const Pose T_end = values.base.inverse() * values.end;
   const Tangent turn = (T_end.rotation() * data_->T_base_end.rotation().inverse()).log();
@@ -99,6 +168,12 @@ Vector SubmapFactor<Pose>::residual(const Values& values) const {
   const Pose T_base_map = values.base.inverse();
   for (Index i = 0; i < shared_count(); ++i)
     xi.segment<kDim>(kDof + kDim * i) = error(T_base_map * values.shared[i], data_->landmarks[shared_[i]]);
+  const Index walkers = data_->errors.walked.size();
+  for (Index w = 0; w < walkers; ++w) {
+    const Index at = data_->points.at(data_->points.walkers()[static_cast<std::size_t>(w)]);
+    xi(rows() - walkers + w) =
+        values.errors(at + data_->points.from_base_to_end()) - values.errors(at) - data_->errors.walked(w);
+  }
   return xi;
 }
 
@@ -157,7 +232,7 @@ typename SubmapFactor<Pose>::Evaluation SubmapFactor<Pose>::evaluate(const Value
   const Vector xi = residual(values);
   const Vector weight = weighted(xi);
   out.cost = 0.5 * xi.dot(weight);
-  const Jacobian J = jacobian(values, xi);
+  const Jacobian J = jacobian(values, whole_error(values));
   Vector& gradient = out.gradient = Vector::Zero(columns());
   const Tangent turn = J.turn.transpose() * weight.segment<kTurn>(kDim);
   gradient.segment<kTurn>(kDim) -= turn;
@@ -170,13 +245,46 @@ typename SubmapFactor<Pose>::Evaluation SubmapFactor<Pose>::evaluate(const Value
     gradient.segment<kTurn>(kDim) += J.by_base[i + 1].transpose() * w;
     gradient.segment<kTurn>(kDof + kDim) += J.by_end[i + 1].transpose() * w;
   }
+  if (data_->points.count() == 0) return out;
+  const ErrorRows& found = data_->errors.found;
+  const Index size = data_->points.size(), first = column(shared_count());
+  const Vector missed = found.rows * values.errors.head(size) - found.values;
+  gradient.tail(error_columns()) += error_jacobian().transpose() * weight;
+  gradient.segment(first, size) += found.rows.transpose() * missed;
+  out.cost += 0.5 * missed.squaredNorm();
+  for (Index k = 0; k < error_columns(); ++k) {
+    if (uses(k)) continue;
+    gradient(first + k) += values.errors(k);
+    out.cost += 0.5 * values.errors(k) * values.errors(k);
+  }
   return out;
+}
+
+// Of the points' numbers, those at the end hold errors where those at the base do.
+template <class Pose>
+bool SubmapFactor<Pose>::uses(Index number) const {
+  return data_->points.used(number < data_->points.size() ? number : number - data_->points.from_base_to_end());
+}
+
+template <class Pose>
+Matrix SubmapFactor<Pose>::error_jacobian() const {
+  Matrix E = Matrix::Zero(rows(), error_columns());
+  if (E.cols() == 0) return E;
+  E.leftCols(data_->points.size()) = -K();
+  const Index walkers = data_->errors.walked.size();
+  for (Index w = 0; w < walkers; ++w) {
+    const Index at = data_->points.at(data_->points.walkers()[static_cast<std::size_t>(w)]);
+    E(rows() - walkers + w, at) -= 1.0;
+    E(rows() - walkers + w, at + data_->points.from_base_to_end()) += 1.0;
+  }
+  return E;
 }
 
 template <class Pose>
 Matrix SubmapFactor<Pose>::dense_jacobian(const Values& values) const {
-  const Jacobian J = jacobian(values, residual(values));
+  const Jacobian J = jacobian(values, whole_error(values));
   Matrix D = Matrix::Zero(rows(), columns());
+  D.rightCols(error_columns()) = error_jacobian();
   D.block<kTurn, kTurn>(kDim, kDim) = -J.turn;
   D.block<kTurn, kTurn>(kDim, kDof + kDim) = J.turn;
   for (Index i = -1; i < shared_count(); ++i) {
@@ -225,7 +333,24 @@ Matrix SubmapFactor<Pose>::hessian(const Values& values, const std::vector<Rotat
     for (Index i = j; i < shared_count(); ++i)
       H.block<kDim, kDim>(column(i), column(j)).noalias() = own[i].transpose() * strip.middleRows<kDim>(kDim * (i - j));
   }
+  if (error_columns() > 0) add_error_hessian(information, weighted, own, H);
   return H;
+}
+
+template <class Pose>
+void SubmapFactor<Pose>::add_error_hessian(const Matrix& information, const Matrix& weighted_poses,
+                                           const std::vector<PointSquare>& landmark_axes, Matrix& H) const {
+  const Index first = column(shared_count()), size = data_->points.size();
+  const Matrix E = error_jacobian();
+  const Matrix weighted = information.selfadjointView<Eigen::Lower>() * E;
+  H.block(first, 0, E.cols(), 2 * kDof) = E.transpose() * weighted_poses;
+  for (Index j = 0; j < shared_count(); ++j)
+    H.block(first, column(j), E.cols(), kDim) =
+        weighted.middleRows<kDim>(kDof + kDim * j).transpose() * landmark_axes[static_cast<std::size_t>(j)];
+  H.block(first, first, E.cols(), E.cols()) = E.transpose() * weighted;
+  H.block(first, first, size, size) += data_->errors.found.rows.transpose() * data_->errors.found.rows;
+  for (Index k = 0; k < E.cols(); ++k)
+    if (!uses(k)) H(first + k, first + k) += 1.0;
 }
 
 template <class Pose>
@@ -246,10 +371,12 @@ typename SubmapFactor<Pose>::Points SubmapFactor<Pose>::place_private(const Valu
   data_->covariance.times(weights.data(), errors.data());
   PointSquare R = PointSquare::Identity(), V = R;
   if (data_->error != ErrorKind::standard) {
-    const Tangent turn = xi.segment<kTurn>(kDim);
+    Tangent turn = xi.segment<kTurn>(kDim);
+    if (data_->points.count() > 0) turn = whole_error(values).template segment<kTurn>(kDim);
     R = Rotation::exp(turn).matrix();
     V = Rotation::translation_jacobian(turn);
   }
+  if (data_->points.count() > 0) errors += data_->errors.K * error_shift(values);
   const PointSquare base = values.base.rotation().matrix();
   Points positions(kDim, static_cast<Index>(data_->landmarks.size()));
   for (Index i = 0; i < positions.cols(); ++i)
@@ -274,6 +401,7 @@ void SubmapFactor<Pose>::express_private(const std::vector<Index>& landmarks, co
     for (Index r = 0; r < rows(); ++r) information(r, c) = information_(r, c);
   const Matrix cross = data_->covariance.block(rows_of, chosen);
   Matrix K = cross * information;
+  const Matrix by_errors = K * error_jacobian();
   W = data_->covariance.block(rows_of, rows_of);
   W -= K * cross.transpose();
   const PointSquare R = values.base.rotation().matrix();
@@ -285,6 +413,10 @@ void SubmapFactor<Pose>::express_private(const std::vector<Index>& landmarks, co
       K.block<kDim, kTurn>(kDim * a, kDim) += Rotation::turn(R.transpose() * arms[a]);
   }
   A = K * dense_jacobian(values);
+  if (error_columns() > 0) {  // the arms of the turn do not depend on the systematic errors
+    A.rightCols(error_columns()) = by_errors;
+    A.middleCols(column(shared_count()), data_->points.size()) += data_->errors.K(rows_of, Eigen::all);
+  }
   for (Index a = 0; a < n; ++a) {
     A.middleRows<kDim>(kDim * a) = (R * A.middleRows<kDim>(kDim * a)).eval();
     A.block<kDim, kDim>(kDim * a, 0) += PointSquare::Identity();
@@ -295,6 +427,8 @@ void SubmapFactor<Pose>::express_private(const std::vector<Index>& landmarks, co
   W = (0.5 * (W + W.transpose())).eval();
 }
 
+template class ErrorPoints<SE2>;
+template class ErrorPoints<SE3>;
 template struct SubmapData<SE2>;
 template struct SubmapData<SE3>;
 template class SubmapFactor<SE2>;

@@ -15,16 +15,53 @@
 
 namespace cairn {
 
+// How the variables of the systematic errors hold the errors: in points of kDim numbers. Errors that do not walk have
+// the same points in all submaps; those that walk have points at each base. An error counts in units of its standard
+// deviation at the start. Numbers of a point that hold no error are zero.
+template <class Pose>
+class ErrorPoints {
+ public:
+  ErrorPoints() = default;
+  explicit ErrorPoints(const SharedErrorOptions& options);
+
+  Eigen::Index count() const { return static_cast<Eigen::Index>(at_.size()); }  // errors
+  Eigen::Index constant() const { return constant_; }                          // points
+  Eigen::Index walking() const { return walking_; }                            // points at a base
+  Eigen::Index size() const { return Pose::kDim * (constant_ + walking_); }    // numbers of [constant; at one base]
+  // Of a factor: [constant; walking at the base; walking at the end].
+  Eigen::Index factor_points() const { return constant_ + 2 * walking_; }
+  Eigen::Index at(Eigen::Index error) const { return at_[static_cast<std::size_t>(error)]; }  // among these numbers
+  Eigen::Index from_base_to_end() const { return Pose::kDim * walking_; }  // distance of the numbers of one error
+  double unit(Eigen::Index error) const { return unit_[static_cast<std::size_t>(error)]; }
+  const std::vector<Eigen::Index>& walkers() const { return walkers_; }
+  bool used(Eigen::Index number) const;
+
+ private:
+  std::vector<double> unit_;
+  std::vector<Eigen::Index> at_, walkers_;
+  Eigen::Index constant_ = 0, walking_ = 0;
+};
+
+// What a submap tells about systematic errors, in the numbers of ErrorPoints at its base.
+struct FactorErrors {
+  Eigen::VectorXd value;      // at which K was computed
+  Eigen::MatrixXd K;          // of [end; landmarks; walked]
+  Eigen::VectorXd walked;     // estimate, of the errors that walk
+  ErrorRows found;            // what the submap found out about the errors themselves
+};
+
 // The part of a factor that never changes. Copies of a map share it.
 template <class Pose>
 struct SubmapData {
-  explicit SubmapData(const Submap<Pose>& submap);
+  SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>& points);
 
   ErrorKind error;
   Pose T_base_end;
   std::vector<std::uint64_t> ids;
   std::vector<typename Pose::Point> landmarks;  // in the frame of the base
-  Packed covariance;                            // of [end; landmarks], own error coordinates
+  ErrorPoints<Pose> points;
+  FactorErrors errors;
+  Packed covariance;  // of [end; landmarks; walked] given the systematic errors, own error coordinates
 };
 
 // Values of the variables of a factor.
@@ -32,6 +69,7 @@ template <class Pose>
 struct FactorValues {
   Pose base, end;
   std::vector<typename Pose::Point> shared;  // in the map frame, in the order of the factor's shared landmarks
+  Eigen::VectorXd errors;                    // of the factor's points
 };
 
 // The factor for one choice of shared landmarks.
@@ -52,13 +90,13 @@ class SubmapFactor {
 
   const Data& data() const { return *data_; }
   const std::vector<Eigen::Index>& shared() const { return shared_; }
-  Eigen::Index rows() const { return information_.size(); }  // kDof + kDim shared
-  // Columns of the Jacobian: base, end, shared landmarks; ordinary errors in map axes.
-  Eigen::Index columns() const { return column(shared_count()); }
+  Eigen::Index rows() const { return information_.size(); }  // kDof + kDim shared + walked
+  // Columns of the Jacobian: base, end, shared landmarks, points of systematic errors; ordinary errors in map axes.
+  Eigen::Index columns() const { return column(shared_count() + data_->points.factor_points()); }
   static Eigen::Index column(Eigen::Index shared_landmark) { return 2 * kDof + kDim * shared_landmark; }
   Eigen::Index shared_count() const { return static_cast<Eigen::Index>(shared_.size()); }
 
-  // The error xi of the submap's estimate against the values; that of its turn comes from kDim on.
+  // The error xi of the submap's estimate, given the systematic errors, against the values.
   Vector residual(const Values& values) const;
   Vector weighted(const Vector& residual) const;  // Sigma^-1 xi
   struct Evaluation {
@@ -85,8 +123,17 @@ class SubmapFactor {
   using Tangent = typename Rotation::Tangent;
 
   struct Jacobian;
-  Jacobian jacobian(const Values& values, const Vector& residual) const;
+  // The error of the estimate as it is; that of its turn comes from kDim on.
+  Vector whole_error(const Values& values) const;
+  Jacobian jacobian(const Values& values, const Vector& whole_error) const;
   std::vector<Eigen::Index> states() const;
+  Eigen::Index error_columns() const { return kDim * data_->points.factor_points(); }
+  Vector error_shift(const Values& values) const;  // of the systematic errors, from where K was computed
+  Matrix K() const;                                // of the rows of the factor
+  bool uses(Eigen::Index number) const;            // a number of the factor's points holds an error
+  Matrix error_jacobian() const;                   // of the residual, by the factor's points
+  void add_error_hessian(const Matrix& information, const Matrix& weighted_poses,
+                         const std::vector<PointSquare>& landmark_axes, Matrix& H) const;
   Matrix dense_jacobian(const Values& values) const;
 
   std::shared_ptr<const Data> data_;
@@ -94,6 +141,8 @@ class SubmapFactor {
   Packed information_;  // Sigma^-1 of [end; shared]
 };
 
+extern template class ErrorPoints<SE2>;
+extern template class ErrorPoints<SE3>;
 extern template struct SubmapData<SE2>;
 extern template struct SubmapData<SE3>;
 extern template class SubmapFactor<SE2>;
