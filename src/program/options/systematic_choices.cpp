@@ -5,23 +5,17 @@
 #include <sstream>
 
 namespace cairn::program {
-namespace {
 
-// One number for all components, or one for each, separated by commas.
-template <std::size_t n>
-Option components(const OptionText& text, std::array<double, n>& target) {
+Option components(const OptionText& text, const options::Bounds& bounds, std::size_t count, double* target) {
   const std::string name = text.name;
-  return custom(text, [name, &target](const std::string& value) {
+  return custom(text, [=](const std::string& value) {
     std::vector<double> numbers;
     std::stringstream words(value);
-    for (std::string word; std::getline(words, word, ',');)
-      numbers.push_back(parse_number(name, word, options::kNotNegative));
-    if (numbers.size() != 1 && numbers.size() != n) reject(name, value, "1 or " + std::to_string(n) + " numbers");
-    for (std::size_t i = 0; i < n; ++i) target[i] = numbers[numbers.size() == 1 ? 0 : i];
+    for (std::string word; std::getline(words, word, ',');) numbers.push_back(parse_number(name, word, bounds));
+    if (numbers.size() != 1 && numbers.size() != count) reject(name, value, "1 or " + std::to_string(count) + " numbers");
+    for (std::size_t i = 0; i < count; ++i) target[i] = numbers[numbers.size() == 1 ? 0 : i];
   });
 }
-
-}  // namespace
 
 void SystematicChoices::apply(cairn_filter_options& options) const {
   std::copy(velocity_bias.begin(), velocity_bias.end(), options.velocity_bias_sigma);
@@ -38,25 +32,25 @@ std::vector<Option> systematic_flags(SystematicChoices& o) {
                   "Estimate a constant error of the measured velocity, with this standard deviation at the start, m/s: "
                   "one number, or one each for forward, left and up. 0 (the default): not this component.",
                   "See docs/systematic_errors.md. The filter then moves by the measured velocity minus the estimate."},
-                 o.velocity_bias),
+                 options::kNotNegative, 3, o.velocity_bias.data()),
       components({"--velocity-bias-walk", "SIGMA[,SIGMA,SIGMA]",
                   "Random walk of the velocity bias, m/s in the square root of a second. 0 (the default): constant.",
                   ""},
-                 o.velocity_bias_walk),
+                 options::kNotNegative, 3, o.velocity_bias_walk.data()),
       components({"--rate-bias", "SIGMA[,SIGMA,SIGMA]",
                   "Estimate a constant error of the measured turning rate, rad/s, as `--velocity-bias` does.", ""},
-                 o.rate_bias),
+                 options::kNotNegative, 3, o.rate_bias.data()),
       components({"--rate-bias-walk", "SIGMA[,SIGMA,SIGMA]",
                   "Random walk of the rate bias, rad/s in the square root of a second. 0 (the default): constant.", ""},
-                 o.rate_bias_walk),
+                 options::kNotNegative, 3, o.rate_bias_walk.data()),
       components({"--wheel-scale", "SIGMA[,SIGMA]",
                   "Estimate a scale of the measured wheel rates, with this standard deviation at the start: one number, "
                   "or one each for the left and the right wheels. 0 (the default): no scale.",
                   "A wheel turns at its measured rate times 1 plus its scale."},
-                 o.wheel_scale),
+                 options::kNotNegative, 2, o.wheel_scale.data()),
       components({"--wheel-scale-walk", "SIGMA[,SIGMA]",
                   "Random walk of the wheel scale, in the square root of a second. 0 (the default): constant.", ""},
-                 o.wheel_scale_walk),
+                 options::kNotNegative, 2, o.wheel_scale_walk.data()),
   };
 }
 

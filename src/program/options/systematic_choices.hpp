@@ -19,6 +19,10 @@ struct SystematicChoices {
   void apply(cairn_filter_options& options) const;
 };
 
+// An option with one number for all `count` components, or one for each, separated by commas. `target` has to live as
+// long as the option.
+Option components(const OptionText& text, const options::Bounds& bounds, std::size_t count, double* target);
+
 // `choices` has to live as long as the options.
 std::vector<Option> systematic_flags(SystematicChoices& choices);
 
