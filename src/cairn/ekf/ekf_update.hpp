@@ -119,10 +119,10 @@ class EkfUpdate {
   }
 
   // --- place --- after the commit, or if the batch is empty: appends a new landmark that depends on the pose, on
-  // the window's mount (J_mount may be null) and on independent noise. Returns false, with nothing changed, if a result
-  // is not finite. The caller checks the capacity.
+  // the window's mount (J_mount may be null), on systematic errors (`errors` may be null) and on independent noise.
+  // Returns false, with nothing changed, if a result is not finite. The caller checks the capacity.
   bool place(const Point& position, const PointByPose& J_pose, const PointByMount* J_mount, const PointSquare& noise,
-             bool relative);
+             bool relative, const ErrorColumns<kDim>* errors = nullptr);
 
  private:
   enum class Stage { open, linearised, factored, solved, committed };

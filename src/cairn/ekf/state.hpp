@@ -103,10 +103,11 @@ class State {
     double* cross;  // of every state with it; gets the new point's rows
   };
   // Appends a landmark that depends on the pose (ordinary Jacobian), on a shared mount (J_mount and `mount` may be
-  // null), and on independent noise. Returns false, with nothing changed, if a result is not finite. The caller checks
+  // null), on systematic errors (`errors` may be null), and on independent noise. Returns false, with nothing changed, if a result is not finite. The caller checks
   // the capacity.
   bool augment(const Point& position, const PointByPose& J_pose, const PointSquare& noise, bool relative,
-               const PointByMount* J_mount = nullptr, const SharedMount* mount = nullptr);
+               const PointByMount* J_mount = nullptr, const SharedMount* mount = nullptr,
+               const ErrorColumns<kDim>* errors = nullptr);
   // Removes a landmark; the last one moves into its slot.
   void remove(Index slot);
   // Two landmarks change slots.
@@ -172,6 +173,7 @@ class State {
   };
   PointByMotion with_motion_states(Index row) const;  // covariance of a point with the motion's systematic errors
   PendingTurn pending_turn() const;
+  PointSquare covariance_by(const ErrorColumns<kDim>& errors, const PointByPose& J) const;
   PointSquare relative_change(Index row, const PointByPose& J) const;
   // P <- P_now - W W^T over `rank` columns of W, the pending motion's noise added in the same pass. `columns` are those
   // of the pose and the systematic errors.

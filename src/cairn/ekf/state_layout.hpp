@@ -9,6 +9,8 @@
 // points: it adds to lead() and gets a Retraction.
 #pragma once
 
+#include <Eigen/Core>
+
 #include "linear/small_algebra.hpp"
 
 namespace cairn {
@@ -62,6 +64,15 @@ class StateLayout {
 
  private:
   Index systematic_ = 0, companions_ = 0, points_ = 0;
+};
+
+// Columns of a Jacobian by systematic errors that follow each other: at most two states for each number of a sensor's
+// calibration.
+template <int kRows>
+struct ErrorColumns {
+  static constexpr Index kMost = 18;
+  Eigen::Matrix<double, kRows, kMost> J;
+  Index first = 0, count = 0;
 };
 
 // The layout of an update's window: [pose; systematic errors; mount; chosen points].

@@ -42,10 +42,15 @@ class Filter {
   void set_view(int sensor, const Vector3& lower, const Vector3& upper) { sensors_.set_view(sensor, {lower, upper}); }
   void set_sighting(int sensor, const MutualSighting& sighting) { sensors_.set_sighting(sensor, sighting); }
 
+  // Systematic errors of a sensor become states: a standard deviation (0: none) and a random walk for each number of
+  // its calibration. Before the first motion and the first observation.
+  void calibrate(int sensor, const Calibration<Pose>& sigma, const Calibration<Pose>& walk);
+
   // --- motion --- throws if the result is not finite, with nothing changed
   void set_wheels(const Wheels& wheels) { wheels_ = wheels; }
   void set_twist_noise(const TwistNoise& noise) { twist_noise_ = noise; }
   void predict_wheels(double dt, double left, double right);
+  void predict_wheels_gyro(double dt, double left, double right, const Vector3& w);
   void predict_twist(double dt, const Vector3& v, const Vector3& w);
   void propagate(const Increment<Pose>& increment);  // refused if a bias of the twist is a state
 
@@ -53,9 +58,11 @@ class Filter {
   // First the observations of landmarks, then those of companions, which bring ids whatever the association is.
   void update(int sensor, const Observation* observations, Index landmarks, Index companions = 0);
   void update_linear(const LinearRows& rows) {
+    started_ = true;
     log_.watch([&] { batches_.rows(rows); });
   }
   void update_fix(const AbsoluteFix<Pose>& fix) {
+    started_ = true;
     log_.watch([&] { batches_.fix(fix); });
   }
   void update_position(const Point& position, const PointSquare& covariance, const Point& lever_arm) {
@@ -117,6 +124,7 @@ class Filter {
   }
 
  private:
+  void begin();
   void move(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
 
   FilterOptions<Pose> options_;
@@ -130,6 +138,7 @@ class Filter {
   SubmapKeeper<Pose> submaps_;
   FramePipeline<Pose> frames_;
   WholeBatchUpdate<Pose> batches_;
+  bool started_ = false;  // something was estimated: no systematic error can be added any more
 };
 
 extern template class Filter<SE2>;

@@ -23,6 +23,7 @@ struct CapacityOptions {
   Index max_landmarks = FilterDefaults::max_landmarks;
   Index max_observations = FilterDefaults::max_observations;
   Index max_sensors = FilterDefaults::max_sensors;
+  Index max_sensor_errors = FilterDefaults::max_sensor_errors;  // numbers of the calibrations of all sensors
   Index max_companions = 0;  // poses of other vehicles in the state of a single map
 };
 

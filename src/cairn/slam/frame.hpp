@@ -2,7 +2,7 @@
 // One frame of observations, as the parts of a filter pass it on.
 #pragma once
 
-#include "sensor/sensor.hpp"
+#include "sensor/calibrated_sensor.hpp"
 #include "slam/observation.hpp"
 #include "slam/sensor_rack.hpp"
 
@@ -14,6 +14,9 @@ struct Frame {
   const View* view;  // of the sensor; null: none was set
   const Observation* observations;
   Index landmarks, companions;  // observations of landmarks, then observations of companions
+  // The same sensor, if its systematic errors are states, and its number: an update sets the errors of its iterate.
+  CalibratedSensor<Pose>* calibrated = nullptr;
+  int number = 0;
 
   Index count() const { return landmarks + companions; }
   Vector3 z(Index observation) const { return Vector3(observations[observation].z); }

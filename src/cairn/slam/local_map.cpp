@@ -11,7 +11,8 @@ LocalMap<Pose>::LocalMap(Arena& arena, const FilterOptions<Pose>& options)
     : options_(options),
       systematic_(options.systematic, !options.single_map()),
       state_(arena, options.error,
-             {options.slots(), options.max_observations, options.max_companions, systematic_.states()}),
+             {options.slots(), options.max_observations, options.max_companions,
+              systematic_.states() + (options.single_map() ? 1 : 2) * options.max_sensor_errors}),
       table_(arena, options.slots(), options.local_landmarks()) {}
 
 template <class Pose>

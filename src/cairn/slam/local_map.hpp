@@ -31,6 +31,9 @@ class LocalMap final : public Landmarks {
   State<Pose>& state() { return state_; }
   const State<Pose>& state() const { return state_; }
   const SystematicErrors& systematic() const { return systematic_; }
+  // Adds an error of a sensor before anything was estimated; start() has to follow.
+  void use_errors(const SystematicErrors& errors) { systematic_ = errors; }
+  void add_error(int sensor, int number, double sigma, double walk) { systematic_.add(sensor, number, sigma, walk); }
   LandmarkTable& table() { return table_; }
   const LandmarkTable& table() const { return table_; }
 

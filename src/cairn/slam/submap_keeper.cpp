@@ -32,6 +32,11 @@ NamingOptions naming_options(const FilterOptions<Pose>& options) {
 
 template <class Pose>
 MapOptions<Pose> map_options(const FilterOptions<Pose>& options) {
+  return map_options(options, SystematicErrors(options.systematic, true));
+}
+
+template <class Pose>
+MapOptions<Pose> map_options(const FilterOptions<Pose>& options, const SystematicErrors& errors) {
   MapOptions<Pose> map;
   map.error = options.error;
   map.max_landmarks = static_cast<std::size_t>(options.max_landmarks);
@@ -43,7 +48,6 @@ MapOptions<Pose> map_options(const FilterOptions<Pose>& options) {
   map.step_tolerance = options.step_tolerance;
   map.initial_pose = options.initial_pose;
   map.initial_covariance = options.initial_covariance;
-  const SystematicErrors errors(options.systematic, true);
   for (Index i = 0; i < errors.count(); ++i) {
     map.errors.sigma.push_back(errors.sigma(i));
     if (errors.numbers(i).walked != SystematicErrors::kNone) map.errors.walking.push_back(i);
@@ -65,9 +69,9 @@ template <class Pose>
 void SubmapKeeper<Pose>::make_map() {
   if (options_.single_map()) return;
   if (options_.sparse())
-    map_ = std::make_unique<SparseMap<Pose>>(map_options(options_));
+    map_ = std::make_unique<SparseMap<Pose>>(map_options(options_, local_.systematic()));
   else
-    map_ = std::make_unique<DenseMap<Pose>>(map_options(options_));
+    map_ = std::make_unique<DenseMap<Pose>>(map_options(options_, local_.systematic()));
   if (shares_errors()) open();
 }
 
@@ -111,7 +115,9 @@ SubmapErrors SubmapKeeper<Pose>::take_errors(const std::vector<Index>& slots) co
 template <class Pose>
 std::size_t SubmapKeeper<Pose>::required_bytes(const FilterOptions<Pose>& options) {
   if (options.single_map() || options.sparse()) return 0;
-  return DenseMap<Pose>::required_bytes(map_options(options));
+  SystematicErrors errors(options.systematic, true);
+  for (Index i = 0; i < options.max_sensor_errors; ++i) errors.add(0, 0, 1.0, 1.0);
+  return DenseMap<Pose>::required_bytes(map_options(options, errors));
 }
 
 template <class Pose>
@@ -330,6 +336,8 @@ double SubmapKeeper<Pose>::pose_nees(const Pose& truth) const {
 
 template MapOptions<SE2> map_options(const FilterOptions<SE2>&);
 template MapOptions<SE3> map_options(const FilterOptions<SE3>&);
+template MapOptions<SE2> map_options(const FilterOptions<SE2>&, const SystematicErrors&);
+template MapOptions<SE3> map_options(const FilterOptions<SE3>&, const SystematicErrors&);
 template bool FilterOptions<SE2>::sparse() const;
 template bool FilterOptions<SE3>::sparse() const;
 template class SubmapKeeper<SE2>;

@@ -28,6 +28,9 @@ struct ClosingReport {
 // The options of the map that a filter's submaps join.
 template <class Pose>
 MapOptions<Pose> map_options(const FilterOptions<Pose>& options);
+// The same, with these systematic errors.
+template <class Pose>
+MapOptions<Pose> map_options(const FilterOptions<Pose>& options, const SystematicErrors& errors);
 
 template <class Pose>
 class SubmapKeeper {

@@ -5,10 +5,10 @@
 
 namespace cairn {
 
-SystematicErrors::SystematicErrors(const SystematicOptions& options, bool submaps) {
+SystematicErrors::SystematicErrors(const SystematicOptions& options, bool submaps) : submaps_(submaps) {
   for (int number = 0; number < MotionErrors::kCount; ++number) {
     const double sigma = options.motion_sigma[number], walk = options.motion_walk[number];
-    if (sigma > 0.0) errors_.push_back({number, sigma, walk, states_++, kNone});
+    if (sigma > 0.0) errors_.push_back({kMotion, number, sigma, walk, states_++, kNone});
   }
   if (submaps)
     for (Error& error : errors_)
@@ -17,7 +17,21 @@ SystematicErrors::SystematicErrors(const SystematicOptions& options, bool submap
 }
 
 bool SystematicErrors::any_twist() const {
-  return std::any_of(errors_.begin(), errors_.end(), [](const Error& e) { return e.number < MotionErrors::kScale; });
+  return std::any_of(errors_.begin(), errors_.end(), [](const Error& e) {
+    return e.sensor == kMotion && e.number < MotionErrors::kScale;
+  });
+}
+
+void SystematicErrors::add(int sensor, int number, double sigma, double walk) {
+  errors_.reserve(errors_.size() + 1);
+  Error error{sensor, number, sigma, walk, states_, kNone};
+  if (submaps_ && walk > 0.0) error.walked = states_ + 1;
+  states_ += error.walked == kNone ? 1 : 2;
+  errors_.push_back(error);
+}
+
+bool SystematicErrors::calibrates(int sensor) const {
+  return std::any_of(errors_.begin(), errors_.end(), [&](const Error& e) { return e.sensor == sensor; });
 }
 
 std::vector<double> SystematicErrors::initial_covariance() const {
@@ -61,7 +75,8 @@ double SystematicErrors::value(const State<Pose>& state, Index error) const {
 template <class Pose>
 MotionErrors SystematicErrors::motion(const State<Pose>& state) const {
   MotionErrors motion;
-  for (Index i = 0; i < count(); ++i) motion[number(i)] = value(state, i);
+  for (Index i = 0; i < count(); ++i)
+    if (sensor(i) == kMotion) motion[number(i)] = value(state, i);
   return motion;
 }
 
@@ -70,6 +85,7 @@ MotionCoupling<Pose> SystematicErrors::coupling(const CorrectedStep<Pose>& step,
   MotionCoupling<Pose> coupling;
   coupling.dt = dt;
   for (const Error& error : errors_) {
+    if (error.sensor != kMotion) continue;
     coupling.J.col(error.start) = step.J_error.col(error.number);
     if (error.walked != kNone) coupling.J.col(error.walked) = step.J_error.col(error.number);
   }
