@@ -24,6 +24,23 @@ void SystematicChoices::apply(cairn_filter_options& options) const {
   std::copy(rate_bias_walk.begin(), rate_bias_walk.end(), options.rate_bias_walk);
   std::copy(wheel_scale.begin(), wheel_scale.end(), options.wheel_scale_sigma);
   std::copy(wheel_scale_walk.begin(), wheel_scale_walk.end(), options.wheel_scale_walk);
+  options.max_sensor_errors = 0;
+  for (const auto* sigmas : {&mount_shift, &mount_turn, &value_offset})
+    options.max_sensor_errors += static_cast<std::uint32_t>(
+        std::count_if(sigmas->begin(), sigmas->end(), [](double sigma) { return sigma > 0; }));
+}
+
+cairn_status SystematicChoices::calibrate(cairn_filter* filter, std::int32_t sensor) const {
+  cairn_filter_options room{};
+  apply(room);
+  if (room.max_sensor_errors == 0) return CAIRN_OK;
+  cairn_calibration calibration;
+  const cairn_status status = cairn_calibration_init(&calibration, sizeof calibration);
+  if (status != CAIRN_OK) return status;
+  std::copy(mount_shift.begin(), mount_shift.end(), calibration.mount_shift_sigma);
+  std::copy(mount_turn.begin(), mount_turn.end(), calibration.mount_turn_sigma);
+  std::copy(value_offset.begin(), value_offset.end(), calibration.offset_sigma);
+  return cairn_filter_calibrate_sensor(filter, sensor, &calibration);
 }
 
 std::vector<Option> systematic_flags(SystematicChoices& o) {
@@ -51,6 +68,17 @@ std::vector<Option> systematic_flags(SystematicChoices& o) {
       components({"--wheel-scale-walk", "SIGMA[,SIGMA]",
                   "Random walk of the wheel scale, in the square root of a second. 0 (the default): constant.", ""},
                  options::kNotNegative, 2, o.wheel_scale_walk.data()),
+      components({"--mount-shift", "SIGMA[,SIGMA,SIGMA]",
+                  "Estimate by how much the sensor is shifted against the body, with this standard deviation at the "
+                  "start, m. 0 (the default): not this component.",
+                  ""},
+                 options::kNotNegative, 3, o.mount_shift.data()),
+      components({"--mount-turn", "SIGMA[,SIGMA,SIGMA]",
+                  "Estimate by how much the sensor is turned against the body, about its x, y and z axis, rad.", ""},
+                 options::kNotNegative, 3, o.mount_turn.data()),
+      components({"--value-offset", "SIGMA[,SIGMA,SIGMA]",
+                  "Estimate constant errors of the values of an observation, in their units.", ""},
+                 options::kNotNegative, 3, o.value_offset.data()),
   };
 }
 

@@ -43,6 +43,7 @@ void Runner::create() {
   check(cairn_filter_create(&options, &filter));
   filter_.reset(filter);
   sensor_ = drive_.equip(filter);
+  check(choices_.systematic.calibrate(filter, sensor_));
 }
 
 void Runner::run(const Observer& observe) {
@@ -71,7 +72,10 @@ void Runner::predict() {
     check(cairn_filter_predict_twist(filter_.get(), twist.dt, twist.velocity.data(), twist.rate.data()));
   }
   for (const WheelTurn& turn : step_.wheel_turns) {
-    check(cairn_filter_predict_wheels(filter_.get(), turn.dt, turn.left, turn.right));
+    if (turn.rate)
+      check(cairn_filter_predict_wheels_gyro(filter_.get(), turn.dt, turn.left, turn.right, turn.rate->data()));
+    else
+      check(cairn_filter_predict_wheels(filter_.get(), turn.dt, turn.left, turn.right));
   }
 }
 

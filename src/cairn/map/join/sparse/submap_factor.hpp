@@ -53,7 +53,7 @@ struct FactorErrors {
 // The part of a factor that never changes. Copies of a map share it.
 template <class Pose>
 struct SubmapData {
-  SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>& points);
+  explicit SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>& error_points = {});
 
   ErrorKind error;
   Pose T_base_end;
