@@ -139,18 +139,19 @@ World::Sample World::measure(const SE3& before, const SE3& after) {
   Random random(o.seed, Stream::motion, static_cast<std::uint64_t>(sample_));
   const Vector3 noise = o.velocity_sigma * normal3(random);
   sample.rate = sample.true_rate + o.rate_sigma * normal3(random) + Vector3(o.rate_bias);
+  const Vector2 turning = wheel_rates(tau[0] + o.velocity_bias[0], tau[5], o.wheel_radius, o.track);
   for (int side = 0; side < 2; ++side) {
-    const double rate = sample.true_wheels[side] / (1.0 + o.wheel_scale[side]);
+    const double rate = turning[side] / (1.0 + o.wheel_scale[side]);
     sample.wheels[side] = rate + std::hypot(o.wheel_rate_sigma, o.wheel_slip_sigma * rate) * random.normal();
   }
   if (o.drive == CAIRN_DRIVE_WHEELS_GYRO) {
-    sample.velocity = Vector3(o.wheel_radius * sample.wheels.sum() / 2, 0, 0);  // (Mars paper, eq. 1)
+    // (Mars paper, eq. 1)
+    sample.velocity = Vector3(o.wheel_radius * sample.wheels.sum() / 2, o.velocity_bias[1], o.velocity_bias[2]);
   } else if (o.accelerometer == CAIRN_ACCELEROMETER_ACCELERATION) {
-    sample.velocity = reckon(before, after, noise, sample.rate);
+    sample.velocity = reckon(before, after, noise, sample.rate) + Vector3(o.velocity_bias);
   } else {
-    sample.velocity = sample.true_velocity + noise;
+    sample.velocity = sample.true_velocity + noise + Vector3(o.velocity_bias);
   }
-  sample.velocity += Vector3(o.velocity_bias);
   return sample;
 }
 
