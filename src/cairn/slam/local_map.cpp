@@ -17,12 +17,11 @@ LocalMap<Pose>::LocalMap(Arena& arena, const FilterOptions<Pose>& options)
 
 template <class Pose>
 void LocalMap<Pose>::start(const Pose& pose, const Square& covariance) {
-  start(pose, covariance, systematic_.initial_values(), systematic_.initial_covariance());
+  start(pose, covariance, systematic_.initial_values().data(), systematic_.initial_covariance().data());
 }
 
 template <class Pose>
-void LocalMap<Pose>::start(const Pose& pose, const Square& covariance, const std::vector<double>& values,
-                           const std::vector<double>& errors) {
+void LocalMap<Pose>::start(const Pose& pose, const Square& covariance, const double* values, const double* errors) {
   systematic_.start(state_, pose, covariance, values, errors);
   table_.clear();
 }

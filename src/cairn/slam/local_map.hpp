@@ -24,9 +24,8 @@ class LocalMap final : public Landmarks {
 
   LocalMap(Arena& arena, const FilterOptions<Pose>& options);
   void start(const Pose& pose, const Square& covariance);  // forgets all landmarks, companions and systematic errors
-  // The same, with these values and this covariance of the systematic errors.
-  void start(const Pose& pose, const Square& covariance, const std::vector<double>& values,
-             const std::vector<double>& errors);
+  // The same, with these values and this covariance of the systematic errors. Allocates nothing.
+  void start(const Pose& pose, const Square& covariance, const double* values, const double* errors);
 
   State<Pose>& state() { return state_; }
   const State<Pose>& state() const { return state_; }

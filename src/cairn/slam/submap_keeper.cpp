@@ -72,7 +72,13 @@ void SubmapKeeper<Pose>::make_map() {
     map_ = std::make_unique<SparseMap<Pose>>(map_options(options_, local_.systematic()));
   else
     map_ = std::make_unique<DenseMap<Pose>>(map_options(options_, local_.systematic()));
-  if (shares_errors()) open();
+  if (!shares_errors()) return;
+  const Index g = local_.systematic().count();
+  prior_.resize(g);
+  prior_covariance_.resize(g, g);
+  next_prior_ = prior_;
+  next_covariance_ = prior_covariance_;
+  open();
 }
 
 // The prior of the systematic errors is what the map knows of them. The closing takes exactly this prior out again
@@ -80,11 +86,17 @@ void SubmapKeeper<Pose>::make_map() {
 template <class Pose>
 void SubmapKeeper<Pose>::open() {
   if (!shares_errors()) return local_.start(Pose(), Square::Zero());  // deferred landmarks have to be found again
-  const Index g = local_.systematic().count();
-  prior_ = map_->errors();
-  prior_covariance_ = map_->joint_with_errors(nullptr, 0).block(kDof, kDof, g, g);
-  local_.start(Pose(), Square::Zero(), {prior_.data(), prior_.data() + g},
-               {prior_covariance_.data(), prior_covariance_.data() + g * g});
+  try {
+    const Index g = local_.systematic().count();
+    const Eigen::MatrixXd joint = map_->joint_with_errors(nullptr, 0);
+    next_prior_ = map_->errors();
+    next_covariance_ = joint.block(kDof, kDof, g, g);
+  } catch (const std::bad_alloc&) {
+    // What the last submap knew is a prior, too: every prior is taken out again.
+  }
+  prior_.swap(next_prior_);
+  prior_covariance_.swap(next_covariance_);
+  local_.start(Pose(), Square::Zero(), prior_.data(), prior_covariance_.data());
 }
 
 template <class Pose>
@@ -170,6 +182,7 @@ FixReport SubmapKeeper<Pose>::join(ClosedBy reason, const AbsoluteFix<Pose>* fix
   next.reason = reason;
   next.landmarks = local_.table().counting();
   Submap<Pose> submap = take_submap();
+  if (shares_errors()) systematic(next_prior_.data(), next_covariance_.data());
   if (options_.association != AssociationKind::known) {
     next.naming = name_landmarks(*map_, naming_options(options_), submap);
     if (next.naming.exhausted)

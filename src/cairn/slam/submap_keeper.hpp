@@ -76,7 +76,7 @@ class SubmapKeeper {
   Place place(const std::size_t* indices, std::size_t count) const;
   bool shares_errors() const { return map_ != nullptr && local_.systematic().any(); }
   SubmapErrors take_errors(const std::vector<Index>& slots) const;
-  void open();  // a new submap
+  void open();  // a new submap; after a closing it does not fail
   Submap<Pose> take_submap() const;
   FixReport join(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
   bool moved() const;
@@ -88,6 +88,8 @@ class SubmapKeeper {
   SubmapPolicy<Pose> policy_;
   Eigen::VectorXd prior_;             // of the systematic errors, with which the open submap began
   Eigen::MatrixXd prior_covariance_;  // of the same
+  Eigen::VectorXd next_prior_;        // of the next submap
+  Eigen::MatrixXd next_covariance_;
   ClosingReport closing_;
 };
 

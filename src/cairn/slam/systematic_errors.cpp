@@ -14,6 +14,14 @@ SystematicErrors::SystematicErrors(const SystematicOptions& options, bool submap
     for (Error& error : errors_)
       if (error.walk > 0.0) error.walked = states_++;
   motion_states_ = states_;
+  make_room();
+}
+
+void SystematicErrors::make_room() {
+  const auto n = static_cast<std::size_t>(states_);
+  numbers_.resize(n);
+  walks_.resize(n);
+  joint_.resize(n * n);
 }
 
 bool SystematicErrors::any_twist() const {
@@ -28,6 +36,7 @@ void SystematicErrors::add(int sensor, int number, double sigma, double walk) {
   if (submaps_ && walk > 0.0) error.walked = states_ + 1;
   states_ += error.walked == kNone ? 1 : 2;
   errors_.push_back(error);
+  make_room();
 }
 
 bool SystematicErrors::calibrates(int sensor) const {
@@ -52,18 +61,20 @@ double SystematicErrors::sum(const double* covariance, Index ld, Index i, Index 
 
 template <class Pose>
 void SystematicErrors::start(State<Pose>& state, const Pose& pose, const typename Pose::Square& covariance,
-                             const std::vector<double>& values, const std::vector<double>& errors) const {
+                             const double* values, const double* errors) {
   const auto n = static_cast<std::size_t>(states_);
-  std::vector<double> numbers(n, 0.0), walk(n, 0.0), joint(n * n, 0.0);
+  std::fill(numbers_.begin(), numbers_.end(), 0.0);
+  std::fill(walks_.begin(), walks_.end(), 0.0);
+  std::fill(joint_.begin(), joint_.end(), 0.0);
   for (std::size_t i = 0; i < errors_.size(); ++i) {
     const auto at = static_cast<std::size_t>(errors_[i].start);
-    numbers[at] = values[i];
-    walk[static_cast<std::size_t>(errors_[i].walked == kNone ? errors_[i].start : errors_[i].walked)] =
+    numbers_[at] = values[i];
+    walks_[static_cast<std::size_t>(errors_[i].walked == kNone ? errors_[i].start : errors_[i].walked)] =
         errors_[i].walk * errors_[i].walk;
     for (std::size_t j = 0; j < errors_.size(); ++j)
-      joint[at * n + static_cast<std::size_t>(errors_[j].start)] = errors[i * errors_.size() + j];
+      joint_[at * n + static_cast<std::size_t>(errors_[j].start)] = errors[i * errors_.size() + j];
   }
-  state.start(pose, covariance, {states_, motion_states_, numbers.data(), walk.data(), joint.data()});
+  state.start(pose, covariance, {states_, motion_states_, numbers_.data(), walks_.data(), joint_.data()});
 }
 
 template <class Pose>
@@ -92,10 +103,8 @@ MotionCoupling<Pose> SystematicErrors::coupling(const CorrectedStep<Pose>& step,
   return coupling;
 }
 
-template void SystematicErrors::start(State<SE2>&, const SE2&, const SE2::Square&, const std::vector<double>&,
-                                      const std::vector<double>&) const;
-template void SystematicErrors::start(State<SE3>&, const SE3&, const SE3::Square&, const std::vector<double>&,
-                                      const std::vector<double>&) const;
+template void SystematicErrors::start(State<SE2>&, const SE2&, const SE2::Square&, const double*, const double*);
+template void SystematicErrors::start(State<SE3>&, const SE3&, const SE3::Square&, const double*, const double*);
 template double SystematicErrors::value(const State<SE2>&, Index) const;
 template double SystematicErrors::value(const State<SE3>&, Index) const;
 template MotionErrors SystematicErrors::motion(const State<SE2>&) const;

@@ -37,10 +37,10 @@ class SystematicErrors {
   std::vector<double> initial_values() const { return std::vector<double>(errors_.size(), 0.0); }
   std::vector<double> initial_covariance() const;
 
-  // Starts a state with these values and this covariance of the errors.
+  // Starts a state with these values and this covariance (count() x count()) of the errors. Allocates nothing.
   template <class Pose>
-  void start(State<Pose>& state, const Pose& pose, const typename Pose::Square& covariance,
-             const std::vector<double>& values, const std::vector<double>& errors) const;
+  void start(State<Pose>& state, const Pose& pose, const typename Pose::Square& covariance, const double* values,
+             const double* errors);
   // The estimate of one error, and of all errors of the motion.
   template <class Pose>
   double value(const State<Pose>& state, Index error) const;
@@ -90,7 +90,10 @@ class SystematicErrors {
     double sigma, walk;
     Index start, walked;
   };
+  void make_room();
+
   std::vector<Error> errors_;
+  std::vector<double> numbers_, walks_, joint_;  // scratch of start()
   bool submaps_;
   Index states_ = 0, motion_states_ = 0;
 };
