@@ -74,10 +74,10 @@ void SubmapKeeper<Pose>::make_map() {
     map_ = std::make_unique<DenseMap<Pose>>(map_options(options_, local_.systematic()));
   if (!shares_errors()) return;
   const Index g = local_.systematic().count();
-  prior_.resize(g);
-  prior_covariance_.resize(g, g);
-  next_prior_ = prior_;
-  next_covariance_ = prior_covariance_;
+  next_prior_ = Eigen::VectorXd::Map(local_.systematic().initial_values().data(), g);
+  next_covariance_ = Eigen::MatrixXd::Map(local_.systematic().initial_covariance().data(), g, g);
+  prior_ = next_prior_;
+  prior_covariance_ = next_covariance_;
   open();
 }
 
