@@ -240,8 +240,8 @@ void World::look(const SE3& T_map_body) {
   // (Mars paper, eq. 4)
   const SO3 R_body_platform = SO3::exp(Vector3(0, 0, pan)), R_platform_stick = SO3::exp(Vector3(0, stick, 0));
   const SE3 mount(SO3::exp(Vector3(o.mount_turn)), Vector3(o.mount_shift));  // (docs/systematic_errors.md, eq. 10)
-  const SE3 T_body_camera =
-      mount * SE3(R_body_platform, Vector3(o.platform)) * SE3(R_platform_stick, Vector3::Zero()) * SE3(SO3(), Vector3(o.stick));
+  const SE3 T_body_camera = mount * SE3(R_body_platform, Vector3(o.platform)) * SE3(R_platform_stick, Vector3::Zero()) *
+                            SE3(SO3(), Vector3(o.stick));
   const SE3 T_map_camera = T_map_body * T_body_camera, T_camera_map = T_map_camera.inverse();
   const double elevation_sigma = per_frame ? o.image_sigma : o.stick_sigma;
   landmarks_.near(T_map_camera.translation().x(), T_map_camera.translation().y(), [&](std::uint32_t id) {

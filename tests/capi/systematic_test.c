@@ -286,8 +286,8 @@ static void wheels_with_a_gyro(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(nothing_is_on_by_default),    cmocka_unit_test(errors_are_found),
-      cmocka_unit_test(bad_options_are_refused),     cmocka_unit_test(an_increment_has_no_duration),
+      cmocka_unit_test(nothing_is_on_by_default),     cmocka_unit_test(errors_are_found),
+      cmocka_unit_test(bad_options_are_refused),      cmocka_unit_test(an_increment_has_no_duration),
       cmocka_unit_test(bad_calibrations_are_refused), cmocka_unit_test(wheels_with_a_gyro),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Monte Carlo test of systematic errors as states (docs/systematic_errors.md): a rover whose velocity, rate, wheels and
-// head are wrong, in worlds of libcairn_sim. The errors of each world are drawn from the filter's prior. The same worlds
-// without errors, and a filter that does not know about them, run beside it.
+// head are wrong, in worlds of libcairn_sim. The errors of each world are drawn from the filter's prior. The same
+// worlds without errors, and a filter that does not know about them, run beside it.
 //
 // The NEES of the pose, averaged over the worlds, has to lie in its 95 % band at most times, and the error must not be
 // much larger than that of a rover without errors.

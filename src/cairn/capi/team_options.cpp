@@ -66,9 +66,10 @@ TeamOptions team_options(const cairn_team_options& o, const cairn_filter_options
     throw Error(ErrorCode::argument, "filter: its vehicle is spatial; a team's is CAIRN_VEHICLE_PLANAR");
   options.filter = *planar;
   if (SystematicErrors(planar->systematic, false).any() || planar->max_sensor_errors > 0)
-    throw Error(ErrorCode::argument,
-                "filter: the filters of a team estimate no systematic errors; set velocity_bias_sigma, rate_bias_sigma, "
-                "wheel_scale_sigma and max_sensor_errors to 0");
+    throw Error(
+        ErrorCode::argument,
+        "filter: the filters of a team estimate no systematic errors; set velocity_bias_sigma, rate_bias_sigma, "
+        "wheel_scale_sigma and max_sensor_errors to 0");
   options.filter.max_sensors = 2;
   options.radar = read_range_bearing(radar);
   const bool extended = options.mode == TeamMode::eo_diagonal || options.mode == TeamMode::eo_full;

@@ -38,8 +38,8 @@ UpdateWorkspace<Pose>::UpdateWorkspace(Arena& arena, const StateCapacity<Pose>& 
       scratch(arena.take<double>(
           std::max({solve_workspace(capacity.rows()),
                     static_cast<std::size_t>(capacity.rows() * capacity.rows()) + cholesky_workspace(capacity.rows()),
-                    update_triangle_workspace(
-                        capacity.states(), capacity.rows() + (capacity.systematic > 0 ? 2 : 1) * Pose::kTurn)}))),
+                    update_triangle_workspace(capacity.states(),
+                                              capacity.rows() + (capacity.systematic > 0 ? 2 : 1) * Pose::kTurn)}))),
       kept(arena.take<Index>(capacity.rows())),
       refused(arena.take<bool>(capacity.rows())) {}
 
@@ -85,7 +85,8 @@ bool State<Pose>::propagate(const Increment<Pose>& increment, const MotionCoupli
 template <class Pose>
 void State<Pose>::write_covariance(Index rank, const double* columns) {
   const Index n = states();
-  for (Index c = 0; c < layout_.moving(); ++c) std::copy(columns + c * ld_ + c, columns + c * ld_ + n, P_.column(c) + c);
+  for (Index c = 0; c < layout_.moving(); ++c)
+    std::copy(columns + c * ld_ + c, columns + c * ld_ + n, P_.column(c) + c);
   const TriangleTerm terms[] = {
       {workspace_.W, ld_, workspace_.W, ld_, rank, -1.0}, motion_.term(), motion_.second_term()};
   if (rank + motion_.rank() > 0)

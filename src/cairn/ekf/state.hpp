@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The state of a filter: one pose, systematic errors, many points (landmarks and companions), and their covariance, of
-// which this class is the only owner. ErrorModel defines which error the covariance describes. StateLayout defines the offset of each
-// variable.
+// which this class is the only owner. ErrorModel defines which error the covariance describes. StateLayout defines the
+// offset of each variable.
 //
 // Only the lower triangle of P is kept. Motion between two updates costs O(1): PendingMotion holds it back until the
 // next update. begin() makes an update (ekf_update.hpp).
@@ -103,8 +103,8 @@ class State {
     double* cross;  // of every state with it; gets the new point's rows
   };
   // Appends a landmark that depends on the pose (ordinary Jacobian), on a shared mount (J_mount and `mount` may be
-  // null), on systematic errors (`errors` may be null), and on independent noise. Returns false, with nothing changed, if a result is not finite. The caller checks
-  // the capacity.
+  // null), on systematic errors (`errors` may be null), and on independent noise. Returns false, with nothing changed,
+  // if a result is not finite. The caller checks the capacity.
   bool augment(const Point& position, const PointByPose& J_pose, const PointSquare& noise, bool relative,
                const PointByMount* J_mount = nullptr, const SharedMount* mount = nullptr,
                const ErrorColumns<kDim>* errors = nullptr);
@@ -138,8 +138,8 @@ class State {
     Index fused_count;
     const Point* fresh;  // landmarks not known here, in the submap's frame
     Index fresh_count;
-    // Error (of the error model) of [end pose; what walked; fresh landmarks] in the submap: K y + w. w has covariance W,
-    // and y is the ordinary error of [systematic errors; fused landmarks].
+    // Error (of the error model) of [end pose; what walked; fresh landmarks] in the submap: K y + w. w has covariance
+    // W, and y is the ordinary error of [systematic errors; fused landmarks].
     Eigen::MatrixXd K, W;
     const Index* walking = nullptr;  // systematic errors that walked in the submap
     Index walking_count = 0;

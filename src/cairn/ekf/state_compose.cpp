@@ -61,8 +61,7 @@ void State<Pose>::compose(const Handover& handover) {
   A.block(kDim, kDim, kTurn, kTurn) += Eigen::Matrix<double, kTurn, kTurn>::Identity();
   B.block(kDim, kDim, kTurn, kTurn) = J_turn;
   set_point(0, 0, R * handover.T_base_end.translation());
-  for (Index a = 0; a < fresh; ++a)
-    set_point(moving + kDim * a, kDof + walked + kDim * a, R * handover.fresh[a]);
+  for (Index a = 0; a < fresh; ++a) set_point(moving + kDim * a, kDof + walked + kDim * a, R * handover.fresh[a]);
   A.block(kDof, kDof, own, own).setIdentity();
   for (Index k = 0; k < walked; ++k) {
     A.row(kDof + handover.walking[k]) += KY.row(kDof + k);

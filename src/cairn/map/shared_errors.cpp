@@ -56,8 +56,8 @@ GivenErrors given_errors(const Eigen::MatrixXd& covariance, const SubmapErrors& 
   GivenErrors given;
   // Scaled to unit diagonal: metres per second and radians per second differ by orders of magnitude.
   const Eigen::VectorXd scale = errors.covariance.diagonal().head(g).cwiseSqrt();
-  const Matrix own = scale.cwiseInverse().asDiagonal() * errors.covariance.topLeftCorner(g, g) *
-                     scale.cwiseInverse().asDiagonal();
+  const Matrix own =
+      scale.cwiseInverse().asDiagonal() * errors.covariance.topLeftCorner(g, g) * scale.cwiseInverse().asDiagonal();
   const Eigen::LDLT<Matrix> factor(own);
   const Matrix scaled = scale.cwiseInverse().asDiagonal() * across.transpose();
   given.K = (scale.cwiseInverse().asDiagonal() * Matrix(factor.solve(scaled))).transpose();

@@ -38,8 +38,8 @@ struct ErrorRows {
 // What the submap found out about s: its posterior without the prior that it began with (eq. 12).
 ErrorRows found_out(const SubmapErrors& errors);
 
-// A submap given s: its estimates move by K (s - value), and their covariance is that of the rest (eq. 13). The rows are
-// [end; landmarks; d].
+// A submap given s: its estimates move by K (s - value), and their covariance is that of the rest (eq. 13). The rows
+// are [end; landmarks; d].
 struct GivenErrors {
   Eigen::MatrixXd K, covariance;
 };

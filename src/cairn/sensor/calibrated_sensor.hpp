@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sensor whose mount and values have systematic errors (docs/systematic_errors.md, eq. 10 and 11). It wraps any sensor.
+// A sensor whose mount and values have systematic errors (docs/systematic_errors.md, eq. 10 and 11). It wraps any
+// sensor.
 //
-// The mount's error E = (Exp(phi), m) turns and shifts the sensor against the body: the sensor works as if the body were
-// at T E. Values come out too large by their offset.
+// The mount's error E = (Exp(phi), m) turns and shifts the sensor against the body: the sensor works as if the body
+// were at T E. Values come out too large by their offset.
 #pragma once
 
 #include "sensor/sensor.hpp"

@@ -39,8 +39,7 @@ void Filter<Pose>::calibrate(int sensor, const Calibration<Pose>& sigma, const C
   if (started_)
     throw Error(ErrorCode::state,
                 "sensor: the filter has moved or observed something already; calibrate its sensors before that");
-  if (errors.calibrates(sensor))
-    throw Error(ErrorCode::state, "sensor: number %d has a calibration already", sensor);
+  if (errors.calibrates(sensor)) throw Error(ErrorCode::state, "sensor: number %d has a calibration already", sensor);
   Index count = 0, used = 0;
   for (int i = 0; i < kCalibrationErrors<Pose>; ++i) {
     if (!(sigma[i] > 0.0)) continue;

@@ -50,8 +50,7 @@ bool FrameUpdate<Pose>::fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
     const Index row = update.batch().add_rows(rows);
     const auto pose = update.add_pose_block(row, rows, prediction.J_z_pose, sensor.relative());
     if (frame.calibrated != nullptr) {
-      const auto by_errors =
-          errors.columns(frame.number, frame.calibrated->by_calibration(update.pose(), prediction));
+      const auto by_errors = errors.columns(frame.number, frame.calibrated->by_calibration(update.pose(), prediction));
       update.add_systematic_block(row, rows, by_errors.J, by_errors.first, by_errors.count);
     }
     if (mode == MountNoise::per_frame) update.add_mount_block(row, rows, prediction.J_z_mount);

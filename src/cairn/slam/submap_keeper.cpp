@@ -264,8 +264,8 @@ typename SubmapKeeper<Pose>::Place SubmapKeeper<Pose>::place(const std::size_t* 
   Eigen::VectorXd s = map_->errors(), correction = Eigen::VectorXd::Zero(moving);
   if (found.rows.rows() > 0) {
     const Eigen::MatrixXd cross = joint.middleCols(kDof, g) * found.rows.transpose();
-    const Eigen::MatrixXd S = found.rows * cross.middleRows(kDof, g) +
-                              Eigen::MatrixXd::Identity(found.rows.rows(), found.rows.rows());
+    const Eigen::MatrixXd S =
+        found.rows * cross.middleRows(kDof, g) + Eigen::MatrixXd::Identity(found.rows.rows(), found.rows.rows());
     const Eigen::MatrixXd gain = S.ldlt().solve(cross.transpose()).transpose();
     correction = gain.topRows(moving) * (found.values - found.rows * s);
     joint -= gain * cross.transpose();
@@ -285,8 +285,8 @@ typename SubmapKeeper<Pose>::Place SubmapKeeper<Pose>::place(const std::size_t* 
   A.topLeftCorner(kDof, kDof) = J.by_a;
   A.block(0, kDof, kDof, g) = J.by_b * to_ordinary * given.K.topRows<kDof>();
   A.bottomRightCorner(landmarks, landmarks).setIdentity();
-  const Square noise = J.by_b * to_ordinary * given.covariance.topLeftCorner<kDof, kDof>() *
-                       to_ordinary.transpose() * J.by_b.transpose();
+  const Square noise = J.by_b * to_ordinary * given.covariance.topLeftCorner<kDof, kDof>() * to_ordinary.transpose() *
+                       J.by_b.transpose();
   Place out{base * local, A * joint * A.transpose()};
   out.joint.topLeftCorner<kDof, kDof>() += noise;
   out.joint = (0.5 * (out.joint + out.joint.transpose())).eval();

@@ -25,9 +25,8 @@ void SystematicErrors::make_room() {
 }
 
 bool SystematicErrors::any_twist() const {
-  return std::any_of(errors_.begin(), errors_.end(), [](const Error& e) {
-    return e.sensor == kMotion && e.number < MotionErrors::kScale;
-  });
+  return std::any_of(errors_.begin(), errors_.end(),
+                     [](const Error& e) { return e.sensor == kMotion && e.number < MotionErrors::kScale; });
 }
 
 void SystematicErrors::add(int sensor, int number, double sigma, double walk) {

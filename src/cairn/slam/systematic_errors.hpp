@@ -25,7 +25,7 @@ class SystematicErrors {
   // One number of a sensor's calibration (CalibratedSensor). The caller checks the capacity.
   void add(int sensor, int number, double sigma, double walk);
   bool calibrates(int sensor) const;
-  Index states() const { return states_; }        // of the open submap or the single map
+  Index states() const { return states_; }  // of the open submap or the single map
   Index motion_states() const { return motion_states_; }
   // The sensor of an error, or kMotion; and its number in the sensor's calibration or in MotionErrors.
   static constexpr int kMotion = -1;

@@ -12,7 +12,8 @@ Option components(const OptionText& text, const options::Bounds& bounds, std::si
     std::vector<double> numbers;
     std::stringstream words(value);
     for (std::string word; std::getline(words, word, ',');) numbers.push_back(parse_number(name, word, bounds));
-    if (numbers.size() != 1 && numbers.size() != count) reject(name, value, "1 or " + std::to_string(count) + " numbers");
+    if (numbers.size() != 1 && numbers.size() != count)
+      reject(name, value, "1 or " + std::to_string(count) + " numbers");
     for (std::size_t i = 0; i < count; ++i) target[i] = numbers[numbers.size() == 1 ? 0 : i];
   });
 }
@@ -50,21 +51,22 @@ std::vector<Option> systematic_flags(SystematicChoices& o) {
                   "one number, or one each for forward, left and up. 0 (the default): not this component.",
                   "See docs/systematic_errors.md. The filter then moves by the measured velocity minus the estimate."},
                  options::kNotNegative, 3, o.velocity_bias.data()),
-      components({"--velocity-bias-walk", "SIGMA[,SIGMA,SIGMA]",
-                  "Random walk of the velocity bias, m/s in the square root of a second. 0 (the default): constant.",
-                  ""},
-                 options::kNotNegative, 3, o.velocity_bias_walk.data()),
+      components(
+          {"--velocity-bias-walk", "SIGMA[,SIGMA,SIGMA]",
+           "Random walk of the velocity bias, m/s in the square root of a second. 0 (the default): constant.", ""},
+          options::kNotNegative, 3, o.velocity_bias_walk.data()),
       components({"--rate-bias", "SIGMA[,SIGMA,SIGMA]",
                   "Estimate a constant error of the measured turning rate, rad/s, as `--velocity-bias` does.", ""},
                  options::kNotNegative, 3, o.rate_bias.data()),
       components({"--rate-bias-walk", "SIGMA[,SIGMA,SIGMA]",
                   "Random walk of the rate bias, rad/s in the square root of a second. 0 (the default): constant.", ""},
                  options::kNotNegative, 3, o.rate_bias_walk.data()),
-      components({"--wheel-scale", "SIGMA[,SIGMA]",
-                  "Estimate a scale of the measured wheel rates, with this standard deviation at the start: one number, "
-                  "or one each for the left and the right wheels. 0 (the default): no scale.",
-                  "A wheel turns at its measured rate times 1 plus its scale."},
-                 options::kNotNegative, 2, o.wheel_scale.data()),
+      components(
+          {"--wheel-scale", "SIGMA[,SIGMA]",
+           "Estimate a scale of the measured wheel rates, with this standard deviation at the start: one number, "
+           "or one each for the left and the right wheels. 0 (the default): no scale.",
+           "A wheel turns at its measured rate times 1 plus its scale."},
+          options::kNotNegative, 2, o.wheel_scale.data()),
       components({"--wheel-scale-walk", "SIGMA[,SIGMA]",
                   "Random walk of the wheel scale, in the square root of a second. 0 (the default): constant.", ""},
                  options::kNotNegative, 2, o.wheel_scale_walk.data()),

@@ -91,8 +91,7 @@ struct Held {
     // The systematic errors that motion depends on are errors of the increment, too (docs/systematic_errors.md, eq. 5).
     F.middleCols(kDof, motion.motion()) += L * coupling.J.leftCols(motion.motion());
     dense = (F * dense * F.transpose() + L * increment.covariance * L.transpose()).eval();
-    for (Index i = 0; i < systematic; ++i)
-      dense(kDof + i, kDof + i) += walk[static_cast<std::size_t>(i)] * coupling.dt;
+    for (Index i = 0; i < systematic; ++i) dense(kDof + i, kDof + i) += walk[static_cast<std::size_t>(i)] * coupling.dt;
     pose = next;
   }
   // P_now from the parts of the held motion, combined like in an update.
@@ -194,7 +193,8 @@ TEST_CASE_TEMPLATE("pending motion: what is not finite is refused, and a snapsho
   }
 }
 
-TEST_CASE_TEMPLATE("pending motion: systematic errors move pose and points with all their correlations", Pose, SE2, SE3) {
+TEST_CASE_TEMPLATE("pending motion: systematic errors move pose and points with all their correlations", Pose, SE2,
+                   SE3) {
   constexpr int kDof = Pose::kDof, kTurn = Pose::kTurn;
   for (const ErrorKind error : kBoth)
     for (unsigned seed = 1; seed <= 5; ++seed) {
@@ -271,8 +271,7 @@ TEST_CASE_TEMPLATE("pending motion: the coupling is the derivative of the own er
       for (int k = 0; k < 5; ++k) {
         twists.push_back(random.normal_vector<kDof>());
         typename Pose::Square J;
-        const Increment<Pose> step =
-            integrate_twist<Pose>(twists.back(), 0.3, Pose::Square::Identity(), &J);
+        const Increment<Pose> step = integrate_twist<Pose>(twists.back(), 0.3, Pose::Square::Identity(), &J);
         MotionCoupling<Pose> coupling;
         coupling.dt = 0.3;
         coupling.J.template leftCols<kDof>() = -J;

@@ -84,7 +84,8 @@ TEST_CASE("calibrated sensor: Jacobians in the plane") {
     }
 }
 
-TEST_CASE("calibrated sensor: the sensor works as if the body were at T E, and its values are too large by the offset") {
+TEST_CASE(
+    "calibrated sensor: the sensor works as if the body were at T E, and its values are too large by the offset") {
   const Cartesian<SE3> sensor;
   Calibration<SE3> errors;
   errors << 0.1, -0.2, 0.3, 0.02, 0.01, -0.03, 0.5, 0.6, 0.7;

@@ -159,8 +159,7 @@ void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t*
     variables.push_back(v);
     touches.push_back(state.solution.tree.touch(v, state.leaves[leaf].key));
   };
-  for (const Number point : error_points)
-    want(landmark_variable(point), static_cast<Number>(state.leaves.size() - 1));
+  for (const Number point : error_points) want(landmark_variable(point), static_cast<Number>(state.leaves.size() - 1));
   for (std::size_t i = 0; i < count; ++i) {
     const Number landmark = state.visible[indices[i]], leaf = state.landmarks[landmark].submaps[0];
     if (state.shared(landmark))
@@ -215,7 +214,8 @@ void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t*
 template <class Pose>
 Eigen::VectorXd errors_of(const SparseState<Pose>& state) {
   const ErrorPoints<Pose>& points = state.error_points;
-  const Eigen::VectorXd values = state.error_values(state.errors_at(static_cast<std::uint32_t>(state.bases.size() - 1)));
+  const Eigen::VectorXd values =
+      state.error_values(state.errors_at(static_cast<std::uint32_t>(state.bases.size() - 1)));
   Eigen::VectorXd errors(points.count());
   for (Index i = 0; i < points.count(); ++i) errors(i) = points.unit(i) * values(points.at(i));
   return errors;

@@ -16,9 +16,9 @@
 
 namespace cairn {
 
-// Systematic errors that the submaps share are points, too: entries of `landmarks` that no caller sees, whose axes never
-// turn (ErrorPoints says which numbers they hold). A copy is independent; it shares only data that never changes. Submap j, the leaf j of the tree, leads from base j to
-// base j + 1.
+// Systematic errors that the submaps share are points, too: entries of `landmarks` that no caller sees, whose axes
+// never turn (ErrorPoints says which numbers they hold). A copy is independent; it shares only data that never changes.
+// Submap j, the leaf j of the tree, leads from base j to base j + 1.
 template <class Pose>
 struct SparseState {
   static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
@@ -70,9 +70,9 @@ struct SparseState {
     // the submap's farthest landmark by the same distance.
     double length_scale = std::numeric_limits<double>::infinity(), turn_scale = length_scale;
     double error_scale = length_scale;  // of points of systematic errors
-    std::vector<Number> pending;  // leaves evaluated since the tree took their forces
-    bool settled = true;          // whether the last optimisation converged
-    std::vector<Number> stale;    // leaves to be linearised anew
+    std::vector<Number> pending;        // leaves evaluated since the tree took their forces
+    bool settled = true;                // whether the last optimisation converged
+    std::vector<Number> stale;          // leaves to be linearised anew
   };
 
   explicit SparseState(const MapOptions<Pose>& map_options);

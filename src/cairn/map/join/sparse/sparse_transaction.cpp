@@ -58,8 +58,7 @@ typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::append(const S
   const auto number = static_cast<Number>(state_.leaves.size());
   const Pose base = state_.bases.back();
   change_->add_base(base * submap.T_base_end);
-  typename State::Leaf leaf =
-      change_->new_leaf(std::make_shared<const SubmapData<Pose>>(submap, state_.error_points));
+  typename State::Leaf leaf = change_->new_leaf(std::make_shared<const SubmapData<Pose>>(submap, state_.error_points));
   hold_errors(leaf, number);
   TreeChanges changes;
   std::vector<Number> reshaped;

@@ -25,9 +25,9 @@ class ErrorPoints {
   explicit ErrorPoints(const SharedErrorOptions& options);
 
   Eigen::Index count() const { return static_cast<Eigen::Index>(at_.size()); }  // errors
-  Eigen::Index constant() const { return constant_; }                          // points
-  Eigen::Index walking() const { return walking_; }                            // points at a base
-  Eigen::Index size() const { return Pose::kDim * (constant_ + walking_); }    // numbers of [constant; at one base]
+  Eigen::Index constant() const { return constant_; }                           // points
+  Eigen::Index walking() const { return walking_; }                             // points at a base
+  Eigen::Index size() const { return Pose::kDim * (constant_ + walking_); }     // numbers of [constant; at one base]
   // Of a factor: [constant; walking at the base; walking at the end].
   Eigen::Index factor_points() const { return constant_ + 2 * walking_; }
   Eigen::Index at(Eigen::Index error) const { return at_[static_cast<std::size_t>(error)]; }  // among these numbers
@@ -44,10 +44,10 @@ class ErrorPoints {
 
 // What a submap tells about systematic errors, in the numbers of ErrorPoints at its base.
 struct FactorErrors {
-  Eigen::VectorXd value;      // at which K was computed
-  Eigen::MatrixXd K;          // of [end; landmarks; walked]
-  Eigen::VectorXd walked;     // estimate, of the errors that walk
-  ErrorRows found;            // what the submap found out about the errors themselves
+  Eigen::VectorXd value;   // at which K was computed
+  Eigen::MatrixXd K;       // of [end; landmarks; walked]
+  Eigen::VectorXd walked;  // estimate, of the errors that walk
+  ErrorRows found;         // what the submap found out about the errors themselves
 };
 
 // The part of a factor that never changes. Copies of a map share it.
