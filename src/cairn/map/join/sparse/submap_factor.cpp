@@ -54,51 +54,7 @@ Matrix invert(const Matrix& covariance) {
   return scaled.scale.asDiagonal() * inverse * scaled.scale.asDiagonal();
 }
 
-// Converts to the numbers of ErrorPoints; in `given` the rows of what the errors walked.
-template <class Pose>
-FactorErrors factor_errors(const SubmapErrors& errors, const ErrorPoints<Pose>& points, GivenErrors& given) {
-  const Index walkers = errors.walked.size(), rows = given.K.rows(), first = rows - walkers;
-  FactorErrors out;
-  out.walked = errors.walked;
-  for (Index w = 0; w < walkers; ++w) {
-    const double unit = points.unit(points.walkers()[static_cast<std::size_t>(w)]);
-    out.walked(w) /= unit;
-    given.K.row(first + w) /= unit;
-    given.covariance.row(first + w) /= unit;
-    given.covariance.col(first + w) /= unit;
-  }
-  out.found = found_out(errors);
-  Matrix found = Matrix::Zero(out.found.rows.rows(), points.size());
-  out.value = Vector::Zero(points.size());
-  out.K = Matrix::Zero(rows, points.size());
-  for (Index i = 0; i < points.count(); ++i) {
-    out.value(points.at(i)) = errors.value(i) / points.unit(i);
-    out.K.col(points.at(i)) = points.unit(i) * given.K.col(i);
-    found.col(points.at(i)) = points.unit(i) * out.found.rows.col(i);
-  }
-  out.found.rows = found;
-  return out;
-}
-
 }  // namespace
-
-template <class Pose>
-ErrorPoints<Pose>::ErrorPoints(const SharedErrorOptions& options)
-    : unit_(options.sigma), at_(options.sigma.size()), walkers_(options.walking) {
-  const Index walking = static_cast<Index>(walkers_.size()), constant = options.count() - walking;
-  constant_ = (constant + Pose::kDim - 1) / Pose::kDim;
-  walking_ = (walking + Pose::kDim - 1) / Pose::kDim;
-  Index next_constant = 0, next_walking = Pose::kDim * constant_;
-  for (std::size_t i = 0; i < at_.size(); ++i) {
-    const bool walks = std::find(walkers_.begin(), walkers_.end(), static_cast<Index>(i)) != walkers_.end();
-    at_[i] = walks ? next_walking++ : next_constant++;
-  }
-}
-
-template <class Pose>
-bool ErrorPoints<Pose>::used(Index number) const {
-  return std::find(at_.begin(), at_.end(), number) != at_.end();
-}
 
 template <class Pose>
 SubmapData<Pose>::SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>& error_points)
@@ -133,16 +89,6 @@ std::vector<Index> SubmapFactor<Pose>::states() const {
   for (Index w = data_->covariance.size() - data_->errors.walked.size(); w < data_->covariance.size(); ++w)
     states.push_back(w);
   return states;
-}
-
-template <class Pose>
-Vector SubmapFactor<Pose>::error_shift(const Values& values) const {
-  return values.errors.head(data_->points.size()) - data_->errors.value;
-}
-
-template <class Pose>
-Matrix SubmapFactor<Pose>::K() const {
-  return data_->errors.K(states(), Eigen::all);
 }
 
 template <class Pose>
@@ -260,26 +206,6 @@ typename SubmapFactor<Pose>::Evaluation SubmapFactor<Pose>::evaluate(const Value
   return out;
 }
 
-// Of the points' numbers, those at the end hold errors where those at the base do.
-template <class Pose>
-bool SubmapFactor<Pose>::uses(Index number) const {
-  return data_->points.used(number < data_->points.size() ? number : number - data_->points.from_base_to_end());
-}
-
-template <class Pose>
-Matrix SubmapFactor<Pose>::error_jacobian() const {
-  Matrix E = Matrix::Zero(rows(), error_columns());
-  if (E.cols() == 0) return E;
-  E.leftCols(data_->points.size()) = -K();
-  const Index walkers = data_->errors.walked.size();
-  for (Index w = 0; w < walkers; ++w) {
-    const Index at = data_->points.at(data_->points.walkers()[static_cast<std::size_t>(w)]);
-    E(rows() - walkers + w, at) -= 1.0;
-    E(rows() - walkers + w, at + data_->points.from_base_to_end()) += 1.0;
-  }
-  return E;
-}
-
 template <class Pose>
 Matrix SubmapFactor<Pose>::dense_jacobian(const Values& values) const {
   const Jacobian J = jacobian(values, whole_error(values));
@@ -335,22 +261,6 @@ Matrix SubmapFactor<Pose>::hessian(const Values& values, const std::vector<Rotat
   }
   if (error_columns() > 0) add_error_hessian(information, weighted, own, H);
   return H;
-}
-
-template <class Pose>
-void SubmapFactor<Pose>::add_error_hessian(const Matrix& information, const Matrix& weighted_poses,
-                                           const std::vector<PointSquare>& landmark_axes, Matrix& H) const {
-  const Index first = column(shared_count()), size = data_->points.size();
-  const Matrix E = error_jacobian();
-  const Matrix weighted = information.selfadjointView<Eigen::Lower>() * E;
-  H.block(first, 0, E.cols(), 2 * kDof) = E.transpose() * weighted_poses;
-  for (Index j = 0; j < shared_count(); ++j)
-    H.block(first, column(j), E.cols(), kDim) =
-        weighted.middleRows<kDim>(kDof + kDim * j).transpose() * landmark_axes[static_cast<std::size_t>(j)];
-  H.block(first, first, E.cols(), E.cols()) = E.transpose() * weighted;
-  H.block(first, first, size, size) += data_->errors.found.rows.transpose() * data_->errors.found.rows;
-  for (Index k = 0; k < E.cols(); ++k)
-    if (!uses(k)) H(first + k, first + k) += 1.0;
 }
 
 template <class Pose>
@@ -427,8 +337,6 @@ void SubmapFactor<Pose>::express_private(const std::vector<Index>& landmarks, co
   W = (0.5 * (W + W.transpose())).eval();
 }
 
-template class ErrorPoints<SE2>;
-template class ErrorPoints<SE3>;
 template struct SubmapData<SE2>;
 template struct SubmapData<SE3>;
 template class SubmapFactor<SE2>;

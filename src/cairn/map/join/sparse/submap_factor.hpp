@@ -10,45 +10,11 @@
 #include <memory>
 #include <vector>
 
+#include "map/join/sparse/error_points.hpp"
 #include "map/join/sparse/packed.hpp"
 #include "map/submap.hpp"
 
 namespace cairn {
-
-// How the variables of the systematic errors hold the errors: in points of kDim numbers. Errors that do not walk have
-// the same points in all submaps; those that walk have points at each base. An error counts in units of its standard
-// deviation at the start. Numbers of a point that hold no error are zero.
-template <class Pose>
-class ErrorPoints {
- public:
-  ErrorPoints() = default;
-  explicit ErrorPoints(const SharedErrorOptions& options);
-
-  Eigen::Index count() const { return static_cast<Eigen::Index>(at_.size()); }  // errors
-  Eigen::Index constant() const { return constant_; }                           // points
-  Eigen::Index walking() const { return walking_; }                             // points at a base
-  Eigen::Index size() const { return Pose::kDim * (constant_ + walking_); }     // numbers of [constant; at one base]
-  // Of a factor: [constant; walking at the base; walking at the end].
-  Eigen::Index factor_points() const { return constant_ + 2 * walking_; }
-  Eigen::Index at(Eigen::Index error) const { return at_[static_cast<std::size_t>(error)]; }  // among these numbers
-  Eigen::Index from_base_to_end() const { return Pose::kDim * walking_; }  // distance of the numbers of one error
-  double unit(Eigen::Index error) const { return unit_[static_cast<std::size_t>(error)]; }
-  const std::vector<Eigen::Index>& walkers() const { return walkers_; }
-  bool used(Eigen::Index number) const;
-
- private:
-  std::vector<double> unit_;
-  std::vector<Eigen::Index> at_, walkers_;
-  Eigen::Index constant_ = 0, walking_ = 0;
-};
-
-// What a submap tells about systematic errors, in the numbers of ErrorPoints at its base.
-struct FactorErrors {
-  Eigen::VectorXd value;   // at which K was computed
-  Eigen::MatrixXd K;       // of [end; landmarks; walked]
-  Eigen::VectorXd walked;  // estimate, of the errors that walk
-  ErrorRows found;         // what the submap found out about the errors themselves
-};
 
 // The part of a factor that never changes. Copies of a map share it.
 template <class Pose>
@@ -141,8 +107,6 @@ class SubmapFactor {
   Packed information_;  // Sigma^-1 of [end; shared]
 };
 
-extern template class ErrorPoints<SE2>;
-extern template class ErrorPoints<SE3>;
 extern template struct SubmapData<SE2>;
 extern template struct SubmapData<SE3>;
 extern template class SubmapFactor<SE2>;
