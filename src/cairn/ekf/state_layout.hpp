@@ -71,7 +71,7 @@ class StateLayout {
 template <int kRows>
 struct ErrorColumns {
   static constexpr Index kMost = 18;
-  Eigen::Matrix<double, kRows, kMost> J;
+  Eigen::Matrix<double, kRows, kMost> J = Eigen::Matrix<double, kRows, kMost>::Zero();
   Index first = 0, count = 0;
 };
 
