@@ -2,6 +2,7 @@
 // Options of teams.
 #include "capi/convert.hpp"
 #include "capi/team_handle.hpp"
+#include "slam/systematic_errors.hpp"
 
 namespace cairn {
 namespace capi {

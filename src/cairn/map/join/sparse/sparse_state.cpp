@@ -94,7 +94,7 @@ void SparseState<Pose>::shape(Leaf& leaf, Number number) const {
 // linearisation stays valid when the map around it turns as a whole.
 template <class Pose>
 const typename SparseState<Pose>::Rotation& SparseState<Pose>::axes(Variable v) const {
-  static const Rotation kStill;
+  static const Rotation kStill{};
   if (is_error(v)) return kStill;
   const auto number = static_cast<Number>(v >> 1);
   return bases[is_landmark(v) ? landmarks[number].submaps[0] : number].rotation();

@@ -35,7 +35,7 @@ template <class Pose>
 struct FactorValues {
   Pose base, end;
   std::vector<typename Pose::Point> shared;  // in the map frame, in the order of the factor's shared landmarks
-  Eigen::VectorXd errors;                    // of the factor's points
+  Eigen::VectorXd errors = {};               // of the factor's points
 };
 
 // The factor for one choice of shared landmarks.
