@@ -116,7 +116,7 @@ class BrowserTest(unittest.TestCase):
             self.browser.call("Emulation.setDeviceMetricsOverride", width=1000, **metrics)
 
     def test_teams(self):
-        for name, options, curves, mark in (("boats", [], 7, "vehicle 2"), ("modes", ["--compare", "--runs", "2"], 6, "true")):
+        for name, options, curves, mark in (("boats", [], 14, "radar 2"), ("modes", ["--compare", "--runs", "2"], 26, "true")):
             folder = os.path.join(self.room.name, name)
             subprocess.run([os.environ["CAIRN_PROGRAM"], "simulate", "usv", "--duration", "200", "--output", folder, "--quiet",
                             *options], check=True, stdout=subprocess.DEVNULL)
@@ -128,6 +128,9 @@ class BrowserTest(unittest.TestCase):
             self.assertIn(mark, self.browser.evaluate("document.getElementById('curve0').data.map(t => t.name)"))
             drawn = self.browser.evaluate("document.querySelectorAll('#curve0 .trace, #curve0 .bars .point').length")
             self.assertGreater(drawn, 3)
+            empty = self.browser.evaluate("[...document.querySelectorAll('.plot')].filter(p => !p.querySelector('.trace, .point'))"
+                                          ".map(p => p.id)")
+            self.assertEqual(empty, [])
 
     def test_the_papers_figures(self):
         for kind, begin in (("png", b"\x89PNG\r\n"), ("svg", b"<?xml")):

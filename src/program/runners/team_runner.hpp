@@ -39,7 +39,11 @@ struct VehicleScore {
 struct VehicleEstimate {
   cairn_pose pose;
   double covariance[36];
+  double seconds = 0;  // of this step in the library, with the vehicle's share of the packets
 };
+
+// Frobenius norm of the covariance of the position in the plane, m^2.
+double position_norm(const double covariance[36]);
 
 struct TeamResult {
   std::vector<VehicleScore> vehicles;
@@ -71,6 +75,7 @@ class TeamRunner {
   TeamDrive& drive_;
   TeamChoices choices_;
   std::vector<Team> teams_;
+  std::vector<double> seconds_;  // of each vehicle in the current step
   std::vector<std::map<std::uint64_t, std::map<std::uint64_t, std::size_t>>> votes_;  // by vehicle and landmark
 };
 
