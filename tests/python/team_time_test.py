@@ -5,7 +5,7 @@ import os
 import tempfile
 import unittest
 
-import support
+import support  # noqa: F401
 import numpy as np
 from reports import call, read_page
 from cairn.report import team, team_curves, team_time

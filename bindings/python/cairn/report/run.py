@@ -8,7 +8,7 @@ import os
 import numpy as np
 
 WHOLE = {"id", "submap"}    # columns whose values a double may not hold exactly
-WORDS = {"kind", "mode", "reason", "result"}
+WORDS = {"kind", "mode", "name", "reason", "reasons", "result", "verdict"}
 
 
 class ReportError(Exception):

@@ -26,17 +26,6 @@ def _cards(summary):
     return f'<div class="cards">{"".join(shown)}</div>' if shown else ""
 
 
-def _section(title, figures, found, note="", grid="grid"):
-    """A section of figures, one below the other or in a grid of the style `grid`. The figures are added to `found`."""
-    blocks = []
-    for figure in figures:
-        found.append(figure)
-        blocks.append(page.plot_block(figure, len(found) - 1))
-    body = f'<div class="{grid}">{"".join(blocks)}</div>' if grid else "".join(blocks)
-    return (f"<section><h2>{title}</h2>{body}" + (f'<p class="note">{note}</p>' if note else "") + "</section>") \
-        if figures else ""
-
-
 def _worlds(steps):
     return "One world." if steps.runs == 1 else f"Means of {steps.runs} worlds."
 
@@ -44,7 +33,7 @@ def _worlds(steps):
 def _over_time(steps, features, found):
     """Norms and improvement ratios with one number of features."""
     figures = team_time.norms(steps, features) + team_time.improvements(steps, features)
-    return _section(f"Uncertainty with {features} features{team_time.paper_figure('norm', features)}", figures, found,
+    return page.section(f"Uncertainty with {features} features{team_time.paper_figure('norm', features)}", figures, found,
                     f"{_worlds(steps)} Frobenius norm of the covariance of x and y. The improvement ratio is the share by "
                     "which it is smaller than that of a vehicle by itself. Both are claims: they do not use the truth. A click "
                     "on a mode in the legend shows or hides it.", grid="grid pairs")
@@ -53,7 +42,7 @@ def _over_time(steps, features, found):
 def _recursions(steps, found):
     figures = [figure for features in steps.features
                for figure in team_time.recursions(steps, features, steps.vehicles)]
-    return _section("Time of a recursion", figures, found,
+    return page.section("Time of a recursion", figures, found,
                     f"{_worlds(steps)} One vehicle, one step, with its share of the packets.", grid="grid pairs")
 
 
@@ -61,11 +50,11 @@ def _of_run(one):
     found, times = [], np.concatenate([vehicle["time"] for vehicle in one.vehicles])
     the_map = team_curves.the_map(one)
     if one.scene is None:
-        blocks = _section("The drives and their map", [the_map], found, grid="")
+        blocks = page.section("The drives and their map", [the_map], found, grid="")
     else:
-        blocks = _section("The world, the drives and their map", [team_time.world(one.scene, one.scene.features), the_map],
+        blocks = page.section("The world, the drives and their map", [team_time.world(one.scene, one.scene.features), the_map],
                           found, grid="grid pairs")
-    blocks += _section("Errors, and what the filters say of them", team_curves.errors(one), found,
+    blocks += page.section("Errors, and what the filters say of them", team_curves.errors(one), found,
                        "Truth minus estimate of each step, as the vehicle itself knew its pose right after that step.")
     if one.steps is not None:
         blocks += "".join(_over_time(one.steps, features, found) for features in one.steps.features)
@@ -90,12 +79,12 @@ def _comparison_table(comparison):
 
 def _of_comparison(comparison):
     found = []
-    blocks = _section("Improvement on a vehicle by itself, vehicle 1", team_curves.improvement(comparison), found,
+    blocks = page.section("Improvement on a vehicle by itself, vehicle 1", team_curves.improvement(comparison), found,
                       "Claimed: by how much the norm of the position’s covariance is smaller. True: by how much the mean "
                       "squared error is. A claim above the truth is overconfidence.")
-    blocks += _section("Consistency, accuracy and cost", team_curves.comparisons(comparison), found)
+    blocks += page.section("Consistency, accuracy and cost", team_curves.comparisons(comparison), found)
     if comparison.scene is not None:
-        blocks += _section("The world", [team_time.world(comparison.scene, features) for features in comparison.drawn_features()
+        blocks += page.section("The world", [team_time.world(comparison.scene, features) for features in comparison.drawn_features()
                                          if ("scene", features) in team_time.PAPER], found,
                            "The first of the worlds." if comparison.steps is None or comparison.steps.runs > 1 else "",
                            grid="grid pairs")
