@@ -122,10 +122,14 @@ class TeamTimeTest(WrittenByHand):
     def test_one_run_without_its_twin(self):
         one = self.make(team_trajectories=TRAJECTORY, team_steps=steps_csv((15,), ("joint",)))
         self.assertEqual(team_time.improvements(one.steps, 15), [])
-        self.assertEqual(len(team_time.norms(one.steps, 15)), 2)
         self.assertEqual(call(self.folder)[0], 0)
         text, found = read_page(os.path.join(self.folder, "report.html"))
-        self.assertEqual(len(found["curves"]), 1 + 2 + 2)
+        self.assertEqual(len(found["curves"]), 1 + 2)
+        norm, taken = (figure["data"] for figure in found["curves"][1:])
+        for at, vehicle in enumerate((1, 2)):
+            self.assertEqual((norm[at]["name"], taken[at]["name"]), (f"vehicle {vehicle}",) * 2)
+            np.testing.assert_allclose(norm[at]["y"], [norm_of("joint", 15, vehicle, k) for k in range(30)], rtol=1e-4)
+            self.assertEqual(set(taken[at]["y"]), {30.0 * vehicle})
         self.assertNotIn("cooperative paper", text)
 
     def test_a_bar_that_would_squeeze_the_others_is_cut(self):
@@ -162,7 +166,7 @@ class FiguresTest(WrittenByHand):
         self.assertEqual(self.written("svg"), (0, [f"usv_figure_0{number}.svg" for number in (2, 5, 7)], ""))
 
     def test_nothing_to_draw(self):
-        for counts, modes in (((12,), ("mono", "joint")), ((6,), ("joint",))):
+        for counts, modes in (((12,), ("mono", "joint")), ((6,), ("joint",)), ((10,), ("mono",))):
             self.make(team_trajectories=TRAJECTORY, team_steps=steps_csv(counts, modes))
             status, files, told = self.written()
             self.assertEqual((status, files, told.count("\n")), (2, [], 1))

@@ -19,15 +19,16 @@ def health(step):
             2.5 if step == 99 else 0, *(scale.split(",") if scale else [""] * 4), 0.1, 1.0, 6.0 if slip else 0.5, 0.3, 0, 0]
 
 
-def health_csv():
-    return HEALTH + "".join(",".join(map(str, health(step))) + "\n" for step in range(STEPS))
+def health_csv(start=0):
+    lines = [health(step) for step in range(STEPS)]
+    return HEALTH + "".join(",".join(map(str, [line[0], line[1] + start, *line[2:]])) + "\n" for line in lines)
 
 
-def systematic_csv():
+def systematic_csv(start=0):
     rows = ["step,time,name,value,sigma"]
     for step in range(STEPS):
         for name, end in (("wheel scale left []", 0.02), ("gyro bias z [rad/s]", -0.002)):
-            rows.append(f"{step},{step},{name},{end * (1 - 0.98 ** step):.9g},{abs(end) * 0.99 ** step:.9g}")
+            rows.append(f"{step},{step + start},{name},{end * (1 - 0.98 ** step):.9g},{abs(end) * 0.99 ** step:.9g}")
     return "\n".join(rows) + "\n"
 
 
@@ -35,12 +36,12 @@ def truth(step):
     return np.array([50 * np.cos(step / 30), 50 * np.sin(step / 30), 0.0])
 
 
-def trajectory_csv(with_truth=True):
+def trajectory_csv(with_truth=True, start=0):
     """The online positions have an error of 0.03 m along z."""
     rows = ["step,t_s,x_m,y_m,z_m,true_x_m,true_y_m,true_z_m"]
     for step in range(STEPS):
         x, y, z = truth(step)
-        rows.append(f"{step},{step},{x},{y},{z + 0.03}," + (f"{x},{y},{z}" if with_truth else ",,"))
+        rows.append(f"{step},{step + start},{x},{y},{z + 0.03}," + (f"{x},{y},{z}" if with_truth else ",,"))
     return "\n".join(rows) + "\n"
 
 

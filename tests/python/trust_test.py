@@ -106,10 +106,28 @@ class TrustTest(unittest.TestCase):
         self.assertEqual(trust_curves.of_health(self.health(short)), [])
         self.assertEqual(len(self.page()[1]), 1)
 
-    def test_a_log_without_times(self):
-        lines = trust_data.health_csv().splitlines()
-        rows = [",".join(line.split(",")[:1] + [""] + line.split(",")[2:]) for line in lines[1:]]
-        self.assertEqual(self.health("\n".join([lines[0], *rows]) + "\n").times.tolist(), list(range(200)))
+    def test_large_times_count_from_the_first_step(self):
+        start = 1317042272.25
+        trust_data.write(self.folder, trajectory=trust_data.trajectory_csv(start=start), health=trust_data.health_csv(start),
+                         systematic=trust_data.systematic_csv(start), trajectory_online_tum=trust_data.tum(0.03, jitter=start),
+                         trajectory_corrected_tum=trust_data.tum(0.01, jitter=start))
+        text, curves = self.page()
+        self.assertIn("200 steps, 199.0 s; times count from 1317042272.250 s", text)
+        ends = [max(x for trace in curve["data"] for x in trace["x"] if x is not None) for curve in curves]
+        self.assertEqual(ends, [200] + [199] * 7 + [50] + [199])  # the one before the last is from above
+        self.assertEqual(len(curves[-1]["data"]), 2)  # both trajectories still find the truth
+
+    def test_a_run_without_times(self):
+        def timeless(text, column):
+            lines = [line.split(",") for line in text.splitlines()]
+            return "\n".join(",".join(line[:column] + [""] + line[column + 1:] if at else line)
+                             for at, line in enumerate(lines)) + "\n"
+        trust_data.write(self.folder, trajectory=timeless(trust_data.trajectory_csv(), 1),
+                         health=timeless(trust_data.health_csv(), 1), systematic=timeless(trust_data.systematic_csv(), 1))
+        text, curves = self.page()
+        self.assertIn('<p class="lead">200 steps</p>', text)
+        self.assertEqual({curve["layout"]["xaxis"]["title"]["text"] for curve in curves}, {"step"})
+        self.assertEqual(curves[0]["data"][0]["x"][:2], [80, 100])
 
     def test_systematic_errors(self):
         trust_data.write(self.folder, systematic=trust_data.systematic_csv())

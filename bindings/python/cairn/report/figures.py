@@ -75,7 +75,7 @@ def trajectories(run):
     axes.plot(*estimate.T, "--", color=ESTIMATE, linewidth=1.4, label="estimated trajectory")
     marks = scene.Landmarks(run)
     if marks.truth is not None:
-        axes.plot(*marks.truth.T, "*", color=MARK, markersize=4, alpha=0.7, label="landmarks (true)")
+        axes.plot(*marks.truth.T, "o", color=MARK, markersize=5, fillstyle="none", alpha=0.8, label="landmarks (true)")
     if marks.count:
         axes.plot(*marks.points.T, "*", color=SEEN, markersize=4, alpha=0.7, label="landmarks (estimated)")
     axes.legend(loc="upper left")

@@ -133,7 +133,7 @@ def section(title, figures, found, note="", grid="grid", kind=""):
 
 def trust_sections(run, label, found):
     """What the run says of itself: verdict, systematic errors, corrected trajectory. Each appears if its file is there."""
-    known, blocks = trust.Trust(run.folder), []
+    known, blocks = trust.Trust(run.folder, run.start), []
     if known.health is not None:
         blocks.append(section(f"Trust{label}", [trust_curves.verdict(known.health)], found, grid="", kind="trust"))
         blocks.append(section(f"What the verdict rests on{label}", trust_curves.of_health(known.health), found, kind="trust"))
@@ -185,14 +185,25 @@ def plotly_source():
     return get_plotlyjs().replace("</script", "<\\/script")
 
 
+def lead_of(run):
+    times = run.times()
+    lead = f"{len(times)} steps"
+    if run.timed:
+        lead += f", {times[-1] - times[0]:.1f} s"
+    return lead + (f"; times count from {run.start:.3f} s" if run.start else "")
+
+
 def build(folder, runs, pictures=()):
     """The text of the page of one run or of two."""
     title = os.path.basename(os.path.abspath(folder))
     title = f"{title}: submaps beside one standard map" if len(runs) > 1 else title
     main = runs[-1]
-    duration = main.times()[-1] - main.times()[0]
     blocks, found = sections(runs, pictures)
-    return assemble(folder, title, f"{len(main.times())} steps, {duration:.1f} s", cards(runs), blocks, table(runs), found,
+    if not main.timed:
+        for curve in found:
+            axis = curve["layout"]["xaxis"]["title"]
+            axis["text"] = "step" if axis["text"] == "time (s)" else axis["text"]
+    return assemble(folder, title, lead_of(main), cards(runs), blocks, table(runs), found,
                     scene.build(runs))
 
 

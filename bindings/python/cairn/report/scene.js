@@ -118,7 +118,7 @@ function drawScene(scene, config) {
   let drawing = Promise.resolve(), wanted = null, timer = null;
 
   function describe(stop) {
-    const parts = ['step ' + stop.step + ', ' + stop.time.toFixed(1) + ' s'];
+    const parts = ['step ' + stop.step + (stop.time === null ? '' : ', ' + stop.time.toFixed(1) + ' s')];
     if (main.outlines) parts.push(stop.submaps + (stop.submaps === 1 ? ' submap' : ' submaps'));
     if (main.landmarks.x.length) parts.push(stop.landmarks + ' landmarks seen');
     return parts.join(' · ');

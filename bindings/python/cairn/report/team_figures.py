@@ -75,11 +75,8 @@ def world(scene, features):
 
 
 def norms(steps, features):
-    """For two boats: above the norm of the position's covariance, below the improvement ratio. None if the steps of boats
-    without a team are missing."""
+    """For two boats: above the norm of the position's covariance, below the improvement ratio."""
     vehicles = steps.vehicles[:2]
-    if "mono" not in steps.modes or len(steps.modes) < 2:
-        return None
     figure, cells = pyplot.subplots(2, len(vehicles), sharex=True, sharey="row", squeeze=False, figsize=(7.2, 5.4))
     for at, vehicle in enumerate(vehicles):
         above, below = cells[:, at]
@@ -130,7 +127,7 @@ def draw(one):
         if kind == "scene":
             if one.scene is not None and features in one.drawn_features():
                 yield number, lambda features=features: world(one.scene, features)
-        elif one.steps is not None and features in one.steps.features:
+        elif one.steps is not None and features in one.steps.features and "mono" in one.steps.modes and len(one.steps.modes) > 1:
             make = norms if kind == "norm" else recursion
             yield number, lambda features=features, make=make: make(one.steps, features)
 

@@ -39,6 +39,15 @@ def _over_time(steps, features, found):
                     "on a mode in the legend shows or hides it.", grid="grid pairs")
 
 
+def _compared_steps(steps, found):
+    """All modes over time. The steps of only one mode need one curve for each vehicle."""
+    if len(steps.modes) > 1:
+        return "".join(_over_time(steps, features, found) for features in steps.features) + _recursions(steps, found)
+    return page.section("Uncertainty and cost", team_time.by_vehicle(steps, steps.features[0]), found,
+                        "Frobenius norm of the covariance of x and y. A recursion is one step of one vehicle, with its share "
+                        "of the packets.", grid="grid pairs")
+
+
 def _recursions(steps, found):
     figures = [figure for features in steps.features
                for figure in team_time.recursions(steps, features, steps.vehicles)]
@@ -57,8 +66,7 @@ def _of_run(one):
     blocks += page.section("Errors, and what the filters say of them", team_curves.errors(one), found,
                        "Truth minus estimate of each step, as the vehicle itself knew its pose right after that step.")
     if one.steps is not None:
-        blocks += "".join(_over_time(one.steps, features, found) for features in one.steps.features)
-        blocks += _recursions(one.steps, found)
+        blocks += _compared_steps(one.steps, found)
     steps = max(len(vehicle["time"]) for vehicle in one.vehicles)
     lead = f"{len(one.vehicles)} vehicles, {steps} steps, {times.max() - times.min():.1f} s"
     return page.assemble(one.folder, one.name, lead, _cards(one.summary), blocks, page.table([one]), found)
@@ -89,8 +97,7 @@ def _of_comparison(comparison):
                            "The first of the worlds." if comparison.steps is None or comparison.steps.runs > 1 else "",
                            grid="grid pairs")
     if comparison.steps is not None:
-        blocks += "".join(_over_time(comparison.steps, features, found) for features in comparison.steps.features)
-        blocks += _recursions(comparison.steps, found)
+        blocks += _compared_steps(comparison.steps, found)
     lead = "modes of a team beside each other: " + ", ".join(comparison.modes)
     return page.assemble(comparison.folder, comparison.name, lead, "", blocks, _comparison_table(comparison), found)
 

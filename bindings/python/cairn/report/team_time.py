@@ -132,6 +132,25 @@ def improvements(steps, features):
     return figures
 
 
+def by_vehicle(steps, features):
+    """Norm and time of all vehicles, for steps of only one mode."""
+    figures, mode = [], steps.modes[0]
+    for column, title, y_title, note in (
+            ("norm_m2", "Claimed uncertainty of the position", "norm of the covariance (m²)", ""),
+            ("recursion_ms", "Time of a recursion", "time of a recursion (ms)", f"median of {MEDIAN_OF} steps")):
+        traces = []
+        for at, vehicle in enumerate(steps.vehicles):
+            times, values = steps.curve(column, features, mode, vehicle)
+            if len(times):
+                traces.append(_mode_line(times, smooth(values) if column == "recursion_ms" else values, mode))
+                traces[-1].update(name=f"vehicle {vehicle}", legendgroup=f"vehicle {vehicle}",
+                                  line={"color": colour_of(at), "width": 1.4})
+        layout = base_layout(340, y_title, **LEGEND)
+        layout["yaxis"]["rangemode"] = "tozero"
+        figures.append({"title": title, "note": note, "data": traces, "layout": layout})
+    return figures
+
+
 def paper_boat(steps):
     """The boat whose times the paper shows: b, the second."""
     return steps.vehicles[min(1, len(steps.vehicles) - 1)]

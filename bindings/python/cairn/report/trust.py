@@ -8,7 +8,7 @@ from . import run as run_files
 from .run import ReportError
 
 HEALTH = ["step", "t_s", "verdict", "reasons"]
-SYSTEMATIC = ["time", "name", "value", "sigma"]
+SYSTEMATIC = ["step", "time", "name", "value", "sigma"]
 VERDICTS = ["good", "doubtful", "lost"]
 
 
@@ -23,11 +23,16 @@ def _table(folder, name, columns):
     return table if len(table[columns[0]]) else None
 
 
+def _clock(table, column, start):
+    """Times since `start`, or the numbers of the steps: a log may have no times."""
+    return table["step"] if np.isnan(table[column]).any() else table[column] - start
+
+
 class Health:
     """The verdict of each step with its reasons, and the columns of numbers."""
 
-    def __init__(self, table, path):
-        self.times = table["step"] if np.isnan(table["t_s"]).any() else table["t_s"]  # a log may have no times
+    def __init__(self, table, path, start):
+        self.times = _clock(table, "t_s", start)
         self.numbers = {name: column for name, column in table.items() if column.dtype.kind == "f"}
         unknown = sorted(set(table["verdict"].tolist()) - set(VERDICTS))
         if unknown:
@@ -42,27 +47,28 @@ class Health:
         return None if found is None or np.isnan(found).all() else found
 
 
-def health_of(folder):
+def health_of(folder, start=0.0):
     """The Health of a run, or None if it has no health.csv with steps."""
     table = _table(folder, "health.csv", HEALTH)
-    return None if table is None else Health(table, os.path.join(folder, "health.csv"))
+    return None if table is None else Health(table, os.path.join(folder, "health.csv"), start)
 
 
-def systematic_of(folder):
+def systematic_of(folder, start=0.0):
     """(name, unit, times, values, sigmas) of each estimated systematic error."""
     table = _table(folder, "systematic.csv", SYSTEMATIC)
     if table is None:
         return []
-    found = []
+    found, times = [], _clock(table, "time", start)
     for name in dict.fromkeys(table["name"].tolist()):
         chosen = table["name"] == name
         title, _, unit = name.partition("[")
-        found.append((title.strip(), unit.rstrip("] "), *(table[column][chosen] for column in ("time", "value", "sigma"))))
+        found.append((title.strip(), unit.rstrip("] "), times[chosen],
+                      *(table[column][chosen] for column in ("value", "sigma"))))
     return found
 
 
-def tum_of(folder, name):
-    """Times (n) and positions (n x 3) of a trajectory in TUM form, or None if there is no such file with poses."""
+def tum_of(folder, name, start=0.0):
+    """Times since `start` (n) and positions (n x 3) of a trajectory in TUM form, or None if there is no such file with poses."""
     path = os.path.join(folder, name)
     try:
         with open(path) as file:
@@ -79,13 +85,13 @@ def tum_of(folder, name):
         values = np.array(rows, dtype=float)
     except ValueError as error:
         raise ReportError(f"{path}: it is not a table of numbers: {error}") from None
-    return values[:, 0], values[:, 1:4]
+    return values[:, 0] - start, values[:, 1:4]
 
 
 class Trust:
-    """All of it for one run. Each part may be missing."""
+    """All of it for one run, with times that count from `start`. Each part may be missing."""
 
-    def __init__(self, folder):
-        self.health = health_of(folder)
-        self.systematic = systematic_of(folder)
-        self.online, self.corrected = (tum_of(folder, f"trajectory_{name}.tum") for name in ("online", "corrected"))
+    def __init__(self, folder, start=0.0):
+        self.health = health_of(folder, start)
+        self.systematic = systematic_of(folder, start)
+        self.online, self.corrected = (tum_of(folder, f"trajectory_{name}.tum", start) for name in ("online", "corrected"))
