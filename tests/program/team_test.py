@@ -87,11 +87,14 @@ class Usv(ProgramTest):
         self.assertAlmostEqual(1 - ratio, s["claimed_improvement"], places=5)
         taken = found["6", "eo_full", "1"][1] + found["6", "eo_full", "2"][1]
         self.assertAlmostEqual(sum(taken) / len(taken), s["recursion_ms_mean"], delta=1e-4 * s["recursion_ms_mean"])
+        correlated = 0
         for row in self.read_csv(self.path("out"), "team_trajectories.csv"):  # the norm is at least that of the variances
             norm = found["6", "eo_full", row["vehicle"]][0][int(row["step"])]
             variances = [(float(row[name]) / 3) ** 2 for name in ("sigma3_x", "sigma3_y")]
             self.assertGreaterEqual(norm * (1 + 1e-4), math.hypot(*variances))
             self.assertLessEqual(norm, sum(variances) * (1 + 1e-4))
+            correlated += norm > 1.01 * math.hypot(*variances)
+        self.assertGreater(correlated, 100)
 
     def test_steps_of_boats_by_themselves_are_written_once(self):
         self.usv("--mode", "mono", "--duration", "100", "--output", self.path("out"))

@@ -2,59 +2,15 @@
 #include "program/runners/team_runner.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "program/library.hpp"
+#include "program/runners/stopwatch.hpp"
 
 namespace cairn::program {
 
-namespace {
-
-// Adds the time from its creation to its destruction to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& sum) : sum_(sum), begin_(std::chrono::steady_clock::now()) {}
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
-
- private:
-  double& sum_;
-  std::chrono::steady_clock::time_point begin_;
-};
-
-}  // namespace
-
 const std::vector<const char*> kModeNames = {"mono", "eo_diagonal", "eo_full", "joint", "submaps"};
-
-double position_norm(const double covariance[36]) {
-  const double xx = covariance[0], xy = covariance[1], yy = covariance[7];
-  return std::sqrt(xx * xx + 2 * xy * xy + yy * yy);
-}
-
-double VehicleScore::rmse() const {
-  return std::sqrt(square_error / static_cast<double>(steps));
-}
-double VehicleScore::landmark_rmse() const {
-  return std::sqrt(landmark_square / static_cast<double>(landmarks_known));
-}
-double VehicleScore::anees() const {
-  return nees / (3.0 * static_cast<double>(nees_steps));
-}
-void VehicleScore::add(const VehicleScore& other) {
-  steps += other.steps;
-  nees_steps += other.nees_steps;
-  claimed += other.claimed;
-  square_error += other.square_error;
-  nees += other.nees;
-  landmark_square += other.landmark_square;
-  landmarks += other.landmarks;
-  landmarks_known += other.landmarks_known;
-  paired += other.paired;
-  paired_wrongly += other.paired_wrongly;
-}
 
 TeamRunner::TeamRunner(TeamDrive& drive, const TeamChoices& choices)
     : drive_(drive), choices_(choices), votes_(drive.vehicles().size()) {

@@ -25,8 +25,8 @@ def main(arguments=None):
     parser.add_argument("folder", metavar="DIR", help="what 'cairn run --output DIR' or 'cairn simulate --output DIR' wrote")
     parser.add_argument("-o", "--output", metavar="FILE", help="the page (default: DIR/report.html)")
     parser.add_argument("--figures", metavar="OUT",
-                        help="write pictures into this folder instead: Figures 5 to 13 of the Mars paper, or, of a team, Figures 2 "
-                             "to 7 of the cooperative paper")
+                        help="write pictures into this folder instead: Figures 5 to 13 of the Mars paper or, of a team, "
+                             "Figures 2 to 7 of the cooperative paper")
     parser.add_argument("--format", choices=("png", "svg"), default="png", help="format of the figures (default: png)")
     options = parser.parse_args(arguments)
     try:

@@ -141,8 +141,8 @@ def trust_sections(run, label, found):
     note = "Estimate and its 3 σ band."
     if rest:
         note += " Not drawn: " + ", ".join(html.escape(state[0]) for state in rest) + "."
-    blocks.append(section(f"Systematic errors that the filter estimates{label}", trust_curves.systematic(known.systematic), found,
-                          note, kind="trust"))
+    blocks.append(section(f"Systematic errors that the filter estimates{label}", trust_curves.systematic(known.systematic),
+                          found, note, kind="trust"))
     blocks.append(section(f"Corrected and online trajectory{label}", path_curves.of_run(run, known), found,
                           "Online: each pose as known right after its step. Corrected: the poses of all kept steps as known "
                           "at the end.", grid="grid pairs", kind="trust"))

@@ -54,12 +54,12 @@ def _by_vehicle(table):
 class Scene:
     """The square that simulated boats drive in: team_scene.csv."""
 
-    def __init__(self, table):
-        self.table = table
+    def __init__(self, table, path):
+        self.table, self.path = table, path
         self.features = len(self._of("feature")["id"])
         self.boats = [int(number) for number in self._of("radar")["id"]]
         if len(self._of("coast")["id"]) == 0 or not self.boats:
-            raise ReportError("team_scene.csv: it has no coast line or no radar")
+            raise ReportError(f"{path}: it has no coast line or no radar")
         for kind in ("course", "radar"):
             for boat in self.boats:
                 self.circle(kind, boat)
@@ -79,18 +79,22 @@ class Scene:
         rows = self._of(kind)
         for i in np.flatnonzero(rows["id"] == number):
             return float(rows["x"][i]), float(rows["y"][i]), float(rows["radius"][i])
-        raise ReportError(f"team_scene.csv: boat {number} has no {kind}")
+        raise ReportError(f"{self.path}: boat {number} has no {kind}")
 
 
 class Steps:
     """Claimed uncertainty and time of each vehicle at each step: team_steps.csv."""
 
-    def __init__(self, table):
+    def __init__(self, table, _):
         self.table = table
         self.features = sorted({int(number) for number in table["features"]})
         self.modes = list(dict.fromkeys(table["mode"].tolist()))
         self.vehicles = sorted({int(number) for number in table["vehicle"]})
         self.runs = int(table["runs"].max())
+
+    def compares(self):
+        """Whether there are steps with a team and steps without."""
+        return "mono" in self.modes and len(self.modes) > 1
 
     def curve(self, column, features, mode, vehicle):
         """Times and values of a column. Empty if the mode was not run with this number of features."""
@@ -110,7 +114,7 @@ class Steps:
 
 def _read(folder, name, columns, kind):
     table = _table(folder, name, columns)
-    return None if table is None else kind(table)
+    return None if table is None else kind(table, os.path.join(folder, name))
 
 
 class TeamRun:

@@ -127,7 +127,7 @@ def draw(one):
         if kind == "scene":
             if one.scene is not None and features in one.drawn_features():
                 yield number, lambda features=features: world(one.scene, features)
-        elif one.steps is not None and features in one.steps.features and "mono" in one.steps.modes and len(one.steps.modes) > 1:
+        elif one.steps is not None and features in one.steps.features and one.steps.compares():
             make = norms if kind == "norm" else recursion
             yield number, lambda features=features, make=make: make(one.steps, features)
 

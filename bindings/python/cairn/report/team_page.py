@@ -34,9 +34,9 @@ def _over_time(steps, features, found):
     """Norms and improvement ratios with one number of features."""
     figures = team_time.norms(steps, features) + team_time.improvements(steps, features)
     return page.section(f"Uncertainty with {features} features{team_time.paper_figure('norm', features)}", figures, found,
-                    f"{_worlds(steps)} Frobenius norm of the covariance of x and y. The improvement ratio is the share by "
-                    "which it is smaller than that of a vehicle by itself. Both are claims: they do not use the truth. A click "
-                    "on a mode in the legend shows or hides it.", grid="grid pairs")
+                        f"{_worlds(steps)} Frobenius norm of the covariance of x and y. The improvement ratio is the share by "
+                        "which it is smaller than that of a vehicle by itself. Both are claims: they do not use the truth. "
+                        "A click on a mode in the legend shows or hides it.", grid="grid pairs")
 
 
 def _compared_steps(steps, found):
@@ -52,7 +52,7 @@ def _recursions(steps, found):
     figures = [figure for features in steps.features
                for figure in team_time.recursions(steps, features, steps.vehicles)]
     return page.section("Time of a recursion", figures, found,
-                    f"{_worlds(steps)} One vehicle, one step, with its share of the packets.", grid="grid pairs")
+                        f"{_worlds(steps)} One vehicle, one step, with its share of the packets.", grid="grid pairs")
 
 
 def _of_run(one):
@@ -61,10 +61,10 @@ def _of_run(one):
     if one.scene is None:
         blocks = page.section("The drives and their map", [the_map], found, grid="")
     else:
-        blocks = page.section("The world, the drives and their map", [team_time.world(one.scene, one.scene.features), the_map],
-                          found, grid="grid pairs")
+        world = team_time.world(one.scene, one.scene.features)
+        blocks = page.section("The world, the drives and their map", [world, the_map], found, grid="grid pairs")
     blocks += page.section("Errors, and what the filters say of them", team_curves.errors(one), found,
-                       "Truth minus estimate of each step, as the vehicle itself knew its pose right after that step.")
+                           "Truth minus estimate of each step, as the vehicle itself knew its pose right after that step.")
     if one.steps is not None:
         blocks += _compared_steps(one.steps, found)
     steps = max(len(vehicle["time"]) for vehicle in one.vehicles)
@@ -88,14 +88,13 @@ def _comparison_table(comparison):
 def _of_comparison(comparison):
     found = []
     blocks = page.section("Improvement on a vehicle by itself, vehicle 1", team_curves.improvement(comparison), found,
-                      "Claimed: by how much the norm of the position’s covariance is smaller. True: by how much the mean "
-                      "squared error is. A claim above the truth is overconfidence.")
+                           "Claimed: by how much the norm of the position’s covariance is smaller. True: by how much the mean "
+                           "squared error is. A claim above the truth is overconfidence.")
     blocks += page.section("Consistency, accuracy and cost", team_curves.comparisons(comparison), found)
-    if comparison.scene is not None:
-        blocks += page.section("The world", [team_time.world(comparison.scene, features) for features in comparison.drawn_features()
-                                         if ("scene", features) in team_time.PAPER], found,
-                           "The first of the worlds." if comparison.steps is None or comparison.steps.runs > 1 else "",
-                           grid="grid pairs")
+    worlds = [team_time.world(comparison.scene, features) for features in comparison.drawn_features()
+              if ("scene", features) in team_time.PAPER]
+    several = comparison.steps is None or comparison.steps.runs > 1
+    blocks += page.section("The world", worlds, found, "The first of the worlds." if several else "", grid="grid pairs")
     if comparison.steps is not None:
         blocks += _compared_steps(comparison.steps, found)
     lead = "modes of a team beside each other: " + ", ".join(comparison.modes)
