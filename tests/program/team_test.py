@@ -146,6 +146,7 @@ class Usv(ProgramTest):
             self.assertAlmostEqual(100 * own["claimed_improvement"], float(row["claimed"]), places=3)
         found = self.steps()
         self.assertEqual(set(found), {(f, mode, boat) for f in ("6", "10", "40") for mode in MODES for boat in ("1", "2")})
+        self.assertTrue(all(0 < value < 1e4 for _, taken in found.values() for value in taken))
         first = 301 // 10 + 1
         for row in rows:
             ratio = (sum(found[row["features"], row["mode"], "1"][0][first:])

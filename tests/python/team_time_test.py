@@ -84,6 +84,7 @@ class TeamTimeTest(WrittenByHand):
         for number, features in ((3, 6), (5, 10), (6, 40)):
             self.assertIn(f"<h2>Uncertainty with {features} features (Figure {number} of the cooperative paper)</h2>", text)
         self.assertIn("Means of 3 worlds.", text)
+        self.assertIn("Medians of 3 worlds.", text)
         self.assertEqual(text.count("Figure 7 of the cooperative paper"), 1)
 
     def test_the_time_of_a_recursion(self):

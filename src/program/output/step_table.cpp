@@ -6,6 +6,16 @@
 #include "program/output/output_file.hpp"
 
 namespace cairn::program {
+namespace {
+
+double median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + static_cast<double>(*std::max_element(values.begin(), middle)));
+}
+
+}  // namespace
 
 void StepTable::begin_run(std::uint32_t features, std::int32_t mode, const std::vector<std::uint64_t>& vehicles) {
   const auto found = std::find_if(runs_.begin(), runs_.end(),
@@ -19,11 +29,11 @@ void StepTable::begin_run(std::uint32_t features, std::int32_t mode, const std::
 void StepTable::add(double time, const std::vector<VehicleEstimate>& estimates) {
   std::vector<Step>& steps = runs_[current_].steps;
   if (step_ == steps.size())
-    steps.push_back({time, std::vector<double>(estimates.size()), std::vector<double>(estimates.size())});
+    steps.push_back({time, std::vector<double>(estimates.size()), std::vector<std::vector<float>>(estimates.size())});
   Step& step = steps[step_++];
   for (std::size_t v = 0; v < estimates.size(); ++v) {
     step.norm[v] += position_norm(estimates[v].covariance);
-    step.seconds[v] += estimates[v].seconds;
+    if (step.seconds[v].size() < kMostTimes) step.seconds[v].push_back(static_cast<float>(estimates[v].seconds));
   }
 }
 
@@ -41,7 +51,7 @@ void StepTable::write(const std::string& folder) const {
         file.field(runs.steps[k].time);
         file.field(runs.vehicles[v]);
         file.field(runs.steps[k].norm[v] / count);
-        file.field(1e3 * runs.steps[k].seconds[v] / count);
+        file.field(1e3 * median(runs.steps[k].seconds[v]));
         file.end();
       }
     }

@@ -12,7 +12,9 @@ namespace cairn::program {
 
 class StepTable {
  public:
-  // The next calls of add() are the steps of one run. Runs with the same features and mode are averaged step by step.
+  // The next calls of add() are the steps of one run. Of several runs with the same features and mode the file has, for
+  // each step, the mean of the norms and the median of the times: a step that the computer interrupted takes a hundred
+  // times as long as its neighbours.
   void begin_run(std::uint32_t features, std::int32_t mode, const std::vector<std::uint64_t>& vehicles);
   void add(double time, const std::vector<VehicleEstimate>& estimates);
 
@@ -22,8 +24,10 @@ class StepTable {
  private:
   struct Step {
     double time = 0;
-    std::vector<double> norm, seconds;  // sums over the runs, by vehicle
+    std::vector<double> norm;                 // sum over the runs, by vehicle
+    std::vector<std::vector<float>> seconds;  // by vehicle, then of each run; at most of kMostTimes runs
   };
+  static constexpr std::size_t kMostTimes = 1000;  // so that memory does not grow with the runs
   struct Runs {
     std::uint32_t features;
     std::int32_t mode;

@@ -113,7 +113,7 @@ def recursion(steps, features):
         axes.plot(times, team_time.smooth(taken), label=LABELS.get(mode, mode), **_line_of(mode))
     axes.set_ylim(0, top)
     axes.set(xlabel="time (s)", ylabel="time of a recursion (ms)")
-    worlds = "" if steps.runs == 1 else f"; means of {steps.runs} worlds"
+    worlds = "" if steps.runs == 1 else f"; medians of {steps.runs} worlds"
     axes.set_title(f"boat {vehicle}; strong: median of {team_time.MEDIAN_OF} steps; pale: each step{worlds}", loc="right",
                    fontsize=8, color="#6d6a62")
     axes.legend(ncols=2, loc="upper left")

@@ -26,16 +26,16 @@ def _cards(summary):
     return f'<div class="cards">{"".join(shown)}</div>' if shown else ""
 
 
-def _worlds(steps):
-    return "One world." if steps.runs == 1 else f"Means of {steps.runs} worlds."
+def _worlds(steps, kind):
+    return "One world." if steps.runs == 1 else f"{kind} of {steps.runs} worlds."
 
 
 def _over_time(steps, features, found):
     """Norms and improvement ratios with one number of features."""
     figures = team_time.norms(steps, features) + team_time.improvements(steps, features)
     return page.section(f"Uncertainty with {features} features{team_time.paper_figure('norm', features)}", figures, found,
-                        f"{_worlds(steps)} Frobenius norm of the covariance of x and y. The improvement ratio is the share by "
-                        "which it is smaller than that of a vehicle by itself. Both are claims: they do not use the truth. "
+                        f"{_worlds(steps, 'Means')} Frobenius norm of the covariance of x and y. The improvement ratio is the "
+                        "share by which it is smaller than that of a vehicle by itself. Both are claims: they do not use the truth. "
                         "A click on a mode in the legend shows or hides it.", grid="grid pairs")
 
 
@@ -52,7 +52,7 @@ def _recursions(steps, found):
     figures = [figure for features in steps.features
                for figure in team_time.recursions(steps, features, steps.vehicles)]
     return page.section("Time of a recursion", figures, found,
-                        f"{_worlds(steps)} One vehicle, one step, with its share of the packets.", grid="grid pairs")
+                        f"{_worlds(steps, 'Medians')} One vehicle, one step, with its share of the packets.", grid="grid pairs")
 
 
 def _of_run(one):
