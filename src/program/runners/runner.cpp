@@ -37,6 +37,7 @@ void Runner::create() {
   constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
   options.submap_landmarks = std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations));
   choices_.apply(options);
+  options.vehicle = drive_.planar() ? CAIRN_VEHICLE_PLANAR : CAIRN_VEHICLE_SPATIAL;
   has_submaps_ = options.submap_landmarks > 0;
   options.initial_pose = drive_.start();
   cairn_filter* filter = nullptr;
