@@ -70,7 +70,7 @@ typedef struct cairn_filter_options {
   double iteration_tolerance;    /**< the iteration ends when the linearisation error of the batch is smaller than
                                       this, > 0; it is measured in standard deviations of the observations, root of
                                       the sum of squares; default 0.1 */
-  double gate_probability;       /**< chi-square gate of one observation, in (0, 1]; 1: no gate; default 0.99 */
+  double gate_probability;       /**< chi-square gate of one observation, in (0, 1]; 1: no gate; default 0.999 */
   double batch_gate_probability; /**< chi-square gate of a whole batch, in (0, 1]; 1: no gate; default 0.9999 */
   cairn_pose initial_pose;       /**< body in the map frame at the start; default identity */
   double initial_covariance[36]; /**< covariance of its error [dp; dtheta], symmetric, positive semidefinite; default
@@ -107,6 +107,10 @@ typedef struct cairn_filter_options {
                                       correlated, 1 to 1000000: an update multiplies the covariance of an
                                       observation's noise by this; association and placing use the noise unchanged;
                                       default 1 */
+  int32_t join_loss;             /**< loss of the landmarks that a closed submap shares with the map: CAIRN_LOSS_NONE,
+                                      CAIRN_LOSS_HUBER or CAIRN_LOSS_CAUCHY; default CAIRN_LOSS_NONE */
+  uint32_t reserved_join;        /**< 0 */
+  double join_loss_width;        /**< where `join_loss` leaves the parabola, standard deviations, > 0; default 1.5 */
 } cairn_filter_options;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
@@ -162,6 +166,14 @@ CAIRN_API cairn_status cairn_filter_add_custom(cairn_filter *filter, const cairn
  *  before each frame that was taken at other angles. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (not finite,
  *  or no stereo head), CAIRN_ERROR_NOT_FOUND. \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_point_head(cairn_filter *filter, int32_t sensor, double pan, double stick);
+
+/** Sets the loss of a sensor's residuals: an observation whose distance is large gets less weight, instead of being
+ *  refused. `width` (> 0) is where the loss leaves the parabola, in standard deviations of the observation's noise. The
+ *  weights are found in the iteration of the update, and the covariance is that of the robust estimate (docs/update.md,
+ *  "Robust losses"). The chi-square gates stay; options with gate probabilities of 1 open them. CAIRN_LOSS_NONE takes
+ *  the loss away; `width` is then ignored. Allocates nothing. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT,
+ *  CAIRN_ERROR_NOT_FOUND. \since 0.2.0 */
+CAIRN_API cairn_status cairn_filter_set_loss(cairn_filter *filter, int32_t sensor, int32_t loss, double width);
 
 /** Sets the region in which a sensor detects every landmark: all observations between `lower` and `upper`, value by
  *  value, in the sensor's units. An infinite value is no bound. A sensor of fewer than 3 rows uses the first values.
@@ -359,6 +371,10 @@ typedef struct cairn_update_report {
   uint32_t deferred;              /**< deferred landmarks after the update (`deferred_sightings`) */
   uint32_t removed;               /**< landmarks removed after the update: missed too often, or not seen again in
                                        time */
+  double widened_position;        /**< most of what was seen contradicted the estimate: standard deviation by which the
+                                       motion since the last agreement was widened, m; 0: it was not (docs/update.md,
+                                       "Finding back") */
+  double widened_attitude;        /**< the same of the attitude, rad */
 } cairn_update_report;
 
 /** Reports on the last successful update of any kind; zeros before the first update. Set `report->struct_size` first.

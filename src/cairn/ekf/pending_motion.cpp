@@ -50,6 +50,15 @@ bool PendingMotion<Pose>::add(const Pose& before, const Pose& next, const Increm
 }
 
 template <class Pose>
+bool PendingMotion<Pose>::widen(const Square& covariance) {
+  const Square N = N_ + covariance;
+  if (!N.allFinite()) return false;
+  N_ = 0.5 * (N + N.transpose());
+  any_ = true;
+  return true;
+}
+
+template <class Pose>
 typename PendingMotion<Pose>::Square PendingMotion<Pose>::pose_block(const LowerTriangle& P) const {
   Square block;
   for (Index c = 0; c < kDof; ++c)

@@ -29,6 +29,10 @@ class PendingMotion {
   // Motion from `before` to `next`. Returns false, with nothing changed, if a result is not finite.
   bool add(const Pose& before, const Pose& next, const Increment<Pose>& increment);
 
+  // Adds an independent error of the pose, with this covariance of the state's own error. Returns false, with nothing
+  // changed, if the result is not finite.
+  bool widen(const Square& covariance);
+
   bool any() const { return any_; }
   // The noise reaches the landmarks.
   bool reaches_points() const { return any_ && model_.invariant(); }

@@ -72,6 +72,11 @@ bool State<Pose>::propagate(const Increment<Pose>& increment) {
 }
 
 template <class Pose>
+bool State<Pose>::widen(const Square& ordinary_covariance) {
+  return motion_.widen(model_.own(ordinary_covariance, pose_.translation()));
+}
+
+template <class Pose>
 void State<Pose>::write_covariance(Index rank, const double* pose_columns) {
   const Index n = states();
   for (Index c = 0; c < kDof; ++c) std::copy(pose_columns + c * ld_ + c, pose_columns + c * ld_ + n, P_.column(c) + c);

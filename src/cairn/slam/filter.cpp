@@ -15,8 +15,9 @@ Filter<Pose>::Filter(Arena& arena, const FilterOptions<Pose>& options)
                   kDim * options.max_observations + kDof),
       report_(arena, options_.max_observations),
       submaps_(options_, local_, log_),
-      frames_(arena, options_, local_, thresholds_, report_, log_),
-      batches_(arena, options_, local_, submaps_, thresholds_, report_, log_) {
+      trust_(arena, options_, local_, thresholds_, log_),
+      frames_(arena, options_, local_, thresholds_, trust_, report_, log_),
+      batches_(arena, options_, local_, submaps_, thresholds_, trust_, report_, log_) {
   if (arena.measuring()) return;
   if (options.single_map())
     local_.start(options.initial_pose, options.initial_covariance);
@@ -53,7 +54,7 @@ template <class Pose>
 void Filter<Pose>::update(int sensor, const Observation* observations, Index landmarks, Index companions) {
   log_.watch([&] {
     const Sensor<Pose>& own = sensors_.at(sensor);
-    frames_.run({own, sensors_.view(sensor), observations, landmarks, companions});
+    frames_.run({own, sensors_.view(sensor), sensors_.loss(sensor), observations, landmarks, companions});
   });
   submaps_.close_if_full();
 }

@@ -40,6 +40,7 @@ class Filter {
   void point_head(int sensor, double pan, double stick) { sensors_.point_head(sensor, pan, stick); }
   // Sets the region in which the sensor detects every landmark: bounds on the predicted observation.
   void set_view(int sensor, const Vector3& lower, const Vector3& upper) { sensors_.set_view(sensor, {lower, upper}); }
+  void set_loss(int sensor, const RobustLoss& loss) { sensors_.set_loss(sensor, loss); }
   void set_sighting(int sensor, const MutualSighting& sighting) { sensors_.set_sighting(sensor, sighting); }
 
   // --- motion --- throws if the result is not finite, with nothing changed
@@ -125,6 +126,7 @@ class Filter {
   Thresholds thresholds_;
   FrameReport report_;
   SubmapKeeper<Pose> submaps_;
+  MotionTrust<Pose> trust_;
   FramePipeline<Pose> frames_;
   WholeBatchUpdate<Pose> batches_;
 };

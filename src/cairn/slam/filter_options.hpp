@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "ekf/error_model.hpp"
+#include "linear/robust_loss.hpp"
 
 namespace cairn {
 
@@ -42,6 +43,8 @@ struct SubmapOptions {
   double submap_extent = FilterDefaults::submap_extent;
   double submap_sigma = FilterDefaults::submap_sigma;
   JoinKind join = JoinKind::automatic;
+  LossKind join_loss = LossKind::none;
+  double join_loss_width = FilterDefaults::join_loss_width;
   double step_tolerance = 1e-2;  // of the sparse joining, see MapOptions
 };
 

@@ -12,6 +12,7 @@ template <class Pose>
 struct Frame {
   const Sensor<Pose>& sensor;
   const View* view;  // of the sensor; null: none was set
+  const RobustLoss& loss;
   const Observation* observations;
   Index landmarks, companions;  // observations of landmarks, then observations of companions
 

@@ -2,6 +2,8 @@
 // The way of one frame through a filter: sort, update, place, review.
 #pragma once
 
+#include <optional>
+
 #include "slam/frame_associator.hpp"
 #include "slam/frame_placer.hpp"
 #include "slam/frame_sorter.hpp"
@@ -14,18 +16,20 @@ template <class Pose>
 class FramePipeline {
  public:
   FramePipeline(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map, Thresholds& thresholds,
-                FrameReport& report, const Log& log);
+                MotionTrust<Pose>& trust, FrameReport& report, const Log& log);
 
   // Throws with nothing changed.
   void run(const Frame<Pose>& frame);
   void reserve_id(std::uint64_t id) { placer_.reserve_id(id); }
 
  private:
+  void attempt(const Frame<Pose>& frame, std::optional<EkfUpdate<Pose>>& update);
   void sort(const Frame<Pose>& frame);
   void check_room() const;
 
   const FilterOptions<Pose>& options_;
-  const LocalMap<Pose>& map_;
+  LocalMap<Pose>& map_;
+  MotionTrust<Pose>& trust_;
   FrameReport& report_;
   SortedFrame<Pose> sorted_;
   FrameSorter<Pose> sorter_;

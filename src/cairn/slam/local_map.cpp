@@ -16,6 +16,7 @@ template <class Pose>
 void LocalMap<Pose>::start(const Pose& pose, const Square& covariance) {
   state_.start(pose, covariance);
   table_.clear();
+  ++starts_;
 }
 
 template <class Pose>

@@ -23,6 +23,7 @@ class LocalMap final : public Landmarks {
 
   LocalMap(Arena& arena, const FilterOptions<Pose>& options);
   void start(const Pose& pose, const Square& covariance);  // forgets all landmarks and companions
+  std::uint64_t starts() const { return starts_; }         // how often it has started
 
   State<Pose>& state() { return state_; }
   const State<Pose>& state() const { return state_; }
@@ -67,6 +68,7 @@ class LocalMap final : public Landmarks {
   const FilterOptions<Pose>& options_;
   State<Pose> state_;
   LandmarkTable table_;
+  std::uint64_t starts_ = 0;
 };
 
 extern template class LocalMap<SE2>;

@@ -53,6 +53,12 @@ void SensorRack<Pose>::set_view(int number, const View& view) {
 }
 
 template <class Pose>
+void SensorRack<Pose>::set_loss(int number, const RobustLoss& loss) {
+  any(number);  // throws if there is no sensor of this number
+  places_[number].loss = loss;
+}
+
+template <class Pose>
 void SensorRack<Pose>::point_head(int number, double pan, double stick) {
   StereoHead* head = nullptr;
   if constexpr (Pose::kDim == 3)

@@ -22,6 +22,7 @@ struct ClosingReport {
   Index landmarks = 0;
   JoinReport join;
   NamingReport naming;  // if observations bring no ids
+  double widened_position = 0.0, widened_attitude = 0.0;  // of the motion to the submap's base, standard deviations
   double seconds = 0.0;
 };
 
@@ -63,6 +64,9 @@ class SubmapKeeper {
  private:
   Submap<Pose> take_submap() const;
   FixReport join(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
+  std::unique_ptr<MapTransaction<Pose>> join(Submap<Pose>& submap, ClosingReport& report);
+  void soften(Submap<Pose>& submap) const;
+  bool find_back(Submap<Pose>& submap, ClosingReport& report) const;
   bool moved() const;
 
   const FilterOptions<Pose>& options_;

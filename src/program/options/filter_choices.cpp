@@ -59,6 +59,17 @@ OptionGroup filter_options(FilterChoices& o) {
       [&o](const std::string& v) {
         o.forget_after = parse_whole("--forget-after", v, 0, std::numeric_limits<std::uint64_t>::max());
       }));
+  group.options.push_back(choice({"--loss", "LOSS",
+                                  "Loss of the sensor's residuals: `none` (the default), `huber` or `cauchy`. An "
+                                  "observation with a large residual gets less weight.",
+                                  "The gates stay; `--gate 1 --batch-gate 1` opens them."},
+                                 {"none", "huber", "cauchy"}, {CAIRN_LOSS_NONE, CAIRN_LOSS_HUBER, CAIRN_LOSS_CAUCHY},
+                                 o.loss));
+  group.options.push_back(number({"--loss-width", "W",
+                                  "Where `--loss` leaves the parabola, in standard deviations of an observation. "
+                                  "Default: {default}.",
+                                  ""},
+                                 kPositive, kUsualLossWidth, o.loss_width));
   return group;
 }
 

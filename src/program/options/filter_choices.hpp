@@ -12,6 +12,7 @@
 namespace cairn::program {
 
 constexpr std::uint32_t kUsualSubmap = 60;  // landmarks
+constexpr double kUsualLossWidth = 1.5;
 
 // One member for each option of the filter that is a number or a choice, with its name in cairn_filter_options. An
 // option that is not set keeps the library's default, or gets the value that the drive needs.
@@ -22,6 +23,8 @@ struct FilterChoices {
 #include "options/filter_options.def"
 
   std::uint64_t forget_after = 0;  // frames; 0: never
+  std::optional<std::int32_t> loss;  // of the log's sensor
+  std::optional<double> loss_width;
 
   // Writes the options that are set.
   void apply(cairn_filter_options& options) const;

@@ -44,6 +44,8 @@ void Runner::create() {
   check(cairn_filter_create(&options, &filter));
   filter_.reset(filter);
   sensor_ = drive_.equip(filter);
+  if (choices_.loss)
+    check(cairn_filter_set_loss(filter, sensor_, *choices_.loss, choices_.loss_width.value_or(kUsualLossWidth)));
 }
 
 void Runner::run(const Observer& observe) {
