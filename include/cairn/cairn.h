@@ -30,6 +30,7 @@
 #include <cairn/pose.h>
 #include <cairn/sensor.h>
 #include <cairn/status.h>
+#include <cairn/systematic.h>
 #include <cairn/team.h>
 
 #endif

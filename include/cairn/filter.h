@@ -111,6 +111,17 @@ typedef struct cairn_filter_options {
                                       CAIRN_LOSS_HUBER or CAIRN_LOSS_CAUCHY; default CAIRN_LOSS_NONE */
   uint32_t reserved_join;        /**< 0 */
   double join_loss_width;        /**< where `join_loss` leaves the parabola, standard deviations, > 0; default 1.5 */
+  double velocity_bias_sigma[3]; /**< a constant error of the measured body velocity (x, y, z) is a state, with this
+                                      standard deviation at the start, m/s, >= 0; 0, the default: no state. The
+                                      velocity is the measured one minus the bias (docs/systematic_errors.md). A
+                                      planar vehicle has only x and y */
+  double velocity_bias_walk[3];  /**< random walk of that error, m/s in the square root of a second, >= 0; it needs
+                                      its velocity_bias_sigma; default 0: constant */
+  double rate_bias_sigma[3];     /**< the same for the measured body rate, rad/s. A planar vehicle has only z */
+  double rate_bias_walk[3];      /**< rad/s in the square root of a second */
+  double wheel_scale_sigma[2];   /**< the same for the scales of the left and the right wheels: a wheel turns at the
+                                      measured rate times 1 + its scale */
+  double wheel_scale_walk[2];    /**< in the square root of a second */
 } cairn_filter_options;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
@@ -208,7 +219,9 @@ CAIRN_API cairn_status cairn_filter_predict_twist(cairn_filter *filter, double d
 
 /** Moves the vehicle by a relative pose, `T_map_body <- T_map_body T_before_after`, with the covariance (6x6 row-major,
  *  symmetric, positive semidefinite) of its error [dp; dtheta] in the axes of the body before the motion.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(1). \since 0.1.0 */
+ *  An increment has no duration: a filter that estimates a velocity or rate bias refuses it, and no random walk goes on.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (a bias is a
+ *  state). Complexity: O(1). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_predict_increment(cairn_filter *filter, const cairn_pose *T_before_after,
                                                       const double covariance[36]);
 

@@ -39,12 +39,39 @@ std::size_t Filter<Pose>::required_bytes(const FilterOptions<Pose>& options) {
 }
 
 template <class Pose>
+void Filter<Pose>::predict_wheels(double dt, double left, double right) {
+  const SystematicErrors& errors = local_.systematic();
+  if (!errors.any()) return move(drive_wheels<Pose>(wheels_, left, right, dt));
+  const CorrectedStep<Pose> step = drive_wheels<Pose>(wheels_, left, right, dt, errors.motion(local_.state()));
+  const MotionCoupling<Pose> coupling = errors.coupling(step, dt);
+  move(step.increment, &coupling);
+}
+
+template <class Pose>
+void Filter<Pose>::predict_twist(double dt, const Vector3& v, const Vector3& w) {
+  const SystematicErrors& errors = local_.systematic();
+  if (!errors.any()) return move(integrate_twist<Pose>(v, w, dt, twist_noise_));
+  const CorrectedStep<Pose> step = integrate_twist<Pose>(v, w, dt, twist_noise_, errors.motion(local_.state()));
+  const MotionCoupling<Pose> coupling = errors.coupling(step, dt);
+  move(step.increment, &coupling);
+}
+
+template <class Pose>
 void Filter<Pose>::propagate(const Increment<Pose>& increment) {
+  if (local_.systematic().any_twist())
+    throw Error(ErrorCode::state,
+                "prediction: an increment has no duration, so that a velocity or rate bias cannot be taken out; use "
+                "cairn_filter_predict_twist, or create the filter without these biases");
+  move(increment);
+}
+
+template <class Pose>
+void Filter<Pose>::move(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling) {
   constexpr double kTurnSquared = 39.478417604357432;  // (2 pi)^2
   if (!(increment.covariance.diagonal().template tail<kTurn>().maxCoeff() <= kTurnSquared))
     throw Error(ErrorCode::numerical,
                 "prediction: the attitude's noise of this step exceeds a whole turn; nothing was changed");
-  if (!local_.state().propagate(increment))
+  if (!local_.state().propagate(increment, coupling))
     throw Error(ErrorCode::numerical,
                 "prediction: the pose or its covariance would not be finite; nothing was changed");
   submaps_.drive(increment.T_before_after.translation().norm());

@@ -46,11 +46,9 @@ class Filter {
   // --- motion --- throws if the result is not finite, with nothing changed
   void set_wheels(const Wheels& wheels) { wheels_ = wheels; }
   void set_twist_noise(const TwistNoise& noise) { twist_noise_ = noise; }
-  void predict_wheels(double dt, double left, double right) { propagate(drive_wheels<Pose>(wheels_, left, right, dt)); }
-  void predict_twist(double dt, const Vector3& v, const Vector3& w) {
-    propagate(integrate_twist<Pose>(v, w, dt, twist_noise_));
-  }
-  void propagate(const Increment<Pose>& increment);
+  void predict_wheels(double dt, double left, double right);
+  void predict_twist(double dt, const Vector3& v, const Vector3& w);
+  void propagate(const Increment<Pose>& increment);  // refused if a bias of the twist is a state
 
   // --- observations --- each call throws with nothing changed; matches() holds one match an observation after it
   // First the observations of landmarks, then those of companions, which bring ids whatever the association is.
@@ -104,6 +102,9 @@ class Filter {
   // --- queries ---
   Pose pose() const { return submaps_.pose(); }
   Square pose_covariance() const { return submaps_.pose_covariance(); }
+  // Systematic errors that are states, in the order of SystematicErrors; the covariance has both triangles.
+  const SystematicErrors& systematic() const { return local_.systematic(); }
+  void systematic_errors(double* values, double* covariance) const { submaps_.systematic(values, covariance); }
   Pose local_pose() const { return local_.state().pose(); }
   Square local_pose_covariance() const { return local_.state().pose_covariance(); }
   double pose_nees(const Pose& truth) const { return submaps_.pose_nees(truth); }
@@ -117,6 +118,8 @@ class Filter {
   }
 
  private:
+  void move(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
+
   FilterOptions<Pose> options_;
   Log log_;
   Wheels wheels_;

@@ -6,6 +6,7 @@
 
 #include "ekf/error_model.hpp"
 #include "linear/robust_loss.hpp"
+#include "motion/motion.hpp"
 
 namespace cairn {
 
@@ -64,9 +65,17 @@ struct LandmarkOptions {
   Index missed_frames = FilterDefaults::missed_frames;  // it is removed if in view and not seen this often; 0: never
 };
 
+// Systematic errors of the motion that are states: by their numbers in MotionErrors, standard deviation at the start (0:
+// no state) and random walk in the square root of a second.
+struct SystematicOptions {
+  double motion_sigma[MotionErrors::kCount] = {};
+  double motion_walk[MotionErrors::kCount] = {};
+};
+
 template <class Pose>
 struct FilterOptions : CapacityOptions, UpdateOptions, SubmapOptions, AssociationOptions, LandmarkOptions {
   using PoseType = Pose;
+  SystematicOptions systematic;
   ErrorKind error = ErrorKind::invariant;
   Pose initial_pose;
   typename Pose::Square initial_covariance = Pose::Square::Zero();

@@ -292,6 +292,19 @@ typename SubmapKeeper<Pose>::Square SubmapKeeper<Pose>::pose_covariance() const 
 }
 
 template <class Pose>
+void SubmapKeeper<Pose>::systematic(double* values, double* covariance) const {
+  const SystematicErrors& errors = local_.systematic();
+  const State<Pose>& state = local_.state();
+  const Index n = errors.count(), states = state.systematic();
+  std::vector<double> joint(static_cast<std::size_t>(states * states));
+  state.systematic_covariance(joint.data());
+  for (Index i = 0; i < n; ++i) {
+    values[i] = errors.value(state, i);
+    for (Index j = 0; j < n; ++j) covariance[i * n + j] = errors.sum(joint.data(), states, i, j);
+  }
+}
+
+template <class Pose>
 void SubmapKeeper<Pose>::pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
   const std::size_t size = kDof + kDim * count;
   const auto n = static_cast<Eigen::Index>(size), landmarks = static_cast<Eigen::Index>(kDim * count);

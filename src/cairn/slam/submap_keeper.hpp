@@ -58,6 +58,8 @@ class SubmapKeeper {
   Pose pose() const { return map_ != nullptr ? map_->base() * local_.state().pose() : local_.state().pose(); }
   Square pose_covariance() const;
   double pose_nees(const Pose& truth) const;
+  // Values and covariance (both triangles) of the systematic errors.
+  void systematic(double* values, double* covariance) const;
   // Covariance of [pose; landmarks of landmarks()], in space: 6 + 3 count on a side.
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 

@@ -2,6 +2,7 @@
 #include "program/options/filter_choices.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace cairn::program {
 
@@ -10,6 +11,7 @@ void FilterChoices::apply(cairn_filter_options& options) const {
 #define FILTER_WHOLE(field, initial, lower, upper, flag) options.field = field.value_or(options.field);
 #define FILTER_REAL(field, initial, bounds, flag) options.field = field.value_or(options.field);
 #include "options/filter_options.def"
+  systematic.apply(options);
 }
 
 namespace {
@@ -70,6 +72,7 @@ OptionGroup filter_options(FilterChoices& o) {
                                   "Default: {default}.",
                                   ""},
                                  kPositive, kUsualLossWidth, o.loss_width));
+  for (Option& option : systematic_flags(o.systematic)) group.options.push_back(std::move(option));
   return group;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "program/options/option.hpp"
+#include "program/options/systematic_choices.hpp"
 
 namespace cairn::program {
 
@@ -25,6 +26,7 @@ struct FilterChoices {
   std::uint64_t forget_after = 0;  // frames; 0: never
   std::optional<std::int32_t> loss;  // of the log's sensor
   std::optional<double> loss_width;
+  SystematicChoices systematic;
 
   // Writes the options that are set.
   void apply(cairn_filter_options& options) const;
