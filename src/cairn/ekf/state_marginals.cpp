@@ -264,6 +264,7 @@ double State<Pose>::smallest_pivot() {
 
 template State<SE2>::PointByMotion State<SE2>::with_motion_states(Index) const;
 template State<SE2>::PendingTurn State<SE2>::pending_turn() const;
+template State<SE2>::PointSquare State<SE2>::relative_change(Index, const PointByPose&) const;
 template void State<SE2>::gather(const Index*, Index, double*, Index) const;
 template void State<SE2>::gather_ordinary(const Index*, Index, double*, Index) const;
 template void State<SE2>::gather_systematic(const Index*, Index, double*, Index) const;
@@ -277,6 +278,7 @@ template double State<SE2>::smallest_pivot();
 
 template State<SE3>::PointByMotion State<SE3>::with_motion_states(Index) const;
 template State<SE3>::PendingTurn State<SE3>::pending_turn() const;
+template State<SE3>::PointSquare State<SE3>::relative_change(Index, const PointByPose&) const;
 template void State<SE3>::gather(const Index*, Index, double*, Index) const;
 template void State<SE3>::gather_ordinary(const Index*, Index, double*, Index) const;
 template void State<SE3>::gather_systematic(const Index*, Index, double*, Index) const;
