@@ -41,6 +41,10 @@ void write_manual_options() {
   write_stdout(text);
 }
 
+void write_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) std::fprintf(stderr, "cairn: note: %s\n", note.c_str());
+}
+
 void write_stdout(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     throw UsageError("cannot write to stdout");

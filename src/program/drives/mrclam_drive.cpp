@@ -22,14 +22,11 @@ cairn_pose pose_of(const logs::MrclamLog::Truth& truth) {
 MrclamDrive::MrclamDrive(const logs::MrclamLog& log, const MrclamNoise& noise) : log_(log), noise_(noise) {
   double end = std::numeric_limits<double>::infinity();
   for (const Robot& robot : log.robots) {
-    const double start = robot.odometry.front().time;
-    logs::MrclamLog::Truth truth{};
-    if (!logs::truth_at(robot, start, truth))
-      throw logs::LogError("robot " + std::to_string(robot.id) + ": its first odometry has no true pose to start from");
     numbers_.push_back(robot.id);
-    starts_.push_back(pose_of(truth));
-    places_.push_back({start, 0, 0});
-    end = std::min({end, robot.odometry.back().time, robot.truth.back().time});
+    starts_.push_back(find_start(robot));
+    places_.push_back({robot.odometry.front().time, 0, 0});
+    end = std::min(end, robot.odometry.back().time);
+    if (!robot.truth.empty()) end = std::min(end, robot.truth.back().time);
   }
   for (std::size_t r = 0; r < log.robots.size(); ++r)
     for (const auto& measurement : log.robots[r].measurements)
@@ -45,6 +42,22 @@ MrclamDrive::MrclamDrive(const logs::MrclamLog& log, const MrclamNoise& noise) :
       largest_frame_ = std::max(largest_frame_, count);
     }
   }
+}
+
+// The true pose at the robot's first odometry; without it, the one that its first sightings of posts tell.
+RobotStart MrclamDrive::find_start(const Robot& robot) {
+  logs::MrclamLog::Truth truth{};
+  if (logs::truth_at(robot, robot.odometry.front().time, truth)) return {{truth.x, truth.y, truth.heading}, {}};
+  const std::string about = "robot " + std::to_string(robot.id) + ": its first odometry has no true pose";
+  if (const std::optional<RobotStart> start = start_from_posts(log_, robot, noise_)) {
+    notes_.push_back(about + "; it starts where its first sightings of posts place it");
+    return *start;
+  }
+  if (log_.robots.size() > 1 || !robot.truth.empty())
+    throw logs::LogError(about + ", and it saw too few posts to tell where it starts");
+  in_frame_of_posts_ = false;
+  notes_.push_back(about + "; its start is the origin of the map");
+  return {};
 }
 
 cairn_range_bearing MrclamDrive::radar() const {
@@ -106,7 +119,7 @@ bool MrclamDrive::next(TeamStep& step) {
 
 bool MrclamDrive::true_landmark(std::uint64_t id, double position[2]) const {
   const auto entry = log_.landmarks.find(id);
-  if (entry == log_.landmarks.end()) return false;
+  if (entry == log_.landmarks.end() || !in_frame_of_posts_) return false;
   std::copy(entry->second.begin(), entry->second.end(), position);
   return true;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/logs/text_table.hpp"
 
+#include <algorithm>
+
 namespace cairn::program::logs {
 
 bool TextTable::next() {
@@ -20,8 +22,9 @@ double TextTable::positive(std::size_t column) const {
 
 double TextTable::time() {
   const double value = number(0);
-  if (value < last_time_) lines_.refuse(0, columns_[0], "is earlier than that of the line before");
-  return last_time_ = value;
+  late_lines_ += value < last_time_;
+  last_time_ = std::max(last_time_, value);
+  return value;
 }
 
 }  // namespace cairn::program::logs
