@@ -4,6 +4,7 @@
 
 #include "program/drives/mrclam_noise.hpp"
 #include "program/drives/robot_start.hpp"
+#include "program/drives/robot_track.hpp"
 #include "program/drives/team_drive.hpp"
 #include "program/logs/mrclam_log.hpp"
 
@@ -28,13 +29,7 @@ class MrclamDrive : public TeamDrive {
   const std::vector<std::string>& notes() const { return notes_; }  // on starts that are not the true ones
 
  private:
-  struct Place {  // of one robot in its files
-    double time;  // the robot has moved up to here
-    std::size_t odometry = 0, measurement = 0;
-  };
   RobotStart find_start(const logs::MrclamLog::Robot& robot);
-  void move(const logs::MrclamLog::Robot& robot, double time, Place& place, VehicleStep& step) const;
-  void look(const logs::MrclamLog::Robot& robot, double time, Place& place, VehicleStep& step) const;
 
   const logs::MrclamLog& log_;
   MrclamNoise noise_;
@@ -43,7 +38,7 @@ class MrclamDrive : public TeamDrive {
   std::vector<std::string> notes_;
   bool in_frame_of_posts_ = true;
   std::vector<double> times_;
-  std::vector<Place> places_;
+  std::vector<RobotTrack> tracks_;
   double first_time_ = 0;
   std::uint32_t largest_frame_ = 0;
   std::size_t next_ = 0;

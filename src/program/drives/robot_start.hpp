@@ -16,8 +16,9 @@ struct RobotStart {
   std::array<double, 36> covariance = {};  // of its error [dp; dtheta]; zero: known exactly
 };
 
-// The pose at the first odometry that agrees best with the robot's first sightings of posts, whose true places are
-// known. Empty if it saw too few posts to tell its heading. O(records of the robot).
+// The pose at the robot's first odometry in the frame of the true posts. The robot maps posts from an arbitrary start
+// for a while; the start is the one that lays this map on the true posts. Empty if it saw too few posts to tell its
+// heading.
 std::optional<RobotStart> start_from_posts(const logs::MrclamLog& log, const logs::MrclamLog::Robot& robot,
                                            const MrclamNoise& noise);
 
