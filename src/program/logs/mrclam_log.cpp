@@ -149,7 +149,7 @@ class Reader {
     if (table.late_lines() == 0) return;
     std::stable_sort(records.begin(), records.end(), [](const Record& a, const Record& b) { return a.time < b.time; });
     log_.notes.push_back(name + ": sorted by time, because of " + std::to_string(table.late_lines()) +
-                         (table.late_lines() == 1 ? " line" : " lines") + " earlier than a line before");
+                         (table.late_lines() == 1 ? " line" : " lines") + " earlier than the line before");
   }
 
   void note(const std::string& name, std::size_t count, const char* what) {

@@ -53,7 +53,7 @@ class Reader {
   void read_record() {
     const std::string_view letter = lines_.field(0);
     const std::size_t fields = form_->fields(letter);
-    if (fields == 0) fail("unknown record " + TextLines::quoted(letter) + ", expected T, O, Z, L or N");
+    if (fields == 0) fail("unknown record " + TextLines::quoted(letter) + ", expected N, T, O, Z or L");
     if (lines_.size() != fields)
       fail("record " + text(0) + " has " + std::to_string(lines_.size()) + " fields, expected " +
            std::to_string(fields));

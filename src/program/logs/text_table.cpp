@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/logs/text_table.hpp"
 
-#include <algorithm>
-
 namespace cairn::program::logs {
 
 bool TextTable::next() {
@@ -23,8 +21,7 @@ double TextTable::positive(std::size_t column) const {
 double TextTable::time() {
   const double value = number(0);
   late_lines_ += value < last_time_;
-  last_time_ = std::max(last_time_, value);
-  return value;
+  return last_time_ = value;
 }
 
 }  // namespace cairn::program::logs

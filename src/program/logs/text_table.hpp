@@ -22,7 +22,7 @@ class TextTable {
   double positive(std::size_t column) const;
   std::uint64_t whole(std::size_t column) const { return lines_.whole(column, columns_[column]); }
   std::uint64_t identity(std::size_t column) const { return lines_.identity(column, columns_[column]); }
-  // The first field. Lines that are earlier than one before them are counted.
+  // The first field. Lines that are earlier than the line before them are counted.
   double time();
   std::size_t late_lines() const { return late_lines_; }
 
