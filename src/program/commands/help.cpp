@@ -15,8 +15,8 @@ constexpr const char* kUsage =
     "       cairn simulate mars|usv [options]\n"
     "       cairn --help | --version\n"
     "\n"
-    "cairn run drives the filter through a recorded log: a neutral text log or a STARS MATLAB v5 file. With a MRCLAM\n"
-    "folder it drives a team of robots.\n"
+    "cairn run drives the filter through a recorded log: a neutral text log, in space or in the plane, a text log of\n"
+    "iSAM, or a STARS MATLAB v5 file. With a MRCLAM folder it drives a team of robots.\n"
     "cairn simulate drives the filter through a simulated world. mars: a rover on rolling ground with a stereo head.\n"
     "usv: boats with radar that cooperate.\n";
 
