@@ -70,6 +70,7 @@ void Summary::add(const DriveStep& step, const StepResult& result, const std::op
   last_truth_ = step.truth;
   if (!score) return;
   ++scored_;
+  scored_later_ |= step.index > 0;
   const double position = square_norm(score->error);
   position_square_sum_ += position;
   position_last_ = std::sqrt(position);
@@ -164,7 +165,7 @@ void Summary::finish_timing() {
 }
 
 void Summary::finish_pose(const cairn_filter* filter) {
-  if (scored_ == 0) return;
+  if (!scored_later_) return;
   const auto count = static_cast<double>(scored_);
   measure("pose_rmse_m", std::sqrt(position_square_sum_ / count));
   measure("pose_final_m", position_last_);

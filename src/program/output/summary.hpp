@@ -58,6 +58,7 @@ class Summary {
   std::size_t observations_ = 0;
   std::size_t rejected_ = 0;
   std::size_t scored_ = 0;                // steps with a true pose
+  bool scored_later_ = false;             // one of them is not the start, which the filter was given
   std::optional<cairn_pose> last_truth_;  // of the last step
   double position_square_sum_ = 0;
   double position_last_ = 0;

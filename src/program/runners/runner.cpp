@@ -33,9 +33,7 @@ void Runner::create() {
   const std::size_t room = std::min(kMostLandmarks, choices_.names_known() ? needed : 2 * needed);
   options.max_landmarks = static_cast<std::uint32_t>(room);
   options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
-  // A submap that one frame fills costs more to close than it saves.
-  constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
-  options.submap_landmarks = std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations));
+  options.submap_landmarks = usual_submap(options.max_observations);
   choices_.apply(options);
   options.vehicle = drive_.planar() ? CAIRN_VEHICLE_PLANAR : CAIRN_VEHICLE_SPATIAL;
   has_submaps_ = options.submap_landmarks > 0;
