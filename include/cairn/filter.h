@@ -57,6 +57,12 @@ enum {
                                        same d^2, the better known one is chosen. The gates still use d^2 */
 };
 
+/** What becomes of the noise that the filter learns from its innovations (docs/trust.md). */
+enum {
+  CAIRN_NOISE_REPORTED = 0, /**< \ref cairn_filter_health reports it; the default */
+  CAIRN_NOISE_APPLIED = 1   /**< from when it is known, it scales the stated noise of each sensor and of the motion */
+};
+
 /** Options of \ref cairn_filter_create. Set them by \ref cairn_filter_options_init first. */
 typedef struct cairn_filter_options {
   uint32_t struct_size;          /**< sizeof(cairn_filter_options) of the caller */
@@ -107,6 +113,8 @@ typedef struct cairn_filter_options {
                                       correlated, 1 to 1000000: an update multiplies the covariance of an
                                       observation's noise by this; association and placing use the noise unchanged;
                                       default 1 */
+  int32_t noise_learning;        /**< CAIRN_NOISE_REPORTED or CAIRN_NOISE_APPLIED; default CAIRN_NOISE_REPORTED */
+  uint32_t reserved_2;           /**< 0 */
 } cairn_filter_options;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.

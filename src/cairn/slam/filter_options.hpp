@@ -61,8 +61,18 @@ struct LandmarkOptions {
   Index missed_frames = FilterDefaults::missed_frames;  // it is removed if in view and not seen this often; 0: never
 };
 
+// What becomes of the noise that is learned (docs/trust.md).
+struct NoiseOptions {
+  bool apply_noise = false;  // scales the stated noise; otherwise it is only reported
+};
+
 template <class Pose>
-struct FilterOptions : CapacityOptions, UpdateOptions, SubmapOptions, AssociationOptions, LandmarkOptions {
+struct FilterOptions : CapacityOptions,
+                       UpdateOptions,
+                       SubmapOptions,
+                       AssociationOptions,
+                       LandmarkOptions,
+                       NoiseOptions {
   using PoseType = Pose;
   ErrorKind error = ErrorKind::invariant;
   Pose initial_pose;

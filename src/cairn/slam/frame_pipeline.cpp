@@ -8,7 +8,8 @@ namespace cairn {
 
 template <class Pose>
 FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
-                                   Thresholds& thresholds, FrameReport& report, const Log& log)
+                                   Thresholds& thresholds, FrameReport& report, HealthMonitor<Pose>& health,
+                                   const Log& log)
     : options_(options),
       map_(map),
       report_(report),
@@ -17,16 +18,19 @@ FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& opti
       associator_(arena, options, map, thresholds, report, log),
       updater_(arena, options, map, thresholds, report, log),
       placer_(options, map, report),
+      witness_(arena, options, map, report, health),
       review_(options, map, report) {}
 
 template <class Pose>
 void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
   report_.start(frame.count());
   sort(frame);
+  witness_.before(frame, sorted_);
   EkfUpdate<Pose> update = updater_.begin(frame, sorted_);
   updater_.run(update, frame, sorted_);
   placer_.place(update, frame, sorted_);
   report_.finish();
+  witness_.after(frame);
   review_.run(frame);
 }
 

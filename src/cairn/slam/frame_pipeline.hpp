@@ -6,6 +6,7 @@
 #include "slam/frame_placer.hpp"
 #include "slam/frame_sorter.hpp"
 #include "slam/frame_update.hpp"
+#include "slam/frame_witness.hpp"
 #include "slam/landmark_review.hpp"
 
 namespace cairn {
@@ -14,7 +15,7 @@ template <class Pose>
 class FramePipeline {
  public:
   FramePipeline(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map, Thresholds& thresholds,
-                FrameReport& report, const Log& log);
+                FrameReport& report, HealthMonitor<Pose>& health, const Log& log);
 
   // Throws with nothing changed.
   void run(const Frame<Pose>& frame);
@@ -32,6 +33,7 @@ class FramePipeline {
   FrameAssociator<Pose> associator_;
   FrameUpdate<Pose> updater_;
   FramePlacer<Pose> placer_;
+  FrameWitness<Pose> witness_;
   LandmarkReview<Pose> review_;
 };
 

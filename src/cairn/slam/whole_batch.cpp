@@ -12,12 +12,13 @@ namespace cairn {
 template <class Pose>
 WholeBatchUpdate<Pose>::WholeBatchUpdate(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
                                          SubmapKeeper<Pose>& submaps, const Thresholds& thresholds, FrameReport& report,
-                                         const Log& log)
+                                         HealthMonitor<Pose>& health, const Log& log)
     : options_(options),
       map_(map),
       submaps_(submaps),
       thresholds_(thresholds),
       report_(report),
+      health_(health),
       log_(log),
       ids_(arena, static_cast<std::size_t>(options.max_observations)),
       window_(arena.take<Index>(static_cast<std::size_t>(options.max_observations))) {}
@@ -44,6 +45,7 @@ void WholeBatchUpdate<Pose>::run(EkfUpdate<Pose>& update, Index rows, int iterat
     match.decision = Decision::matched;
   }
   report_.finish();
+  health_.fixed(rows, match.distance, match.decision != Decision::matched);
 }
 
 template <class Pose>
@@ -77,6 +79,7 @@ void WholeBatchUpdate<Pose>::fix_map(const AbsoluteFix<Pose>& fix) {
     log_.say("update: the gate refused a fix, distance %g over %g", match.distance, match.threshold);
   }
   report_.finish();
+  health_.fixed(fix.rows(), match.distance, !done.accepted);
 }
 
 template <class Pose>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/id_table.hpp"
+#include "health/health_monitor.hpp"
 #include "sensor/absolute_fix.hpp"
 #include "slam/frame_report.hpp"
 #include "slam/submap_keeper.hpp"
@@ -18,7 +19,7 @@ class WholeBatchUpdate {
   static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
 
   WholeBatchUpdate(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map, SubmapKeeper<Pose>& submaps,
-                   const Thresholds& thresholds, FrameReport& report, const Log& log);
+                   const Thresholds& thresholds, FrameReport& report, HealthMonitor<Pose>& health, const Log& log);
 
   void fix(const AbsoluteFix<Pose>& fix);
   void rows(const LinearRows& rows);
@@ -37,6 +38,7 @@ class WholeBatchUpdate {
   SubmapKeeper<Pose>& submaps_;
   const Thresholds& thresholds_;
   FrameReport& report_;
+  HealthMonitor<Pose>& health_;
   const Log& log_;
   IdTable ids_;    // of the landmarks that the caller's rows depend on
   Index* window_;  // slots
