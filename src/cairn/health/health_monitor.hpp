@@ -27,6 +27,10 @@ struct Sighted {
   typename Pose::Point y;  // in the body frame
 };
 
+// What an update left of an observation, whether it was used or refused.
+template <class Pose>
+using Left = typename SightingMemory<Pose>::Anchor;
+
 struct SensorHealth {
   double compared, refused;  // observations so far
   NisWindow nis;
@@ -54,7 +58,7 @@ class HealthMonitor {
   void compare(const Sighted<Pose>& sighted, double distance, bool refused);
   void correct(const Pose& before, const Square& P_before, const Pose& after, const Square& P_after);
   void finish(double nis, Index rows);
-  void remember(std::uint64_t landmark, const Vector3& residual, const Matrix3& noise, const typename Pose::Point& y);
+  void remember(std::uint64_t landmark, Left<Pose> left);  // its sensor and frame are filled in
 
   // --- what it found ---
   const Verdict& verdict() const { return verdict_; }
@@ -70,22 +74,28 @@ class HealthMonitor {
   // A sensor, and the motion since its last frame.
   struct Place {
     SensorHealth health;
-    std::uint64_t frame;  // number of its frame
-    bool chained;         // the motion since its last frame is known
-    Pose driven;
-    Square noise;
+    std::uint64_t frame;    // number of its frame
+    struct Drive {          // since the anchor of a stride
+      bool chained;         // it is known
+      std::uint64_t frame;  // of the anchor
+      Pose T;
+      Square noise;
+    } drives[kStrides];
   };
   static double applied(const NoiseFactor& factor);
   void drive_all();
-  void pair(const Sighted<Pose>& sighted, const typename SightingMemory<Pose>::Sighting& last);
+  bool due(Index stride) const { return places_[now_].frame % kStride[stride] == 0; }
+  void pair(const Sighted<Pose>& sighted, const Left<Pose>& last, Index stride);
+  FrameParts split(Index stride);
   void learn();
+  void judge_jump(const FrameParts& parts);
 
   bool apply_;
   Index sensors_;
   Place* places_;
   Increment<Pose> since_;  // the last frame of any sensor
   SightingMemory<Pose> memory_;
-  PairedFrame<Pose> paired_;
+  PairedFrame<Pose> paired_[kStrides];
   NoiseRegression slow_, fast_;
   DriftTest<Pose> drift_;
   Verdict verdict_;

@@ -11,6 +11,7 @@ constexpr double kLeast = 1e-6, kMost = 1e6;  // factors of variances
 constexpr double kPrior = 0.02;               // weight of the statement that the stated noise is right
 // A square counts up to kBound times its expectation; an honest one is kBounded of its expectation then (eq. 6).
 constexpr double kBound = 9.0, kBounded = 0.995;
+constexpr double kSlight = 0.02;  // a direction with less says nothing about the motion
 // Two differences of one landmark in a row share an observation: their correlation is -1/2, and the variance of a mean
 // of squares 1 + 2 (1/2)^2 times that of independent ones.
 constexpr double kShared = 1.5;
@@ -43,24 +44,32 @@ void NoiseRegression::add(Sums& sums, double weight, double square, double count
   sums.b += w * weight * square;
 }
 
-void NoiseRegression::add(Index sensor, const FrameParts& parts) {
-  // A frame with few observations has nothing that no motion explains: then all of it counts.
-  constexpr Index kEnough = 6;
-  constexpr double kSlight = 0.02;  // a direction with less says nothing about the motion
+double NoiseRegression::bounded(const Sums& sums, const FrameParts::Common& common) const {
+  return std::min(common.square, kBound * (sums.factor.value + motion_.value * common.weight)) / kBounded;
+}
+
+void NoiseRegression::fade(Index sensor) {
   Sums& sums = sensors_[sensor];
   for (double* sum : {&sums.aa, &sums.ab, &sums.bb, &sums.a, &sums.b, &sums.young}) *sum *= keep_;
-  const auto bounded = [&](double weight, double square) {
-    return std::min(square, kBound * (sums.factor.value + motion_.value * weight)) / kBounded;
-  };
+}
+
+void NoiseRegression::add(Index sensor, const FrameParts& parts) {
+  constexpr Index kEnough = 6;  // with fewer observations all that a frame has counts
+  Sums& sums = sensors_[sensor];
   if (parts.residual_dof > 0) {
     const auto dof = static_cast<double>(parts.residual_dof);
     add(sums, 0.0, parts.residual / dof, dof);
   }
-  for (Index j = 0; j < parts.commons; ++j) {
-    const FrameParts::Common& common = parts.common[j];
-    if (common.weight > kSlight || parts.residual_dof < kEnough)
-      add(sums, common.weight, bounded(common.weight, common.square), 1.0);
-  }
+  for (Index j = 0; j < parts.commons; ++j)
+    if (parts.common[j].weight > kSlight || parts.residual_dof < kEnough)
+      add(sums, parts.common[j].weight, bounded(sums, parts.common[j]), 1.0);
+  solve();
+}
+
+void NoiseRegression::add_motion(Index sensor, const FrameParts& parts) {
+  Sums& sums = sensors_[sensor];
+  for (Index j = 0; j < parts.commons; ++j)
+    if (parts.common[j].weight > kSlight) add(sums, parts.common[j].weight, bounded(sums, parts.common[j]), 1.0);
   solve();
 }
 

@@ -19,7 +19,10 @@ class NoiseRegression {
   // `memory`: number of frames that count.
   NoiseRegression(Arena& arena, Index sensors, double memory);
 
+  void fade(Index sensor);  // once for each frame of the sensor
+  // The differences of a frame to the frame before, and over several frames: these tell of the motion only.
   void add(Index sensor, const FrameParts& parts);
+  void add_motion(Index sensor, const FrameParts& parts);
   NoiseFactor sensor(Index sensor) const { return sensors_[sensor].factor; }
   NoiseFactor motion() const { return motion_; }
 
@@ -31,6 +34,7 @@ class NoiseRegression {
     NoiseFactor factor;
   };
   void add(Sums& sums, double weight, double square, double count);
+  double bounded(const Sums& sums, const FrameParts::Common& common) const;
   void solve();
 
   double keep_;  // of the sums, from frame to frame

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The last sighting of each landmark that was seen lately, in a fixed block of memory.
+// The last sightings of each landmark that was seen lately, in a fixed block of memory.
 #pragma once
 
 #include "core/arena.hpp"
@@ -10,17 +10,31 @@
 
 namespace cairn {
 
+// Differences are taken over so many frames of a sensor: the noise of a motion that is small beside that of the sensor
+// shows only over several frames.
+constexpr Index kStrides = 3;
+constexpr std::uint64_t kStride[kStrides] = {1, 4, 16};
+
 template <class Pose>
 class SightingMemory {
  public:
+  using ByLandmark = typename Prediction<Pose>::ByLandmark;
+  using PointSquare = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
+
+  // What an update left of an observation.
+  struct Anchor {
+    Index sensor = 0;
+    std::uint64_t frame = 0;  // of the sensor; 0: there is none
+    Vector3 residual = Vector3::Zero();
+    Matrix3 noise = Matrix3::Zero();               // as stated
+    typename Pose::Point y = Pose::Point::Zero();  // the landmark in the body frame
+    ByLandmark J_z_y = ByLandmark::Zero();
+    PointSquare P = PointSquare::Zero();  // of y
+  };
   struct Sighting {
     std::uint64_t landmark = 0;
     bool used = false;
-    Index sensor = 0;
-    std::uint64_t frame = 0;                       // of the sensor
-    Vector3 residual = Vector3::Zero();            // after the update of that frame
-    Matrix3 noise = Matrix3::Zero();               // as stated
-    typename Pose::Point y = Pose::Point::Zero();  // the landmark in the body frame, after the update
+    Anchor anchors[kStrides];
     PastErrors past;
     Contradiction contradiction;
   };

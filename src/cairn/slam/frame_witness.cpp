@@ -68,9 +68,14 @@ void FrameWitness<Pose>::remember(const Frame<Pose>& frame, Index observation) {
   const typename Pose::Point landmark = map_.state().landmark(*slot);
   Prediction<Pose> prediction;
   if (!frame.sensor.predict(pose, landmark, MountError<Pose>::Zero(), prediction)) return;
-  health_.remember(match.landmark, frame.sensor.residual(frame.z(observation), prediction.z),
-                   stated_noise(frame, observation, prediction),
-                   pose.rotation().inverse() * (landmark - pose.translation()));
+  const typename Pose::Rotation::Matrix R = pose.rotation().matrix();
+  Left<Pose> left;
+  left.residual = frame.sensor.residual(frame.z(observation), prediction.z);
+  left.noise = stated_noise(frame, observation, prediction);
+  left.y = pose.rotation().inverse() * (landmark - pose.translation());
+  left.J_z_y = prediction.J_z_landmark * R;
+  left.P = R.transpose() * map_.state().relative_covariance(*slot) * R;
+  health_.remember(match.landmark, left);
 }
 
 template class FrameWitness<SE2>;
