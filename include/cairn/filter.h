@@ -57,6 +57,12 @@ enum {
                                        same d^2, the better known one is chosen. The gates still use d^2 */
 };
 
+/** What becomes of the noise that the filter learns from its innovations (docs/trust.md). */
+enum {
+  CAIRN_NOISE_REPORTED = 0, /**< \ref cairn_filter_health reports it; the default */
+  CAIRN_NOISE_APPLIED = 1   /**< from when it is known, it scales the stated noise of each sensor and of the motion */
+};
+
 /** Options of \ref cairn_filter_create. Set them by \ref cairn_filter_options_init first. */
 typedef struct cairn_filter_options {
   uint32_t struct_size;          /**< sizeof(cairn_filter_options) of the caller */
@@ -109,7 +115,7 @@ typedef struct cairn_filter_options {
                                       default 1 */
   int32_t join_loss;             /**< loss of the landmarks that a closed submap shares with the map: CAIRN_LOSS_NONE,
                                       CAIRN_LOSS_HUBER or CAIRN_LOSS_CAUCHY; default CAIRN_LOSS_NONE */
-  uint32_t reserved_join;        /**< 0 */
+  int32_t noise_learning;        /**< CAIRN_NOISE_REPORTED or CAIRN_NOISE_APPLIED; default CAIRN_NOISE_REPORTED */
   double join_loss_width;        /**< where `join_loss` leaves the parabola, standard deviations, > 0; default 1.5 */
   double velocity_bias_sigma[3]; /**< a constant error of the measured body velocity (x, y, z) is a state, with this
                                       standard deviation at the start, m/s, >= 0; 0, the default: no state. The

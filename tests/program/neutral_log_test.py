@@ -6,7 +6,7 @@ import os
 import unittest
 
 import make_log
-from support import (ALWAYS, WITH_SUBMAPS, WITH_TRUE_END, WITH_TRUE_LANDMARKS, WITH_TRUE_POSES, ProgramTest, call)
+from support import (ALWAYS, LEARNED, WITH_SUBMAPS, WITH_TRUE_END, WITH_TRUE_LANDMARKS, WITH_TRUE_POSES, ProgramTest, call)
 
 
 def records(text, letter):
@@ -30,7 +30,7 @@ class NeutralLog(ProgramTest):
     def test_figures(self):
         text = self.neutral_log(steps=400)
         s = self.summary(self.write("a.log", text))
-        self.assertEqual(set(s), ALWAYS | WITH_SUBMAPS | WITH_TRUE_POSES | WITH_TRUE_END | WITH_TRUE_LANDMARKS)
+        self.assertEqual(set(s) - LEARNED, ALWAYS | WITH_SUBMAPS | WITH_TRUE_POSES | WITH_TRUE_END | WITH_TRUE_LANDMARKS)
         self.assertEqual(s["steps"], 401)
         self.assertEqual(s["observations"], len(records(text, "Z")))
         self.assertEqual(s["landmarks"], len({r[1] for r in records(text, "Z")}))
@@ -55,6 +55,8 @@ class NeutralLog(ProgramTest):
         s = self.summary(self.write("a.log", "".join(kept)))
         # Only the start is known, and the filter was given it: no error is 0 for that reason.
         self.assertEqual(set(s), ALWAYS | WITH_SUBMAPS)
+        # only the start is known
+        self.assertEqual(set(s) - LEARNED, ALWAYS | WITH_SUBMAPS | WITH_TRUE_POSES - {"pose_anees_per_dof"})
         self.assertEqual(s["steps"], 151)
 
     def test_without_any_true_pose(self):
@@ -292,6 +294,15 @@ class NeutralLog(ProgramTest):
         seen = [(int(r[0]), int(r[1])) for r in records(text, "Z")]
         self.assertEqual([(int(row["step"]), int(row["id"])) for row in innovations], seen)
         self.assertEqual(sum(int(row["observations"]) for row in landmarks), len(seen) - s["rejected"])
+
+        health = self.read_csv(out, "health.csv")
+        self.assertEqual([int(row["step"]) for row in health], [int(row["step"]) for row in trajectory])
+        verdicts = [row["verdict"] for row in health]
+        self.assertEqual(verdicts[-1], s["verdict"])
+        self.assertEqual(set(verdicts) - {"good", "doubtful", "lost"}, set())
+        self.assertTrue(all((row["verdict"] == "good") == (row["reasons"] == "") for row in health))
+        self.assertGreater(float(health[-1]["nis_upper"]), 1)
+        self.assertAlmostEqual(float(health[-1]["sensor_scale"]), s["sensor_noise_scale"], places=6)
 
         timing = self.read_csv(out, "timing.csv")
         self.assertEqual(len(timing), 151)

@@ -128,6 +128,7 @@ FilterOptions<Pose> options_of(const cairn_filter_options& o) {
   options.join = join_of(o);
   options.join_loss = join_loss_of(o);
   options.association = association_of(o);
+  options.apply_noise = o.noise_learning == CAIRN_NOISE_APPLIED;
   options.by_likelihood =
       options.association == AssociationKind::nearest && o.association_distance == CAIRN_DISTANCE_LIKELIHOOD;
   // Numbers have the same name on both sides.

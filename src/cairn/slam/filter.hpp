@@ -37,6 +37,7 @@ class Filter {
     return sensors_.add(typename SensorRack<Pose>::Any(sensor));
   }
   int sensor_rows(int sensor) { return sensors_.at(sensor).rows(); }
+  void check_sensor(int sensor) const { sensors_.check(sensor); }
   void point_head(int sensor, double pan, double stick) { sensors_.point_head(sensor, pan, stick); }
   // Sets the region in which the sensor detects every landmark: bounds on the predicted observation.
   void set_view(int sensor, const Vector3& lower, const Vector3& upper) { sensors_.set_view(sensor, {lower, upper}); }
@@ -56,9 +57,7 @@ class Filter {
   void update_linear(const LinearRows& rows) {
     log_.watch([&] { batches_.rows(rows); });
   }
-  void update_fix(const AbsoluteFix<Pose>& fix) {
-    log_.watch([&] { batches_.fix(fix); });
-  }
+  void update_fix(const AbsoluteFix<Pose>& fix);
   void update_position(const Point& position, const PointSquare& covariance, const Point& lever_arm) {
     update_fix(AbsoluteFix<Pose>::position(position, covariance, lever_arm));
   }
@@ -70,6 +69,7 @@ class Filter {
   double* workspace() { return local_.state().scratch(); }
   const Match* matches() const { return report_.matches(); }
   const UpdateReport& report() const { return report_.last(); }
+  const HealthMonitor<Pose>& health() const { return health_; }
 
   // --- landmarks ---
   void remove_landmark(std::uint64_t id) { submaps_.remove_landmark(id); }
@@ -90,13 +90,13 @@ class Filter {
   // The companion's error is J_pose times the error of the active vehicle, plus noise.
   void add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise);
   void remove_vehicle(std::uint64_t id) { local_.remove_vehicle(id); }  // not the active one
-  void look_from(std::uint64_t id) { local_.look_from(id); }
+  void look_from(std::uint64_t id);
   bool has_vehicle(std::uint64_t id) const { return local_.has_vehicle(id); }
   Pose vehicle_pose(std::uint64_t id) const;
   Square vehicle_covariance(std::uint64_t id) const;
 
   // --- submaps --- throws with nothing changed
-  void close_submap() { submaps_.close(); }
+  void close_submap();
   const ClosingReport& closing() const { return submaps_.closing(); }
 
   // --- queries ---
@@ -119,6 +119,7 @@ class Filter {
 
  private:
   void move(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
+  void note_closing();
 
   FilterOptions<Pose> options_;
   Log log_;
@@ -130,6 +131,8 @@ class Filter {
   FrameReport report_;
   SubmapKeeper<Pose> submaps_;
   MotionTrust<Pose> trust_;
+  HealthMonitor<Pose> health_;
+  std::size_t closings_ = 0;  // that the health monitor knows of
   FramePipeline<Pose> frames_;
   WholeBatchUpdate<Pose> batches_;
 };

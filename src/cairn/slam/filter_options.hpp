@@ -72,8 +72,18 @@ struct SystematicOptions {
   double motion_walk[MotionErrors::kCount] = {};
 };
 
+// What becomes of the noise that is learned (docs/trust.md).
+struct NoiseOptions {
+  bool apply_noise = false;  // scales the stated noise; otherwise it is only reported
+};
+
 template <class Pose>
-struct FilterOptions : CapacityOptions, UpdateOptions, SubmapOptions, AssociationOptions, LandmarkOptions {
+struct FilterOptions : CapacityOptions,
+                       UpdateOptions,
+                       SubmapOptions,
+                       AssociationOptions,
+                       LandmarkOptions,
+                       NoiseOptions {
   using PoseType = Pose;
   SystematicOptions systematic;
   ErrorKind error = ErrorKind::invariant;

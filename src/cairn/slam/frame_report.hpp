@@ -34,6 +34,7 @@ struct UpdateReport {
   Index deferred = 0;  // landmarks that do not count yet after the update
   Index removed = 0;   // removed landmarks: missed, or deferred for too long
   double widened_position = 0.0, widened_attitude = 0.0;  // standard deviations by which the motion was widened
+  bool widened() const { return widened_position > 0.0 || widened_attitude > 0.0; }
 };
 
 class FrameReport {

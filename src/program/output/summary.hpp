@@ -46,6 +46,7 @@ class Summary {
   void measure(const char* key, double value);
   void add_closing(const cairn_closing_report& closing);
   void finish_timing();
+  void finish_health(const cairn_filter* filter);
   void finish_pose(const cairn_filter* filter);
   void finish_landmarks(const std::vector<cairn_landmark>& landmarks);
 
@@ -71,6 +72,7 @@ class Summary {
   double nees_sum_ = 0;
   double nis_sum_ = 0;
   std::size_t nis_rows_ = 0;
+  cairn_sensor_health sensor_health_{};  // after the last step
   std::size_t submaps_ = 0;
   double closing_worst_ = 0;               // s
   double closing_outside_ = 0;             // s, of the closing after the last step

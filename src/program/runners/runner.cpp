@@ -108,6 +108,10 @@ void Runner::report() {
   check(cairn_filter_local_pose(filter_.get(), nullptr, result_.local_covariance));
   check(cairn_map_size(cairn_filter_map(filter_.get()), &result_.landmarks));
   check(cairn_map_size(cairn_filter_local_map(filter_.get()), &result_.filter_landmarks));
+  result_.health.struct_size = sizeof result_.health;
+  check(cairn_filter_health(filter_.get(), &result_.health));
+  result_.sensor_health.struct_size = sizeof result_.sensor_health;
+  check(cairn_filter_sensor_health(filter_.get(), sensor_, &result_.sensor_health));
   result_.closing = new_closing();
   if (result_.closing) result_.filter_landmarks += result_.closing->landmarks;
 }
