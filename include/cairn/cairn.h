@@ -31,5 +31,6 @@
 #include <cairn/sensor.h>
 #include <cairn/status.h>
 #include <cairn/team.h>
+#include <cairn/trajectory.h>
 
 #endif

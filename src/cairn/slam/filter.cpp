@@ -14,7 +14,8 @@ Filter<Pose>::Filter(Arena& arena, const FilterOptions<Pose>& options)
       thresholds_(arena, {options.gate_probability, options.batch_gate_probability, options.new_probability},
                   kDim * options.max_observations + kDof),
       report_(arena, options_.max_observations),
-      submaps_(options_, local_, log_),
+      trajectory_(arena, options_.trajectory_poses),
+      submaps_(options_, local_, trajectory_, log_),
       frames_(arena, options_, local_, thresholds_, report_, log_),
       batches_(arena, options_, local_, submaps_, thresholds_, report_, log_) {
   if (arena.measuring()) return;
@@ -55,6 +56,7 @@ void Filter<Pose>::update(int sensor, const Observation* observations, Index lan
     const Sensor<Pose>& own = sensors_.at(sensor);
     frames_.run({own, sensors_.view(sensor), observations, landmarks, companions});
   });
+  submaps_.keep_pose();  // of the frame, before its submap is closed
   submaps_.close_if_full();
 }
 

@@ -116,7 +116,7 @@ void Summary::measure(const char* key, double value) {
 }
 
 void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing,
-                     double seconds) {
+                     const std::optional<double>& corrected_rmse, double seconds) {
   if (last_closing) {
     add_closing(*last_closing);
     closing_outside_ = last_closing->seconds;
@@ -139,6 +139,7 @@ void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closi
   finish_timing();
   measure("peak_rss_mib", peak_rss_mib());
   finish_pose(filter);
+  if (corrected_rmse) measure("pose_rmse_corrected_m", *corrected_rmse);
   finish_landmarks(landmarks);
   if (nees_count_ > 0) measure("pose_anees_per_dof", nees_sum_ / static_cast<double>(nees_count_) / kPoseDimension);
   if (nis_rows_ > 0) measure("nis_per_dof", nis_sum_ / static_cast<double>(nis_rows_));

@@ -11,7 +11,8 @@ namespace cairn::program {
 namespace {
 
 constexpr std::size_t kLandmarkMargin = 8;
-constexpr std::size_t kMostLandmarks = 10000000, kMostObservations = 4096;  // limits of the library
+constexpr std::size_t kMostLandmarks = 10000000, kMostObservations = 4096,
+                      kMostPoses = 10000000;  // limits of the library
 
 }  // namespace
 
@@ -36,6 +37,7 @@ void Runner::create() {
   // A submap that one frame fills costs more to close than it saves.
   constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
   options.submap_landmarks = std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations));
+  options.trajectory_poses = static_cast<std::uint32_t>(std::min(kMostPoses, drive_.steps()));
   choices_.apply(options);
   has_submaps_ = options.submap_landmarks > 0;
   options.initial_pose = drive_.start();
@@ -76,7 +78,7 @@ void Runner::predict() {
 }
 
 void Runner::update() {
-  if (step_.count == 0) return;
+  if (step_.count == 0) return check(cairn_filter_keep_pose(filter_.get(), nullptr));
   check(cairn_filter_update(filter_.get(), sensor_, step_.observations, step_.count, result_.matches.data()));
 }
 
