@@ -4,12 +4,15 @@
 
 #include <cairn/cairn.h>
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "program/logs/planar.hpp"
+
 namespace cairn::program {
+
+using logs::planar_pose;
 
 // A planar body's speed and rate of turn, held for `dt` seconds, and their noise over that time.
 struct TeamMotion {
@@ -50,10 +53,5 @@ class TeamDrive {
   virtual bool next(TeamStep& step) = 0;            // false after the last step
   virtual bool true_landmark(std::uint64_t id, double position[2]) const = 0;
 };
-
-// A pose of the plane.
-inline cairn_pose planar_pose(double x, double y, double heading) {
-  return {{x, y, 0}, {std::cos(0.5 * heading), 0, 0, std::sin(0.5 * heading)}};
-}
 
 }  // namespace cairn::program

@@ -14,7 +14,6 @@ namespace cairn::program {
 namespace {
 
 constexpr double kDegreesPerRadian = 57.29577951308232;
-constexpr int kPoseDimension = 6;
 
 double square_norm(const double* v) {
   return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
@@ -141,7 +140,8 @@ void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closi
   finish_pose(filter);
   if (corrected_rmse) measure("pose_rmse_corrected_m", *corrected_rmse);
   finish_landmarks(landmarks);
-  if (nees_count_ > 0) measure("pose_anees_per_dof", nees_sum_ / static_cast<double>(nees_count_) / kPoseDimension);
+  const int pose_dimension = drive_.planar() ? 3 : 6;
+  if (nees_count_ > 0) measure("pose_anees_per_dof", nees_sum_ / static_cast<double>(nees_count_) / pose_dimension);
   if (nis_rows_ > 0) measure("nis_per_dof", nis_sum_ / static_cast<double>(nis_rows_));
 }
 

@@ -39,6 +39,7 @@ void Runner::create() {
   options.submap_landmarks = std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations));
   options.trajectory_poses = static_cast<std::uint32_t>(std::min(kMostPoses, drive_.steps()));
   choices_.apply(options);
+  options.vehicle = drive_.planar() ? CAIRN_VEHICLE_PLANAR : CAIRN_VEHICLE_SPATIAL;
   has_submaps_ = options.submap_landmarks > 0;
   options.initial_pose = drive_.start();
   cairn_filter* filter = nullptr;
