@@ -28,8 +28,8 @@ static double distance(const cairn_pose* a, const cairn_pose* b) {
   return sqrt(sum);
 }
 
-/* Around the ring three times. The newest pose is always the filter's pose. In the end the poses are nearer to the truth
- * than they were online, and no pose lies beside the next one where a submap was closed. */
+/* Around the ring three times. The newest pose is always the filter's pose. In the end the poses are nearer to the
+ * truth than they were online, and no pose lies beside the next one where a submap was closed. */
 static void poses_follow_the_map(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j) {
@@ -155,15 +155,15 @@ static void every_update_keeps_a_pose(void** state) {
 }
 
 /* The message of the last error names what is wrong, and the filter is as before. */
-#define assert_refused(f, call, status, word)                                                \
-  do {                                                                                       \
-    snapshot before = {0, NULL}, after = {0, NULL};                                          \
-    snapshot_take(&before, (f));                                                             \
-    assert_status((call), (status));                                                         \
+#define assert_refused(f, call, status, word)                                               \
+  do {                                                                                      \
+    snapshot before = {0, NULL}, after = {0, NULL};                                         \
+    snapshot_take(&before, (f));                                                            \
+    assert_status((call), (status));                                                        \
     if (strstr(cairn_last_message(), (word)) == NULL) fail_msg("%s", cairn_last_message()); \
-    snapshot_take(&after, (f));                                                              \
-    assert_true(snapshot_same(&before, &after));                                             \
-    snapshot_free(&before), snapshot_free(&after);                                           \
+    snapshot_take(&after, (f));                                                             \
+    assert_true(snapshot_same(&before, &after));                                            \
+    snapshot_free(&before), snapshot_free(&after);                                          \
   } while (0)
 
 static void bad_calls_are_refused(void** state) {

@@ -8,6 +8,8 @@ import re
 
 import numpy as np
 
+import settings
+
 
 def sha256(path):
     """Of a file; of a folder: of the names and hashes of its files, in the order of their names."""
@@ -147,12 +149,23 @@ class StereoDrive:
     mount: tuple          # rotation body to camera, position of the camera in the body
     position: np.ndarray  # true, n x 3
     attitude: np.ndarray  # rotation vectors body to world, n x 3
+    pixel_sigmas: np.ndarray     # of u left, u right and the mean of both v
+    velocity_sigmas: np.ndarray  # m/s
+    rate_sigmas: np.ndarray      # rad/s
+    landmarks: dict              # true positions by column of the tracks
 
 
 def read_stereo(path):
+    """The noise is that of the file, or that of the settings if the file has none."""
     import scipy.io
     m = scipy.io.loadmat(path, squeeze_me=True)
+    pixels = m.get("y_var", np.array([1, 2, 1, 2]) * settings.PIXELS ** 2)
+    true_points = m.get("rho_i_pj_i", np.zeros((3, 0)))
     frames = min(len(m["t"]), m["y_k_j"].shape[1], m["r_i_vk_i"].shape[1])
     return StereoDrive(m["t"][:frames], m["v_vk_vk_i"].T[:frames], m["w_vk_vk_i"].T[:frames],
                        np.moveaxis(m["y_k_j"], 0, 2)[:frames], tuple(float(m[k]) for k in ("fu", "fv", "cu", "cv", "b")),
-                       (m["C_c_v"], m["rho_v_c_v"]), m["r_i_vk_i"].T[:frames], m["theta_vk_i"].T[:frames])
+                       (m["C_c_v"], m["rho_v_c_v"]), m["r_i_vk_i"].T[:frames], m["theta_vk_i"].T[:frames],
+                       np.sqrt([pixels[0], pixels[2], (pixels[1] + pixels[3]) / 4]),
+                       np.sqrt(m.get("v_var", np.full(3, settings.VELOCITY ** 2))),
+                       np.sqrt(m.get("w_var", np.full(3, settings.RATE ** 2))),
+                       {j: true_points[:, j] for j in range(true_points.shape[1])})

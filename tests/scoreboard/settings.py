@@ -25,9 +25,9 @@ KINDS = [
     Kind("robots", [], 3, ["mrclam7", "mrclam9", "two_robots"]),
 ]
 
-# The smoothers beside it. Noise of a car or a cart: 1.5 pixels, 0.1 m/s, 0.01 rad/s. Noise of the robots: that of
-# docs/mrclam.md. A planar log holds its own noise.
-PIXELS, VELOCITY, RATE = 1.5, 0.1, 0.01
+# The smoothers beside it. Noise of the robots: that of docs/mrclam.md. A planar log and some STARS files hold their own
+# noise.
+PIXELS, VELOCITY, RATE = 1.5, 0.1, 0.01  # of a STARS file without noise: pixels, m/s, rad/s
 CAUCHY = 1.0              # of the stereo observations, standard deviations
 HUBER = 1.345             # of the robots' observations, standard deviations
 SPEED, TURN = 0.03, 0.06  # m/s and rad/s per square root of Hz

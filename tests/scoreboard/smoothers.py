@@ -106,13 +106,13 @@ class _Stereo:
         self.camera = gtsam.Cal3_S2Stereo(fu, fv, 0, cu, cv, baseline)
         self.mount = gtsam.Pose3(gtsam.Rot3(drive.mount[0].T), drive.mount[1])
         self.noise = gtsam.noiseModel.Robust.Create(gtsam.noiseModel.mEstimator.Cauchy.Create(settings.CAUCHY),
-                                                    gtsam.noiseModel.Isotropic.Sigma(3, settings.PIXELS))
+                                                    gtsam.noiseModel.Diagonal.Sigmas(drive.pixel_sigmas))
         self.start = gtsam.Pose3(gtsam.Rot3.Expmap(drive.attitude[0]), drive.position[0])
 
     def step(self, k):
         dt = self.drive.time[k + 1] - self.drive.time[k]
         twist = np.concatenate([self.drive.rate[k], self.drive.velocity[k]])
-        sigmas = np.repeat([settings.RATE, settings.VELOCITY], 3)
+        sigmas = np.concatenate([self.drive.rate_sigmas, self.drive.velocity_sigmas])
         return gtsam.Pose3.Expmap(twist * dt), gtsam.noiseModel.Diagonal.Sigmas(sigmas * dt)
 
     def point(self, k, j, pose):
@@ -166,6 +166,7 @@ def stereo(drive):
         best = _batch(graph, guesses, 40)
     result["batch_s"] = timer.seconds
     result["batch"] = recordings.rmse([best.atPose3(X(k)).translation() for k in range(frames)], drive.position)
+    result["batch_map"] = _map_error({j: best.atPoint3(L(j)) for j in placed}, drive.landmarks)
     with _Timer() as timer:
         isam, placed, pose, online = _isam2(), set(), world.start, []
         for k in range(frames):
@@ -180,6 +181,8 @@ def stereo(drive):
             online.append(pose.translation())
     result["isam2_s"] = timer.seconds
     result["isam2"] = recordings.rmse(online, drive.position)
+    last = isam.calculateEstimate()
+    result["isam2_map"] = _map_error({j: last.atPoint3(L(j)) for j in placed}, drive.landmarks)
     return result
 
 

@@ -134,7 +134,7 @@ FixReport SubmapKeeper<Pose>::join(ClosedBy reason, const AbsoluteFix<Pose>* fix
     if (fix != nullptr) fixed = transaction->fix(*fix, threshold);
     next.join = transaction->commit();
   }
-  trajectory_.end_submap(map_->submap_count() - 1, submap.T_base_end, position_variance());
+  trajectory_.end_submap(map_->submap_count() - 1, submap.T_base_end, local_.state().pose_covariance());
   local_.start(Pose(), Square::Zero());  // deferred landmarks have to be found again
   policy_.restart();
   next.submaps = map_->submap_count();
@@ -224,15 +224,10 @@ double SubmapKeeper<Pose>::pose_nees(const Pose& truth) const {
 }
 
 template <class Pose>
-double SubmapKeeper<Pose>::position_variance() const {
-  return local_.state().pose_covariance().template topLeftCorner<kDim, kDim>().trace();
-}
-
-template <class Pose>
 void SubmapKeeper<Pose>::keep_pose() {
   if (trajectory_.capacity() == 0) return;
   const std::size_t submap = map_ != nullptr ? map_->submap_count() : 0;
-  trajectory_.add(submap, local_.state().pose(), position_variance());
+  trajectory_.add(submap, local_.state().pose(), local_.state().pose_covariance());
 }
 
 template MapOptions<SE2> map_options(const FilterOptions<SE2>&);

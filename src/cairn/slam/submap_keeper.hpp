@@ -66,7 +66,6 @@ class SubmapKeeper {
   Submap<Pose> take_submap() const;
   FixReport join(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
   bool moved() const;
-  double position_variance() const;  // in the submap; trace
 
   const FilterOptions<Pose>& options_;
   LocalMap<Pose>& local_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slam/trajectory.hpp"
 
-#include <algorithm>
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 namespace cairn {
 
@@ -12,16 +13,57 @@ Trajectory<Pose>::Trajectory(Arena& arena, Index capacity)
       ends_(arena.take<Local>(static_cast<std::size_t>(capacity))) {}
 
 template <class Pose>
-void Trajectory<Pose>::add(std::uint64_t submap, const Pose& T_base_body, double variance) {
+void Trajectory<Pose>::add(std::uint64_t submap, const Pose& T_base_body, const Square& covariance) {
   if (capacity_ == 0) return;
-  poses_[end_ % capacity_] = {submap, T_base_body, variance};
+  poses_[end_ % capacity_] = pack(submap, T_base_body, covariance);
   ++end_;
 }
 
 template <class Pose>
-void Trajectory<Pose>::end_submap(std::uint64_t submap, const Pose& T_base_end, double variance) {
+void Trajectory<Pose>::end_submap(std::uint64_t submap, const Pose& T_base_end, const Square& covariance) {
   if (capacity_ == 0) return;
-  ends_[submap % capacity_] = {submap, T_base_end, variance};
+  ends_[submap % capacity_] = pack(submap, T_base_end, covariance);
+}
+
+template <class Pose>
+typename Trajectory<Pose>::Local Trajectory<Pose>::pack(std::uint64_t submap, const Pose& T_base_body,
+                                                        const Square& covariance) {
+  Local local{submap, T_base_body, {}};
+  // xi_p = dp - turn(p) dtheta and xi_R = dtheta (docs/notation.md).
+  Square xi_by_error = Square::Identity();
+  xi_by_error.template topRightCorner<Pose::kDim, Pose::kTurn>() = -Pose::Rotation::turn(T_base_body.translation());
+  const Square own = xi_by_error * covariance * xi_by_error.transpose();
+  double* next = local.covariance;
+  for (int r = 0; r < kDof; ++r)
+    for (int c = 0; c <= r; ++c) *next++ = own(r, c);
+  return local;
+}
+
+template <class Pose>
+typename Trajectory<Pose>::Square Trajectory<Pose>::covariance_of(const Local& local) {
+  Square covariance;
+  const double* next = local.covariance;
+  for (int r = 0; r < kDof; ++r)
+    for (int c = 0; c <= r; ++c) covariance(r, c) = covariance(c, r) = *next++;
+  return covariance;
+}
+
+// docs/trajectory.md, eq. (3)
+template <class Pose>
+typename Trajectory<Pose>::Square Trajectory<Pose>::gain(const Local& local, const Local& end) {
+  Square C_end = covariance_of(end);
+  // The end may be known exactly along an axis. The jitter is for a covariance that is singular along a diagonal.
+  constexpr double kJitter = 1e-9;
+  for (int i = 0; i < kDof; ++i) C_end(i, i) = C_end(i, i) > 0.0 ? (1.0 + kJitter) * C_end(i, i) : 1.0;
+  const Eigen::LLT<Square> factor(C_end);
+  if (factor.info() != Eigen::Success) return Square::Zero();
+  const auto L = factor.matrixL();
+  const Square half = L.solve(covariance_of(local));
+  const Square white = L.solve(Square(half.transpose()));  // L^-1 C L^-T
+  const Eigen::SelfAdjointEigenSolver<Square> eigen(white);
+  const auto shares = eigen.eigenvalues().cwiseMax(0.0).cwiseMin(1.0);
+  const Square inverse = L.solve(Square(Square::Identity()));
+  return L * Square(eigen.eigenvectors() * shares.asDiagonal() * eigen.eigenvectors().transpose()) * inverse;
 }
 
 template <class Pose>
@@ -35,10 +77,9 @@ Pose Trajectory<Pose>::pose(std::uint64_t number, const GlobalMap<Pose>* map) co
   const Local& end = ends_[submap % capacity_];
   // docs/trajectory.md, eq. (2): the correction of the submap's end.
   const typename Pose::Tangent correction = (T_map_base.inverse() * T_map_end * end.T_base_body.inverse()).log();
-  // eq. (3): the share of the correction that the pose gets.
-  const double share = end.variance > 0.0 ? std::min(1.0, local.variance / end.variance) : 0.0;
   // eq. (4)
-  return T_map_base * Pose::exp(share * correction) * local.T_base_body;
+  const typename Pose::Tangent share = gain(local, end) * correction;
+  return T_map_base * Pose::exp(share) * local.T_base_body;
 }
 
 template class Trajectory<SE2>;

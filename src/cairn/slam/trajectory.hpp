@@ -12,26 +12,34 @@ namespace cairn {
 template <class Pose>
 class Trajectory {
  public:
+  using Square = typename Pose::Square;
+
   Trajectory(Arena& arena, Index capacity);
 
   std::uint64_t capacity() const { return capacity_; }
   std::uint64_t first() const { return end_ > capacity_ ? end_ - capacity_ : 0; }  // the oldest pose that is kept
   std::uint64_t end() const { return end_; }                                       // one behind the newest pose
 
-  // `variance`: trace of the covariance of the position in the submap.
-  void add(std::uint64_t submap, const Pose& T_base_body, double variance);
+  // A pose in the open submap, with its ordinary covariance.
+  void add(std::uint64_t submap, const Pose& T_base_body, const Square& covariance);
   // The pose at which a submap was closed. Submaps are closed in their order.
-  void end_submap(std::uint64_t submap, const Pose& T_base_end, double variance);
+  void end_submap(std::uint64_t submap, const Pose& T_base_end, const Square& covariance);
 
   // A kept pose in the map that the caller sees; `map` is null with a single map.
   Pose pose(std::uint64_t number, const GlobalMap<Pose>* map) const;
 
  private:
+  static constexpr int kDof = Pose::kDof;
+
+  // The covariance is that of the error xi of Exp(xi) T_base_body: its lower triangle by rows.
   struct Local {
     std::uint64_t submap;
     Pose T_base_body;
-    double variance;
+    double covariance[kDof * (kDof + 1) / 2];
   };
+  static Local pack(std::uint64_t submap, const Pose& T_base_body, const Square& covariance);
+  static Square covariance_of(const Local& local);
+  static Square gain(const Local& local, const Local& end);
 
   std::uint64_t capacity_;
   std::uint64_t end_ = 0;
