@@ -50,7 +50,7 @@ static void poses_follow_the_map(void** state) {
         truth[k] = course.truth, steps[k] = frame.increment;
         assert_ok(cairn_filter_pose(f, &first[k], NULL));
         const cairn_pose last = newest(f);
-        assert_same_pose(&last, &first[k], 1e-12);
+        assert_same_pose(&last, &first[k], 1e-8); /* the jitter of a singular covariance */
       }
       assert_ok(cairn_filter_submap_count(f, &count));
       assert_true(count > 10);
@@ -67,8 +67,8 @@ static void poses_follow_the_map(void** state) {
       }
       cairn_filter_destroy(f);
     }
-    assert_true(corrected < 0.8 * online);
-    assert_true(worst < odometry);
+    assert_true(corrected < (joins[j] == CAIRN_JOIN_SPARSE ? 0.55 : 0.8) * online);
+    assert_true(worst < 0.3 * odometry);
   }
 }
 
@@ -146,7 +146,7 @@ static void every_update_keeps_a_pose(void** state) {
       if (kind == 4) assert_int_equal(number, end);
       assert_ok(cairn_filter_pose(f, &pose, NULL));
       last = newest(f);
-      assert_same_pose(&last, &pose, 1e-12);
+      assert_same_pose(&last, &pose, 1e-8);
       assert_ok(cairn_filter_trajectory_range(f, NULL, &number));
       assert_int_equal(number, end + 1);
     }
@@ -155,7 +155,7 @@ static void every_update_keeps_a_pose(void** state) {
 }
 
 /* The message of the last error names what is wrong, and the filter is as before. */
-#define assert_refused(f, call, status, word)                                               \
+#define assert_same_after(f, call, status, word)                                            \
   do {                                                                                      \
     snapshot before = {0, NULL}, after = {0, NULL};                                         \
     snapshot_take(&before, (f));                                                            \
@@ -179,21 +179,21 @@ static void bad_calls_are_refused(void** state) {
 
   cairn_filter* f = ring_filter(&o); /* keeps none */
   ring_drive(&course, &f, 1, 3);
-  assert_refused(f, cairn_filter_trajectory(f, 0, poses, 8, &needed), CAIRN_ERROR_STATE, "trajectory_poses");
-  assert_refused(f, cairn_filter_trajectory_range(f, &first, &end), CAIRN_ERROR_STATE, "trajectory_poses");
-  assert_refused(f, cairn_filter_keep_pose(f, &first), CAIRN_ERROR_STATE, "trajectory_poses");
+  assert_same_after(f, cairn_filter_trajectory(f, 0, poses, 8, &needed), CAIRN_ERROR_STATE, "trajectory_poses");
+  assert_same_after(f, cairn_filter_trajectory_range(f, &first, &end), CAIRN_ERROR_STATE, "trajectory_poses");
+  assert_same_after(f, cairn_filter_keep_pose(f, &first), CAIRN_ERROR_STATE, "trajectory_poses");
   cairn_filter_destroy(f);
 
   o.trajectory_poses = 5;
   f = ring_filter(&o);
   ring_drive(&course, &f, 1, 9);
-  assert_refused(f, cairn_filter_trajectory(f, 0, poses, 8, &needed), CAIRN_ERROR_CAPACITY, "trajectory_poses is 5");
-  assert_refused(f, cairn_filter_trajectory(f, 3, poses, 8, &needed), CAIRN_ERROR_CAPACITY, "trajectory_poses is 5");
-  assert_refused(f, cairn_filter_trajectory(f, 10, poses, 8, &needed), CAIRN_ERROR_NOT_FOUND, "first is 10");
-  assert_refused(f, cairn_filter_trajectory(f, 4, poses, 8, NULL), CAIRN_ERROR_ARGUMENT, "needed");
-  assert_refused(f, cairn_filter_trajectory(f, 4, NULL, 8, &needed), CAIRN_ERROR_ARGUMENT, "poses");
+  assert_same_after(f, cairn_filter_trajectory(f, 0, poses, 8, &needed), CAIRN_ERROR_CAPACITY, "trajectory_poses is 5");
+  assert_same_after(f, cairn_filter_trajectory(f, 3, poses, 8, &needed), CAIRN_ERROR_CAPACITY, "trajectory_poses is 5");
+  assert_same_after(f, cairn_filter_trajectory(f, 10, poses, 8, &needed), CAIRN_ERROR_NOT_FOUND, "first is 10");
+  assert_same_after(f, cairn_filter_trajectory(f, 4, poses, 8, NULL), CAIRN_ERROR_ARGUMENT, "needed");
+  assert_same_after(f, cairn_filter_trajectory(f, 4, NULL, 8, &needed), CAIRN_ERROR_ARGUMENT, "poses");
   assert_int_equal(needed, 77);
-  assert_refused(f, cairn_filter_trajectory(f, 4, poses, 4, &needed), CAIRN_ERROR_BUFFER, "poses");
+  assert_same_after(f, cairn_filter_trajectory(f, 4, poses, 4, &needed), CAIRN_ERROR_BUFFER, "poses");
   assert_int_equal(needed, 5);
   assert_memory_equal(poses, untouched, sizeof poses);
   assert_ok(cairn_filter_trajectory(f, 9, NULL, 0, &needed));

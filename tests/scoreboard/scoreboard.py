@@ -83,7 +83,12 @@ def main():
     parser.add_argument("--program", required=True, help="the program cairn")
     parser.add_argument("--data", required=True, help="the folder of the recordings")
     parser.add_argument("--with-gtsam", action="store_true", help="beside iSAM2 and a batch of GTSAM")
+    parser.add_argument("recordings", nargs="*", help="run only these; default: all")
     arguments = parser.parse_args()
+    known = [name for kind in settings.KINDS for name in kind.recordings]
+    for name in arguments.recordings:
+        if name not in known:
+            sys.exit(f"scoreboard: there is no recording '{name}'; it runs {', '.join(known)}")
     try:
         version = runs.program(arguments.program, "--version").strip()
     except (OSError, runs.Failure) as error:
@@ -92,6 +97,8 @@ def main():
     tables, notes, hashes = [], [], []
     for kind in settings.KINDS:
         for name in kind.recordings:
+            if arguments.recordings and name not in arguments.recordings:
+                continue
             path = os.path.join(arguments.data, name)
             if not os.path.exists(path):
                 notes.append(f"{name}: skipped, it is not in the folder of the recordings")
@@ -99,7 +106,8 @@ def main():
             say(f"{name} ...")
             hashes.append((name, recordings.sha256(path)))
             cells, lacking = row(name, kind, arguments)
-            tables.append((kind, cells))
+            say(line(cells))
+            tables.append(cells)
             notes += lacking
     if not arguments.with_gtsam:
         notes.append("iSAM2 and batch were not run: --with-gtsam was not given")
@@ -108,11 +116,11 @@ def main():
     print(PREFACE.format(option=option, version=version, machine=f"{platform.machine()}, {os.cpu_count()} processors"))
     print(line(COLUMNS))
     print(line(["---"] * len(COLUMNS)))
-    for _, cells in tables:
+    for cells in tables:
         print(line(cells))
     print("\n## Settings\n")
     for kind in settings.KINDS:
-        print(f"- {kind.name}: `cairn run RECORDING {' '.join(kind.options)}`".replace(" `", " `").replace(" `\n", "`"))
+        print(f"- {kind.name}: `{' '.join(['cairn run RECORDING', *kind.options])}`")
     if notes:
         print("\n## What is missing\n")
         for note in notes:

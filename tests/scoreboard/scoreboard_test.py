@@ -62,7 +62,7 @@ class ScoreboardTest(unittest.TestCase):
         return done.stdout
 
     def table(self, page):
-        lines = [[cell.strip() for cell in line.strip("| ").split(" |")] for line in page.splitlines()
+        lines = [[cell.strip() for cell in line[1:-1].split("|")] for line in page.splitlines()
                  if line.startswith("| ")]
         return {line[0]: dict(zip(lines[0], line)) for line in lines[2:]}
 
@@ -91,6 +91,14 @@ class ScoreboardTest(unittest.TestCase):
         self.assertIn("- mrclam7: skipped, it is not in the folder", page)
         self.assertIn("--with-gtsam was not given", page)
         self.assertEqual(self.table(page)["starry_night.mat"]["online"], "")
+
+    def test_recordings_can_be_chosen(self):
+        self.planar_log()
+        self.robots("two_robots")
+        self.assertEqual(set(self.table(self.board("two_robots"))), {"two_robots"})
+        done = subprocess.run([sys.executable, "-B", os.path.join(HERE, "scoreboard.py"), "--program", PROGRAM,
+                               "--data", self.folder, "no_such"], stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual((done.returncode, "there is no recording 'no_such'" in done.stderr), (1, True))
 
     def test_the_hash_of_a_folder_depends_on_names_and_contents(self):
         folder = self.robots("two_robots")
