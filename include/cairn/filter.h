@@ -57,6 +57,12 @@ enum {
                                        same d^2, the better known one is chosen. The gates still use d^2 */
 };
 
+/** What becomes of the noise that the filter learns from its innovations (docs/trust.md). */
+enum {
+  CAIRN_NOISE_REPORTED = 0, /**< \ref cairn_filter_health reports it; the default */
+  CAIRN_NOISE_APPLIED = 1   /**< from when it is known, it scales the stated noise of each sensor and of the motion */
+};
+
 /** Options of \ref cairn_filter_create. Set them by \ref cairn_filter_options_init first. */
 typedef struct cairn_filter_options {
   uint32_t struct_size;          /**< sizeof(cairn_filter_options) of the caller */
@@ -70,7 +76,7 @@ typedef struct cairn_filter_options {
   double iteration_tolerance;    /**< the iteration ends when the linearisation error of the batch is smaller than
                                       this, > 0; it is measured in standard deviations of the observations, root of
                                       the sum of squares; default 0.1 */
-  double gate_probability;       /**< chi-square gate of one observation, in (0, 1]; 1: no gate; default 0.99 */
+  double gate_probability;       /**< chi-square gate of one observation, in (0, 1]; 1: no gate; default 0.999 */
   double batch_gate_probability; /**< chi-square gate of a whole batch, in (0, 1]; 1: no gate; default 0.9999 */
   cairn_pose initial_pose;       /**< body in the map frame at the start; default identity */
   double initial_covariance[36]; /**< covariance of its error [dp; dtheta], symmetric, positive semidefinite; default
@@ -108,6 +114,21 @@ typedef struct cairn_filter_options {
                                       correlated, 1 to 1000000: an update multiplies the covariance of an
                                       observation's noise by this; association and placing use the noise unchanged;
                                       default 1 */
+  int32_t join_loss;             /**< loss of the landmarks that a closed submap shares with the map: CAIRN_LOSS_NONE,
+                                      CAIRN_LOSS_HUBER or CAIRN_LOSS_CAUCHY; default CAIRN_LOSS_NONE */
+  int32_t noise_learning;        /**< CAIRN_NOISE_REPORTED or CAIRN_NOISE_APPLIED; default CAIRN_NOISE_REPORTED */
+  double join_loss_width;        /**< where `join_loss` leaves the parabola, standard deviations, > 0; default 1.5 */
+  double velocity_bias_sigma[3]; /**< a constant error of the measured body velocity (x, y, z) is a state, with this
+                                      standard deviation at the start, m/s, >= 0; 0, the default: no state. The
+                                      velocity is the measured one minus the bias (docs/systematic_errors.md). A
+                                      planar vehicle has only x and y */
+  double velocity_bias_walk[3];  /**< random walk of that error, m/s in the square root of a second, >= 0; it needs
+                                      its velocity_bias_sigma; default 0: constant */
+  double rate_bias_sigma[3];     /**< the same for the measured body rate, rad/s. A planar vehicle has only z */
+  double rate_bias_walk[3];      /**< rad/s in the square root of a second */
+  double wheel_scale_sigma[2];   /**< the same for the scales of the left and the right wheels: a wheel turns at the
+                                      measured rate times 1 + its scale */
+  double wheel_scale_walk[2];    /**< in the square root of a second */
 } cairn_filter_options;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
@@ -164,6 +185,14 @@ CAIRN_API cairn_status cairn_filter_add_custom(cairn_filter *filter, const cairn
  *  or no stereo head), CAIRN_ERROR_NOT_FOUND. \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_point_head(cairn_filter *filter, int32_t sensor, double pan, double stick);
 
+/** Sets the loss of a sensor's residuals: an observation whose distance is large gets less weight, instead of being
+ *  refused. `width` (> 0) is where the loss leaves the parabola, in standard deviations of the observation's noise. The
+ *  weights are found in the iteration of the update, and the covariance is that of the robust estimate (docs/update.md,
+ *  "Robust losses"). The chi-square gates stay; options with gate probabilities of 1 open them. CAIRN_LOSS_NONE takes
+ *  the loss away; `width` is then ignored. Allocates nothing. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT,
+ *  CAIRN_ERROR_NOT_FOUND. \since 0.2.0 */
+CAIRN_API cairn_status cairn_filter_set_loss(cairn_filter *filter, int32_t sensor, int32_t loss, double width);
+
 /** Sets the region in which a sensor detects every landmark: all observations between `lower` and `upper`, value by
  *  value, in the sensor's units. An infinite value is no bound. A sensor of fewer than 3 rows uses the first values.
  *  A frame has missed a landmark if its predicted observation lies inside the region by three standard deviations,
@@ -197,7 +226,9 @@ CAIRN_API cairn_status cairn_filter_predict_twist(cairn_filter *filter, double d
 
 /** Moves the vehicle by a relative pose, `T_map_body <- T_map_body T_before_after`, with the covariance (6x6 row-major,
  *  symmetric, positive semidefinite) of its error [dp; dtheta] in the axes of the body before the motion.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(1). \since 0.1.0 */
+ *  An increment has no duration: a filter that estimates a velocity or rate bias refuses it, and no random walk goes on.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (a bias is a
+ *  state). Complexity: O(1). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_predict_increment(cairn_filter *filter, const cairn_pose *T_before_after,
                                                       const double covariance[36]);
 
@@ -360,6 +391,10 @@ typedef struct cairn_update_report {
   uint32_t deferred;              /**< deferred landmarks after the update (`deferred_sightings`) */
   uint32_t removed;               /**< landmarks removed after the update: missed too often, or not seen again in
                                        time */
+  double widened_position;        /**< most of what was seen contradicted the estimate: standard deviation by which the
+                                       motion since the last agreement was widened, m; 0: it was not (docs/update.md,
+                                       "Finding back") */
+  double widened_attitude;        /**< the same of the attitude, rad */
 } cairn_update_report;
 
 /** Reports on the last successful update of any kind; zeros before the first update. Set `report->struct_size` first.

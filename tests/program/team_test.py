@@ -20,7 +20,7 @@ class Usv(ProgramTest):
         return self.figures("simulate", "usv", *options)
 
     def untimed(self, figures):
-        return {key: value for key, value in figures.items() if "_ms" not in key}
+        return {key: value for key, value in figures.items() if "_ms" not in key and "seconds" not in key}
 
     def test_modes(self):
         alone = self.usv("--mode", "mono")
@@ -146,6 +146,117 @@ class Mrclam(ProgramTest):
         folder = mrclam_folder(self.path("robots"))
         s = self.summary(folder, "--association", "joint")
         self.assertEqual((s["landmarks"], s["wrong_pairings"]), (4, 0))
+
+    def test_time_of_the_run(self):
+        s = self.summary(mrclam_folder(self.path("robots")))
+        self.assertTrue(0 < s["filter_seconds"] < s["seconds"], s)
+
+    def test_lines_out_of_time_order(self):
+        plain = self.untimed(self.summary(mrclam_folder(self.path("a"))))
+
+        def spoil(files):
+            for name, lines in ((name, files[name].splitlines(True)) for name in list(files)):
+                if name == "Robot1_Odometry.dat":
+                    lines[3], lines[7], lines[9] = lines[9], lines[3], lines[7]
+                elif name in ("Robot2_Measurement.dat", "Robot2_Groundtruth.dat"):
+                    lines.insert(2, lines.pop())
+                files[name] = "".join(lines)
+        folder = mrclam_folder(self.path("b"), spoil=spoil)
+        done = call("run", folder, "--summary", "json")
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(self.untimed(json.loads(done.stdout)), plain)
+        notes = sorted(line for line in done.stderr.splitlines() if "note: " in line)
+        self.assertEqual(len(notes), 3, done.stderr)
+        self.assertIn("Robot1_Odometry.dat: sorted by time, because of 3 lines", notes[0])
+        self.assertIn("Robot2_Groundtruth.dat: sorted by time, because of 1 line earlier", notes[1])
+        self.assertIn("Robot2_Measurement.dat: sorted by time", notes[2])
+
+    def untimed(self, figures):
+        return {key: value for key, value in super().untimed(figures).items() if "_ms" not in key}
+
+    def test_as_text_comes(self):
+        plain = self.untimed(self.summary(mrclam_folder(self.path("a"))))
+
+        def spoil(files):
+            for name, text in files.items():
+                files[name] = "\ufeff" + text.replace("\n", "\r\n").replace(" ", "\t").rstrip("\r\n")
+        self.assertEqual(self.untimed(self.summary(mrclam_folder(self.path("b"), spoil=spoil))), plain)
+
+    def test_robots_without_truth(self):
+        # They start where the posts that they see place them.
+        def spoil(files):
+            for robot in (1, 2):
+                files.pop(f"Robot{robot}_Groundtruth.dat")
+        folder = mrclam_folder(self.path("a"), spoil=spoil)
+        for mode in MODES:
+            s = self.summary(folder, "--mode", mode)
+            self.assertEqual((s["vehicles"], s["steps"], s["landmarks"]), (2, 60, 4))
+            self.assertFalse([key for key in s if "pose_" in key or "improvement" in key], s)
+            self.assertLess(s["landmark_rmse_m"], 0.02, mode)
+        done = call("run", folder)
+        for robot in (1, 2):
+            self.assertIn(f"note: robot {robot}: its first odometry has no true pose; it starts where", done.stderr)
+        self.summary(folder, "--output", self.path("out"))
+        first = self.read_csv(self.path("out"), "team_trajectories.csv")[0]
+        self.assertEqual((first["true_x"], first["true_heading"]), ("", ""))
+        self.assertGreater(float(first["sigma3_x"]), 0.01)  # the start is not known exactly
+        self.assertLess(math.hypot(float(first["x"]) + 0.45, float(first["y"]) + 0.5), 0.01)
+
+    def test_some_robots_without_truth(self):
+        def spoil(files):
+            files["Robot2_Groundtruth.dat"] = "# nothing\n"
+        s = self.summary(mrclam_folder(self.path("a"), spoil=spoil))
+        self.assertLess(s["pose_rmse_m"], 0.05)
+        self.assertEqual(s["pose_rmse_m"], s["vehicle_1_pose_rmse_m"])
+        self.assertNotIn("vehicle_2_pose_rmse_m", s)
+
+    def test_a_start_that_nothing_tells(self):
+        def blind(files):
+            files.pop("Robot1_Groundtruth.dat")
+            files["Robot1_Measurement.dat"] = ""
+        self.assert_refused(call("run", mrclam_folder(self.path("a"), spoil=blind)),
+                            "robot 1: its first odometry has no true pose", "too few posts")
+
+        def one_post(files):
+            files.pop("Robot1_Groundtruth.dat")
+            files["Robot1_Measurement.dat"] = "".join(
+                line for line in files["Robot1_Measurement.dat"].splitlines(True) if line.split()[1] == "16")
+        # A single robot needs no frame that it shares. Its map has one of its own, which is not that of the true posts.
+        s = self.summary(mrclam_folder(self.path("b"), robots=1, spoil=one_post))
+        self.assertEqual(s["landmarks"], 1)
+        self.assertNotIn("landmark_rmse_m", s)
+
+    def test_steps_whose_covariance_is_nearly_singular(self):
+        # After one motion from a known start, speed and rate have moved three numbers: the covariance has rank 2.
+        def spoil(files):
+            files["Robot2_Odometry.dat"] = "".join(f"{0.05 * k + 0.017:.3f} 0.067 0.0\n" for k in range(1200))
+            files["Robot2_Groundtruth.dat"] = "".join(f"{0.1 * k:.1f} 0.0003 0.0002 2.4886\n" for k in range(600))
+            files["Robot2_Measurement.dat"] = "".join(f"{0.25 * k + 0.04:.3f} 16 3.1 -2.1\n" for k in range(200))
+        folder = mrclam_folder(self.path("a"), spoil=spoil)
+        for mode in MODES:
+            s = self.summary(folder, "--mode", mode)
+            self.assertLess(s["vehicle_2_pose_anees_per_dof"], 1e4, mode)
+
+    @unittest.skipUnless(DATA, "CAIRN_DATA_DIR is not set")
+    def test_a_recording_with_a_nearly_singular_step(self):
+        for mode in MODES:
+            s = self.summary(os.path.join(DATA, "two_robots"), "--mode", mode)
+            self.assertLess(s["pose_anees_per_dof"], 3, mode)
+
+    @unittest.skipUnless(DATA, "CAIRN_DATA_DIR is not set")
+    def test_real_lines_out_of_time_order(self):
+        done = call("run", os.path.join(DATA, "mrclam9"), "--mode", "mono", "--summary", "json")
+        self.assertEqual(done.returncode, 0)
+        for robot in (1, 2, 3, 4):
+            self.assertIn(f"note: Robot{robot}_Odometry.dat: sorted by time, because of 1 line earlier", done.stderr)
+
+    def test_limits_of_submaps(self):
+        folder = mrclam_folder(self.path("a"))
+        submaps = lambda *options: self.untimed(self.summary(folder, "--mode", "submaps", *options))
+        usual = submaps()
+        self.assertEqual(submaps("--submap-landmarks=60", "--submap-distance=2"), usual)
+        self.assertNotEqual(submaps("--submap-distance=0"), usual)  # no limit
+        self.assertEqual(self.untimed(self.summary(folder, "--single-map")), self.untimed(self.summary(folder)))
 
     def test_bad_folders(self):
         self.assert_refused(call("run", mrclam_folder(self.path("a"), spoil=lambda f: f.pop("Robot2_Odometry.dat"))),

@@ -3,6 +3,7 @@
 // choices come from one table, options/filter_options.def.
 #include <algorithm>
 #include <initializer_list>
+#include <string>
 
 #include "capi/convert.hpp"
 #include "capi/filter_handle.hpp"
@@ -71,10 +72,51 @@ JoinKind join_of(const cairn_filter_options& o) {
                                        : JoinKind::automatic;
 }
 
+LossKind join_loss_of(const cairn_filter_options& o) {
+  return o.join_loss == CAIRN_LOSS_HUBER    ? LossKind::huber
+         : o.join_loss == CAIRN_LOSS_CAUCHY ? LossKind::cauchy
+                                            : LossKind::none;
+}
+
 AssociationKind association_of(const cairn_filter_options& o) {
   return o.association == CAIRN_ASSOCIATION_NEAREST ? AssociationKind::nearest
          : o.association == CAIRN_ASSOCIATION_JOINT ? AssociationKind::joint
                                                     : AssociationKind::known;
+}
+
+// Standard deviations and random walks of systematic errors, `count` of each.
+void read_errors(const double* sigma, const double* walk, int count, const char* name, bool (*exists)(int),
+                 double* sigmas, double* walks) {
+  for (int i = 0; i < count; ++i) {
+    const std::string at = "[" + std::to_string(i) + "]";
+    const std::string of_sigma = std::string("options.") + name + "_sigma" + at;
+    const std::string of_walk = std::string("options.") + name + "_walk" + at;
+    check_range(sigma[i], 0.0, 1e6, of_sigma.c_str());
+    check_range(walk[i], 0.0, 1e6, of_walk.c_str());
+    if (walk[i] > 0.0 && sigma[i] == 0.0)
+      throw Error(ErrorCode::argument, "%s is %g, but %s is 0; a random walk needs a standard deviation at the start",
+                  of_walk.c_str(), walk[i], of_sigma.c_str());
+    if (sigma[i] > 0.0 && !exists(i))
+      throw Error(ErrorCode::argument, "%s is %g, but a vehicle in the plane does not move along this axis",
+                  of_sigma.c_str(), sigma[i]);
+    sigmas[i] = sigma[i];
+    walks[i] = walk[i];
+  }
+}
+
+SystematicOptions systematic_of(const cairn_filter_options& o) {
+  SystematicOptions options;
+  const auto always = [](int) { return true; };
+  const bool planar = o.vehicle == CAIRN_VEHICLE_PLANAR;
+  const auto read = [&](const double* sigma, const double* walk, int count, const char* name, bool (*exists)(int),
+                        int first) {
+    read_errors(sigma, walk, count, name, exists, options.motion_sigma + first, options.motion_walk + first);
+  };
+  read(o.velocity_bias_sigma, o.velocity_bias_walk, 3, "velocity_bias", planar ? [](int i) { return i < 2; } : always,
+       0);
+  read(o.rate_bias_sigma, o.rate_bias_walk, 3, "rate_bias", planar ? [](int i) { return i == 2; } : always, 3);
+  read(o.wheel_scale_sigma, o.wheel_scale_walk, 2, "wheel_scale", always, MotionErrors::kScale);
+  return options;
 }
 
 template <class Pose>
@@ -84,13 +126,16 @@ FilterOptions<Pose> options_of(const cairn_filter_options& o) {
   options.initial_covariance = read_pose_covariance<Pose>(o.initial_covariance, "options.initial_covariance");
   options.error = error_of(o);
   options.join = join_of(o);
+  options.join_loss = join_loss_of(o);
   options.association = association_of(o);
+  options.apply_noise = o.noise_learning == CAIRN_NOISE_APPLIED;
   options.by_likelihood =
       options.association == AssociationKind::nearest && o.association_distance == CAIRN_DISTANCE_LIKELIHOOD;
   // Numbers have the same name on both sides.
 #define FILTER_WHOLE(field, initial, lower, upper, flag) options.field = static_cast<decltype(options.field)>(o.field);
 #define FILTER_REAL(field, initial, bounds, flag) options.field = o.field;
 #include "options/filter_options.def"
+  options.systematic = systematic_of(o);
   return options;
 }
 

@@ -14,7 +14,7 @@ template <class Pose>
 EkfUpdate<Pose>::EkfUpdate(State<Pose>& state, const typename State<Pose>::Window& window)
     : state_(state),
       workspace_(state.workspace_),
-      window_(window.mount_noise != nullptr ? kMount : 0, window.count),
+      window_(state.systematic(), window.mount_noise != nullptr ? kMount : 0, window.count),
       pose_(state.pose_) {
   for (Index a = 0; a < window.count; ++a) {
     workspace_.slots[a] = window.slots[a];
@@ -45,8 +45,9 @@ void EkfUpdate<Pose>::gather_columns() {
   const LowerTriangle& P = state_.P_;
   PendingMotion<Pose>& motion = state_.motion_;
   double* const columns = workspace_.columns;
-  motion.prepare(state_.layout_, state_.points_);
-  motion.pose_columns(P, n, columns);
+  const Index moving = window_.moving();
+  motion.prepare(state_.layout_, state_.points_, P);
+  motion.moving_columns(P, n, columns);
   // The mount's errors are states for as long as the frame lasts, independent of all others before it.
   for (Index i = 0; i < mount; ++i)
     for (Index c = 0; c < window_.columns(); ++c) columns[c * ld + n + i] = 0.0;
@@ -57,7 +58,7 @@ void EkfUpdate<Pose>::gather_columns() {
   // The entries of P to the left of a landmark's diagonal block lie along rows: each column costs a cache line. The
   // loop visits all landmarks for a few columns at a time, so that it stays within few pages, and prefetches the lines
   // of the next landmarks.
-  for (Index c = kDof; c < n; c += kAhead) {
+  for (Index c = moving; c < n; c += kAhead) {
     const double* from_columns = P.column(c);
     for (Index a = 0; a < window_.points(); ++a) {
       const Index from = state_.layout_.point(workspace_.slots[a]).offset;
@@ -76,14 +77,13 @@ void EkfUpdate<Pose>::gather_columns() {
   for (Index a = 0; a < window_.points(); ++a) {
     const Index from = state_.layout_.point(workspace_.slots[a]).offset;
     double* to = columns + window_.point(a) * ld;
-    for (Index c = 0; c < kDof; ++c)
+    for (Index c = 0; c < moving; ++c)
       for (Index d = 0; d < kDim; ++d) to[d * ld + c] = columns[c * ld + from + d];
     for (Index d = 0; d < kDim; ++d)
       for (Index r = 0; r < kDim; ++r) to[d * ld + from + r] = P.symmetric(from + r, from + d);
     for (Index d = 0; d < kDim; ++d)
       std::copy_n(P.column(from + d) + from + kDim, n - from - kDim, to + d * ld + from + kDim);
-    for (Index d = 0; d < kDim; ++d)  // + U N U_a^T
-      motion.add_noise(motion.left(), motion.right() + from + d, ld, n, to + d * ld);
+    for (Index d = 0; d < kDim; ++d) motion.add_change(from + d, n, to + d * ld);  // + U N U_a^T
   }
 }
 
@@ -102,7 +102,7 @@ void EkfUpdate<Pose>::compute_innovation() {
     for (; j < m; ++j)
       for (Index k = 0; k < count; ++k) HP[(column + k) * m + j] = W[j * ld + row + k];
   };
-  take_rows(0, kDof, 0);
+  take_rows(0, window_.moving(), 0);
   take_rows(n, window_.mount_size(), window_.mount());
   for (Index a = 0; a < window_.points(); ++a)
     take_rows(state_.layout_.point(workspace_.slots[a]).offset, kDim, window_.point(a));
@@ -185,6 +185,12 @@ bool EkfUpdate<Pose>::try_factor() {
 }
 
 template <class Pose>
+void EkfUpdate<Pose>::whiten(double* x) const {
+  require(stage_ == Stage::factored, "whiten");
+  solve_lower(workspace_.S, batch().rows(), batch().rows(), x);
+}
+
+template <class Pose>
 void EkfUpdate<Pose>::solve() {
   require(stage_ == Stage::factored, "solve");
   const Index m = batch().rows();
@@ -234,9 +240,11 @@ bool EkfUpdate<Pose>::try_commit() {
 
   const PendingMotion<Pose>& motion = state_.motion_;
   double* const diagonal = workspace_.diagonal;
-  for (Index i = 0; i < n; ++i) diagonal[i] = i < kDof ? workspace_.columns[i * ld + i] : state_.P_(i, i);
-  for (Index t = 0; t < motion.rank(); ++t)
-    for (Index i = kDof; i < n; ++i) diagonal[i] += motion.left()[t * ld + i] * motion.right()[t * ld + i];
+  const Index moving = window_.moving();
+  for (Index i = 0; i < n; ++i) diagonal[i] = i < moving ? workspace_.columns[i * ld + i] : state_.P_(i, i);
+  for (Index twice = 0; twice < (motion.turns() ? 2 : 1); ++twice)
+    for (Index t = 0; t < motion.rank(); ++t)
+      for (Index i = moving; i < n; ++i) diagonal[i] += motion.left()[t * ld + i] * motion.right()[t * ld + i];
   for (Index i = 0; i < n; ++i) {
     if (!std::isfinite(workspace_.error_state[i])) return false;
     // A variance after the update must exceed the rounding error of the variance before it. A zero variance stays zero.

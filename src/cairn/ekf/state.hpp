@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state of a filter: one pose, many points (landmarks and companions), and their covariance, of which this class is
-// the only owner. ErrorModel defines which error the covariance describes. StateLayout defines the offset of each
+// The state of a filter: one pose, systematic errors, many points (landmarks and companions), and their covariance, of
+// which this class is the only owner. ErrorModel defines which error the covariance describes. StateLayout defines the offset of each
 // variable.
 //
 // Only the lower triangle of P is kept. Motion between two updates costs O(1): PendingMotion holds it back until the
@@ -42,8 +42,15 @@ class State {
 
   State(Arena& arena, ErrorKind error, const Capacity& capacity);
 
+  // The systematic errors at a start: numbers that are independent of the pose. Motion depends on the first ones.
+  struct SystematicStart {
+    Index count = 0, motion = 0;
+    const double* values = nullptr;
+    const double* walk = nullptr;        // variance by which each walks in one second
+    const double* covariance = nullptr;  // count x count, symmetric
+  };
   // Forgets everything. `covariance` is the covariance of the ordinary error [dp; dtheta].
-  void start(const Pose& pose, const Square& ordinary_covariance);
+  void start(const Pose& pose, const Square& ordinary_covariance, const SystematicStart& systematic = {});
 
   // --- estimates ---
   const ErrorModel<Pose>& model() const { return model_; }
@@ -51,9 +58,15 @@ class State {
   Index size() const { return layout_.points(); }  // slots: companions, then landmarks
   Index states() const { return layout_.states(); }
   Point landmark(Index slot) const { return local(slot) + origin_; }
+  Index systematic() const { return layout_.systematic(); }
+  double systematic(Index number) const { return systematic_[number]; }
 
   // --- propagate --- O(1). Returns false, with nothing changed, if a result is not finite.
-  bool propagate(const Increment<Pose>& increment);
+  bool propagate(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
+  // Adds an independent error of the pose, with this covariance of the ordinary error, to the motion that is held back.
+  bool widen(const Square& ordinary_covariance);
+  typename PendingMotion<Pose>::Snapshot pending() const { return motion_.snapshot(); }
+  void restore_pending(const typename PendingMotion<Pose>::Snapshot& pending) { motion_.restore(pending); }
 
   // --- update --- of the pose, of a mount if `mount_noise` is given, and of the chosen points; O(states window).
   struct Window {
@@ -67,7 +80,11 @@ class State {
   // --- marginals ---
   // Joint covariance of the pose and `count` points, both triangles, in the state's own error coordinates.
   void gather(const Index* slots, Index count, double* out, Index ld) const;
-  // The same in ordinary errors.
+  // The same with the systematic errors behind the pose: [pose; systematic errors; points].
+  void gather_systematic(const Index* slots, Index count, double* out, Index ld) const;
+  // Covariance of the systematic errors, both triangles.
+  void systematic_covariance(double* out) const;
+  // The same as gather() in ordinary errors.
   void gather_ordinary(const Index* slots, Index count, double* out, Index ld) const;
   // Covariance of e_l - e_p - turn(l - p) e_R, the only error that affects a sensor of R^T (l - p). With the invariant
   // error it is the covariance of xi_l - xi_p.
@@ -134,7 +151,7 @@ class State {
   // A copy of everything that an update and a composition change. Allocates.
   struct Backup {
     Pose pose;
-    std::vector<double> points, triangle;
+    std::vector<double> points, triangle, systematic;
     std::vector<Rotation> attitudes;
     typename PendingMotion<Pose>::Snapshot motion;
   };
@@ -148,8 +165,17 @@ class State {
   Eigen::Map<Point> place_of(Index slot) { return Eigen::Map<Point>(points_ + kDim * slot); }
   Square pose_block() const { return motion_.pose_block(P_); }  // with the motion held back
   void apply_pending();
-  // P <- P_now - W W^T over `rank` columns of W, the pending motion's noise added in the same pass.
-  void write_covariance(Index rank, const double* pose_columns);
+  using PointByMotion = Eigen::Matrix<double, kDim, kMotionStates>;
+  struct PendingTurn {
+    Eigen::Matrix<double, kTurn, kDof> with_pose;
+    Eigen::Matrix<double, kTurn, kTurn> own;
+  };
+  PointByMotion with_motion_states(Index row) const;  // covariance of a point with the motion's systematic errors
+  PendingTurn pending_turn() const;
+  PointSquare relative_change(Index row, const PointByPose& J) const;
+  // P <- P_now - W W^T over `rank` columns of W, the pending motion's noise added in the same pass. `columns` are those
+  // of the pose and the systematic errors.
+  void write_covariance(Index rank, const double* columns);
   void move(const double* error);  // every variable by its retraction
 
   ErrorModel<Pose> model_;
@@ -161,6 +187,8 @@ class State {
   Pose pose_;
   double* points_;
   Rotation* attitudes_;  // of the companions
+  double* systematic_;
+  double* walk_;  // of the systematic errors, variance in one second
   LowerTriangle P_;
   PendingMotion<Pose> motion_;
   UpdateWorkspace<Pose> workspace_;

@@ -16,8 +16,10 @@ Filter<Pose>::Filter(Arena& arena, const FilterOptions<Pose>& options)
       report_(arena, options_.max_observations),
       trajectory_(arena, options_.trajectory_poses),
       submaps_(options_, local_, trajectory_, log_),
-      frames_(arena, options_, local_, thresholds_, report_, log_),
-      batches_(arena, options_, local_, submaps_, thresholds_, report_, log_) {
+      trust_(arena, options_, local_, thresholds_, log_),
+      health_(arena, {options.max_sensors, options.max_observations, options.gate_probability, options.apply_noise}),
+      frames_(arena, options_, local_, thresholds_, trust_, report_, health_, log_),
+      batches_(arena, options_, local_, submaps_, thresholds_, trust_, report_, health_, log_) {
   if (arena.measuring()) return;
   if (options.single_map())
     local_.start(options.initial_pose, options.initial_covariance);
@@ -39,14 +41,44 @@ std::size_t Filter<Pose>::required_bytes(const FilterOptions<Pose>& options) {
 }
 
 template <class Pose>
+void Filter<Pose>::predict_wheels(double dt, double left, double right) {
+  const SystematicErrors& errors = local_.systematic();
+  if (!errors.any()) return move(drive_wheels<Pose>(wheels_, left, right, dt));
+  const CorrectedStep<Pose> step = drive_wheels<Pose>(wheels_, left, right, dt, errors.motion(local_.state()));
+  const MotionCoupling<Pose> coupling = errors.coupling(step, dt);
+  move(step.increment, &coupling);
+}
+
+template <class Pose>
+void Filter<Pose>::predict_twist(double dt, const Vector3& v, const Vector3& w) {
+  const SystematicErrors& errors = local_.systematic();
+  if (!errors.any()) return move(integrate_twist<Pose>(v, w, dt, twist_noise_));
+  const CorrectedStep<Pose> step = integrate_twist<Pose>(v, w, dt, twist_noise_, errors.motion(local_.state()));
+  const MotionCoupling<Pose> coupling = errors.coupling(step, dt);
+  move(step.increment, &coupling);
+}
+
+template <class Pose>
 void Filter<Pose>::propagate(const Increment<Pose>& increment) {
+  if (local_.systematic().any_twist())
+    throw Error(ErrorCode::state,
+                "prediction: an increment has no duration, so that a velocity or rate bias cannot be taken out; use "
+                "cairn_filter_predict_twist, or create the filter without these biases");
+  move(increment);
+}
+
+template <class Pose>
+void Filter<Pose>::move(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling) {
   constexpr double kTurnSquared = 39.478417604357432;  // (2 pi)^2
   if (!(increment.covariance.diagonal().template tail<kTurn>().maxCoeff() <= kTurnSquared))
     throw Error(ErrorCode::numerical,
                 "prediction: the attitude's noise of this step exceeds a whole turn; nothing was changed");
-  if (!local_.state().propagate(increment))
+  Increment<Pose> scaled = increment;
+  scaled.covariance *= health_.applied_to_motion();
+  if (!local_.state().propagate(scaled, coupling))
     throw Error(ErrorCode::numerical,
                 "prediction: the pose or its covariance would not be finite; nothing was changed");
+  health_.moved(increment);
   submaps_.drive(increment.T_before_after.translation().norm());
 }
 
@@ -54,10 +86,41 @@ template <class Pose>
 void Filter<Pose>::update(int sensor, const Observation* observations, Index landmarks, Index companions) {
   log_.watch([&] {
     const Sensor<Pose>& own = sensors_.at(sensor);
-    frames_.run({own, sensors_.view(sensor), observations, landmarks, companions});
+    frames_.run({own, sensors_.view(sensor), sensors_.loss(sensor), observations, landmarks, companions, sensor,
+                 health_.applied_to_sensor(sensor)});
   });
   submaps_.keep_pose();  // of the frame, before its submap is closed
   submaps_.close_if_full();
+  note_closing();
+}
+
+template <class Pose>
+void Filter<Pose>::update_fix(const AbsoluteFix<Pose>& fix) {
+  log_.watch([&] { batches_.fix(fix); });
+  submaps_.keep_pose();
+  note_closing();
+}
+
+template <class Pose>
+void Filter<Pose>::close_submap() {
+  submaps_.close();
+  note_closing();
+}
+
+// Tells the health monitor of the last closing, if there is a new one.
+template <class Pose>
+void Filter<Pose>::note_closing() {
+  const ClosingReport& closing = submaps_.closing();
+  if (closing.submaps == closings_) return;
+  closings_ = closing.submaps;
+  health_.closed(closing.join.refused, closing.join.refused + closing.join.fused);
+}
+
+template <class Pose>
+void Filter<Pose>::look_from(std::uint64_t id) {
+  if (id == local_.table().vehicle()) return;
+  local_.look_from(id);
+  health_.interrupt();
 }
 
 template <class Pose>

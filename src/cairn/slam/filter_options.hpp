@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "ekf/error_model.hpp"
+#include "linear/robust_loss.hpp"
+#include "motion/motion.hpp"
 
 namespace cairn {
 
@@ -43,6 +45,8 @@ struct SubmapOptions {
   double submap_extent = FilterDefaults::submap_extent;
   double submap_sigma = FilterDefaults::submap_sigma;
   JoinKind join = JoinKind::automatic;
+  LossKind join_loss = LossKind::none;
+  double join_loss_width = FilterDefaults::join_loss_width;
   double step_tolerance = 1e-2;  // of the sparse joining, see MapOptions
 };
 
@@ -62,9 +66,27 @@ struct LandmarkOptions {
   Index missed_frames = FilterDefaults::missed_frames;  // it is removed if in view and not seen this often; 0: never
 };
 
+// Systematic errors of the motion that are states: by their numbers in MotionErrors, standard deviation at the start (0:
+// no state) and random walk in the square root of a second.
+struct SystematicOptions {
+  double motion_sigma[MotionErrors::kCount] = {};
+  double motion_walk[MotionErrors::kCount] = {};
+};
+
+// What becomes of the noise that is learned (docs/trust.md).
+struct NoiseOptions {
+  bool apply_noise = false;  // scales the stated noise; otherwise it is only reported
+};
+
 template <class Pose>
-struct FilterOptions : CapacityOptions, UpdateOptions, SubmapOptions, AssociationOptions, LandmarkOptions {
+struct FilterOptions : CapacityOptions,
+                       UpdateOptions,
+                       SubmapOptions,
+                       AssociationOptions,
+                       LandmarkOptions,
+                       NoiseOptions {
   using PoseType = Pose;
+  SystematicOptions systematic;
   ErrorKind error = ErrorKind::invariant;
   Pose initial_pose;
   typename Pose::Square initial_covariance = Pose::Square::Zero();

@@ -12,13 +12,17 @@ template <class Pose>
 struct Frame {
   const Sensor<Pose>& sensor;
   const View* view;  // of the sensor; null: none was set
+  const RobustLoss& loss;
   const Observation* observations;
   Index landmarks, companions;  // observations of landmarks, then observations of companions
+  Index number = 0;             // of the sensor
+  double noise_factor = 1.0;    // of the stated covariances, as learned
 
   Index count() const { return landmarks + companions; }
   Vector3 z(Index observation) const { return Vector3(observations[observation].z); }
   // The noise of one observation's values. The noise of the mount comes on top.
-  Matrix3 noise(Index observation) const {
+  Matrix3 noise(Index observation) const { return noise_factor * stated_noise(observation); }
+  Matrix3 stated_noise(Index observation) const {
     const Observation& given = observations[observation];
     if (!given.has_covariance()) return sensor.noise();
     Matrix3 noise = Matrix3::Zero();

@@ -9,13 +9,22 @@ namespace cairn {
 template <class Pose>
 LocalMap<Pose>::LocalMap(Arena& arena, const FilterOptions<Pose>& options)
     : options_(options),
-      state_(arena, options.error, {options.slots(), options.max_observations, options.max_companions}),
+      systematic_(options.systematic, !options.single_map()),
+      state_(arena, options.error,
+             {options.slots(), options.max_observations, options.max_companions, systematic_.states()}),
       table_(arena, options.slots(), options.local_landmarks()) {}
 
 template <class Pose>
 void LocalMap<Pose>::start(const Pose& pose, const Square& covariance) {
-  state_.start(pose, covariance);
+  start(pose, covariance, systematic_.initial_values(), systematic_.initial_covariance());
+}
+
+template <class Pose>
+void LocalMap<Pose>::start(const Pose& pose, const Square& covariance, const std::vector<double>& values,
+                           const std::vector<double>& errors) {
+  systematic_.start(state_, pose, covariance, values, errors);
   table_.clear();
+  ++starts_;
 }
 
 template <class Pose>

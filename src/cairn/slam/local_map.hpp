@@ -10,6 +10,7 @@
 #include "map/landmarks.hpp"
 #include "slam/filter_options.hpp"
 #include "slam/landmark_table.hpp"
+#include "slam/systematic_errors.hpp"
 
 namespace cairn {
 
@@ -22,10 +23,15 @@ class LocalMap final : public Landmarks {
   using PointSquare = typename State<Pose>::PointSquare;
 
   LocalMap(Arena& arena, const FilterOptions<Pose>& options);
-  void start(const Pose& pose, const Square& covariance);  // forgets all landmarks and companions
+  std::uint64_t starts() const { return starts_; }         // how often it has started
+  void start(const Pose& pose, const Square& covariance);  // forgets all landmarks, companions and systematic errors
+  // The same, with these values and this covariance of the systematic errors.
+  void start(const Pose& pose, const Square& covariance, const std::vector<double>& values,
+             const std::vector<double>& errors);
 
   State<Pose>& state() { return state_; }
   const State<Pose>& state() const { return state_; }
+  const SystematicErrors& systematic() const { return systematic_; }
   LandmarkTable& table() { return table_; }
   const LandmarkTable& table() const { return table_; }
 
@@ -65,8 +71,10 @@ class LocalMap final : public Landmarks {
   void exchange(Index a, Index b);
 
   const FilterOptions<Pose>& options_;
+  SystematicErrors systematic_;
   State<Pose> state_;
   LandmarkTable table_;
+  std::uint64_t starts_ = 0;
 };
 
 extern template class LocalMap<SE2>;

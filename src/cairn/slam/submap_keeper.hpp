@@ -23,6 +23,7 @@ struct ClosingReport {
   Index landmarks = 0;
   JoinReport join;
   NamingReport naming;  // if observations bring no ids
+  double widened_position = 0.0, widened_attitude = 0.0;  // of the motion to the submap's base, standard deviations
   double seconds = 0.0;
 };
 
@@ -59,12 +60,17 @@ class SubmapKeeper {
   Square pose_covariance() const;
   double pose_nees(const Pose& truth) const;
   void keep_pose();  // adds the pose to the trajectory
+  // Values and covariance (both triangles) of the systematic errors.
+  void systematic(double* values, double* covariance) const;
   // Covariance of [pose; landmarks of landmarks()], in space: 6 + 3 count on a side.
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 
  private:
   Submap<Pose> take_submap() const;
   FixReport join(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
+  std::unique_ptr<MapTransaction<Pose>> join(Submap<Pose>& submap, ClosingReport& report);
+  void soften(Submap<Pose>& submap) const;
+  bool find_back(Submap<Pose>& submap, ClosingReport& report) const;
   bool moved() const;
 
   const FilterOptions<Pose>& options_;

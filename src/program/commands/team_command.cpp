@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Teams: cairn simulate usv, and cairn run of a MRCLAM folder.
+#include <chrono>
 #include <cstdio>
 
 #include "program/commands/commands.hpp"
@@ -12,9 +13,11 @@
 namespace cairn::program {
 namespace {
 
-// Runs the team in its mode and, if `beside` is given, each vehicle without the others.
+using Clock = std::chrono::steady_clock;
+
+// Runs the team in its mode and, if `beside` is given, each vehicle without the others. The run has begun at `begin`.
 std::vector<Figure> run_team(TeamDrive& drive, TeamDrive* beside, const TeamChoices& choices, const std::string& folder,
-                             Progress& progress) {
+                             Progress& progress, Clock::time_point begin) {
   std::optional<TeamOutput> output;
   if (!folder.empty()) output.emplace(drive, folder);
   TeamRunner runner(drive, choices);
@@ -30,7 +33,8 @@ std::vector<Figure> run_team(TeamDrive& drive, TeamDrive* beside, const TeamChoi
       progress.advance();
     });
   }
-  const std::vector<Figure> figures = team_figures(drive, result, alone ? &*alone : nullptr);
+  const std::chrono::duration<double> seconds = Clock::now() - begin;
+  const std::vector<Figure> figures = team_figures(drive, result, alone ? &*alone : nullptr, seconds.count());
   if (output) output->finish(runner, figures);
   return figures;
 }
@@ -65,11 +69,12 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
   std::vector<std::vector<Figure>> runs;
   std::optional<Progress> progress;
   for (std::uint32_t run = 0; run < options.runs; ++run) {
+    const auto begin = Clock::now();
     cairn_fleet_options fleet = options.fleet;
     fleet.seed = options.common.seed + run;
     FleetDrive drive(fleet), beside(fleet);
     if (!progress) progress.emplace(2 * drive.steps() * options.runs, options.common.quiet);
-    runs.push_back(run_team(drive, &beside, options.team, run == 0 ? options.common.output : "", *progress));
+    runs.push_back(run_team(drive, &beside, options.team, run == 0 ? options.common.output : "", *progress, begin));
   }
   progress.reset();
   const std::vector<Figure> figures = runs.size() == 1 ? runs.front() : means(runs);
@@ -79,14 +84,17 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
 void run_team_command(const std::vector<std::string>& arguments) {
   const MrclamOptions options = parse_mrclam_options(arguments);
   if (options.common.help) return write_help();
+  const auto begin = Clock::now();
   const logs::MrclamLog log = logs::read_mrclam(options.folder);
-  if (!options.common.quiet)
-    for (const std::string& note : log.notes) std::fprintf(stderr, "cairn: note: %s\n", note.c_str());
   MrclamDrive drive(log, options.noise);
+  if (!options.common.quiet) {
+    write_notes(log.notes);
+    write_notes(drive.notes());
+  }
   std::vector<Figure> figures;
   {
     Progress progress(drive.steps(), options.common.quiet);
-    figures = run_team(drive, nullptr, options.team, options.common.output, progress);
+    figures = run_team(drive, nullptr, options.team, options.common.output, progress, begin);
   }
   write_stdout(options.common.json ? json(figures) + "\n"
                                    : title(options.folder + ": " + log.format, options.team) + text(figures));

@@ -23,7 +23,7 @@ void check_choices(const TeamChoices& team) {
     throw UsageError("option --forget-after is not for teams, which keep all landmarks; leave it out");
   if (o.join.value_or(CAIRN_JOIN_AUTO) != CAIRN_JOIN_AUTO)
     throw UsageError("option --join is not for teams, which join submaps densely; leave it out");
-  const bool submaps = o.submap_landmarks.has_value() || o.submap_distance.value_or(0) > 0 ||
+  const bool submaps = o.submap_landmarks.value_or(0) > 0 || o.submap_distance.value_or(0) > 0 ||
                        o.submap_extent.value_or(0) > 0 || o.submap_sigma.value_or(0) > 0;
   if (submaps && team.mode != CAIRN_TEAM_SUBMAPS) throw UsageError("options of submaps need --mode submaps");
   if (team.mode == CAIRN_TEAM_SUBMAPS && o.submap_landmarks == 0u)

@@ -34,9 +34,7 @@ void Runner::create() {
   const std::size_t room = std::min(kMostLandmarks, choices_.names_known() ? needed : 2 * needed);
   options.max_landmarks = static_cast<std::uint32_t>(room);
   options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
-  // A submap that one frame fills costs more to close than it saves.
-  constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
-  options.submap_landmarks = std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations));
+  options.submap_landmarks = usual_submap(options.max_observations);
   options.trajectory_poses = static_cast<std::uint32_t>(std::min(kMostPoses, drive_.steps()));
   choices_.apply(options);
   options.vehicle = drive_.planar() ? CAIRN_VEHICLE_PLANAR : CAIRN_VEHICLE_SPATIAL;
@@ -46,6 +44,8 @@ void Runner::create() {
   check(cairn_filter_create(&options, &filter));
   filter_.reset(filter);
   sensor_ = drive_.equip(filter);
+  if (choices_.loss)
+    check(cairn_filter_set_loss(filter, sensor_, *choices_.loss, choices_.loss_width.value_or(kUsualLossWidth)));
 }
 
 void Runner::run(const Observer& observe) {
@@ -110,6 +110,10 @@ void Runner::report() {
   check(cairn_filter_local_pose(filter_.get(), nullptr, result_.local_covariance));
   check(cairn_map_size(cairn_filter_map(filter_.get()), &result_.landmarks));
   check(cairn_map_size(cairn_filter_local_map(filter_.get()), &result_.filter_landmarks));
+  result_.health.struct_size = sizeof result_.health;
+  check(cairn_filter_health(filter_.get(), &result_.health));
+  result_.sensor_health.struct_size = sizeof result_.sensor_health;
+  check(cairn_filter_sensor_health(filter_.get(), sensor_, &result_.sensor_health));
   result_.closing = new_closing();
   if (result_.closing) result_.filter_landmarks += result_.closing->landmarks;
 }

@@ -42,7 +42,7 @@ TeamRunner::TeamRunner(TeamDrive& drive, const TeamChoices& choices)
     for (std::size_t other = 0; other < numbers.size(); ++other) {
       if (other == v || choices.mode == CAIRN_TEAM_MONO) continue;
       const cairn_pose start = drive.start(other);
-      check(cairn_team_add(teams_[v].get(), numbers[other], &start, nullptr));
+      check(cairn_team_add(teams_[v].get(), numbers[other], &start, drive.start_covariance(other)));
     }
 }
 
@@ -57,16 +57,17 @@ TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
   cairn_filter_options filter;
   check(cairn_filter_options_init(&filter, sizeof filter));
   filter.vehicle = CAIRN_VEHICLE_PLANAR;
-  // Without names some landmarks may be placed twice.
+  // Without ids some landmarks may be placed twice.
   const std::uint32_t room = drive_.landmarks() * (choices.names_known() ? 1 : 4);
   filter.max_landmarks = std::max<std::uint32_t>(1, room);
   filter.max_observations = std::max<std::uint32_t>(1, drive_.largest_frame());
   choices.apply(filter);
   filter.initial_pose = drive_.start(vehicle);
+  if (const double* covariance = drive_.start_covariance(vehicle))
+    std::copy_n(covariance, 36, filter.initial_covariance);
   if (choices_.mode == CAIRN_TEAM_SUBMAPS) {
-    // The limit is the distance driven: one frame may hold all existing landmarks.
-    if (!choices.submap_landmarks) filter.submap_landmarks = std::min<std::uint32_t>(4096, 2 * room + 1);
-    if (!(filter.submap_distance > 0)) filter.submap_distance = drive_.submap_distance();
+    if (!choices.submap_landmarks) filter.submap_landmarks = usual_submap(filter.max_observations);
+    if (!choices.submap_distance) filter.submap_distance = drive_.submap_distance();
     filter.join = CAIRN_JOIN_DENSE;
   } else {
     filter.submap_landmarks = 0;
@@ -211,7 +212,8 @@ TeamResult TeamRunner::run(const Observer& observe) {
   return result;
 }
 
-std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& result, const TeamResult* alone) {
+std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& result, const TeamResult* alone,
+                                 double seconds) {
   std::vector<Figure> figures;
   const auto measure = [&](const std::string& key, double value) {
     if (std::isfinite(value)) figures.push_back({key, value, false});
@@ -219,15 +221,23 @@ std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& resul
   const auto count = [&](const std::string& key, std::size_t value) {
     figures.push_back({key, static_cast<double>(value), true});
   };
+  // Over the vehicles that have the figure: one without truth has no error.
   const auto mean = [&](auto&& figure) {
-    double sum = 0;
-    for (const VehicleScore& score : result.vehicles) sum += figure(score);
-    return sum / static_cast<double>(result.vehicles.size());
+    double sum = 0, known = 0;
+    for (const VehicleScore& score : result.vehicles) {
+      const double value = figure(score);
+      if (!std::isfinite(value)) continue;
+      sum += value;
+      known += 1;
+    }
+    return sum / known;
   };
   count("vehicles", result.vehicles.size());
   count("steps", result.recursions / result.vehicles.size());
   count("landmarks", result.vehicles[0].landmarks);
   count("rejected", result.rejected);
+  measure("seconds", seconds);
+  measure("filter_seconds", result.seconds);
   measure("recursion_ms_mean", 1e3 * result.seconds / static_cast<double>(result.recursions));
   measure("pose_rmse_m", mean([](const VehicleScore& s) { return s.rmse(); }));
   measure("landmark_rmse_m", mean([](const VehicleScore& s) { return s.landmark_rmse(); }));

@@ -74,7 +74,9 @@ class TeamRunner {
   std::vector<std::map<std::uint64_t, std::map<std::uint64_t, std::size_t>>> votes_;  // by vehicle and landmark
 };
 
-// The figures of a run, or of several summed up. `alone` (or null): the result of the same run without cooperation.
-std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& result, const TeamResult* alone);
+// The figures of a run. `alone` (or null): the result of the same run without cooperation. `seconds`: time of the whole
+// run. Figures that need the truth are left out if there is none.
+std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& result, const TeamResult* alone,
+                                 double seconds);
 
 }  // namespace cairn::program

@@ -153,7 +153,7 @@ void DenseTransaction<Pose>::hand_over(const Submap<Pose>& submap, typename Stat
 }
 
 template <class Pose>
-void DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
+JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
   State<Pose>& state = map_.state_;
   const MapOptions<Pose>& options = map_.options_;
   for (Eigen::Index i = 0; i < submap.size(); ++i) {
@@ -208,6 +208,7 @@ void DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
           T_base_map * state.landmark(pairs_[a].slot) - submap.landmarks[pairs_[a].local];
   }
   hand_over(submap, handover, shift);
+  return report_;
 }
 
 template <class Pose>
