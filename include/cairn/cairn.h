@@ -33,5 +33,6 @@
 #include <cairn/status.h>
 #include <cairn/systematic.h>
 #include <cairn/team.h>
+#include <cairn/trajectory.h>
 
 #endif

@@ -252,6 +252,28 @@ class Filter(Handle):
         filter."""
         self._call(lib.cairn_filter_set_log, self._callbacks.log(log), ffi.NULL)
 
+    # Trajectory: poses that a filter with trajectory_poses > 0 keeps, numbered from 0. Every update keeps one.
+
+    def keep_pose(self):
+        """Keeps the pose of the body now, for a step in which nothing was observed. Returns the pose's number."""
+        number = ffi.new("uint64_t *")
+        self._call(lib.cairn_filter_keep_pose, number)
+        return number[0]
+
+    def trajectory_range(self):
+        """Numbers of the poses that are kept: the first one, and one behind the last one."""
+        first, end = ffi.new("uint64_t *"), ffi.new("uint64_t *")
+        self._call(lib.cairn_filter_trajectory_range, first, end)
+        return first[0], end[0]
+
+    def trajectory(self, first=None):
+        """Poses of the body in the map as they are known now, from number `first` on; None means all that are kept.
+        Returns an array with the fields position (3, m) and quaternion (4, w x y z)."""
+        if first is None:
+            first = self.trajectory_range()[0]
+        with self._use() as handle:
+            return _structs.filled("cairn_pose", lambda *buffer: lib.cairn_filter_trajectory(handle, first, *buffer))
+
     # Submaps.
 
     def close_submap(self):

@@ -14,7 +14,8 @@ Filter<Pose>::Filter(Arena& arena, const FilterOptions<Pose>& options)
       thresholds_(arena, {options.gate_probability, options.batch_gate_probability, options.new_probability},
                   kDim * options.max_observations + kDof),
       report_(arena, options_.max_observations),
-      submaps_(options_, local_, log_),
+      trajectory_(arena, options_.trajectory_poses),
+      submaps_(options_, local_, trajectory_, log_),
       trust_(arena, options_, local_, thresholds_, log_),
       health_(arena, {options.max_sensors, options.max_observations, options.gate_probability, options.apply_noise}),
       frames_(arena, options_, local_, thresholds_, trust_, report_, health_, log_),
@@ -88,6 +89,7 @@ void Filter<Pose>::update(int sensor, const Observation* observations, Index lan
     frames_.run({own, sensors_.view(sensor), sensors_.loss(sensor), observations, landmarks, companions, sensor,
                  health_.applied_to_sensor(sensor)});
   });
+  submaps_.keep_pose();  // of the frame, before its submap is closed
   submaps_.close_if_full();
   note_closing();
 }
@@ -95,6 +97,7 @@ void Filter<Pose>::update(int sensor, const Observation* observations, Index lan
 template <class Pose>
 void Filter<Pose>::update_fix(const AbsoluteFix<Pose>& fix) {
   log_.watch([&] { batches_.fix(fix); });
+  submaps_.keep_pose();
   note_closing();
 }
 

@@ -56,6 +56,7 @@ class Filter {
   void update(int sensor, const Observation* observations, Index landmarks, Index companions = 0);
   void update_linear(const LinearRows& rows) {
     log_.watch([&] { batches_.rows(rows); });
+    submaps_.keep_pose();
   }
   void update_fix(const AbsoluteFix<Pose>& fix);
   void update_position(const Point& position, const PointSquare& covariance, const Point& lever_arm) {
@@ -99,6 +100,11 @@ class Filter {
   void close_submap();
   const ClosingReport& closing() const { return submaps_.closing(); }
 
+  // --- trajectory --- every update adds its pose
+  void keep_pose() { submaps_.keep_pose(); }  // adds the present pose
+  const Trajectory<Pose>& trajectory() const { return trajectory_; }
+  Pose trajectory_pose(std::uint64_t number) const { return trajectory_.pose(number, submaps_.map()); }
+
   // --- queries ---
   Pose pose() const { return submaps_.pose(); }
   Square pose_covariance() const { return submaps_.pose_covariance(); }
@@ -129,6 +135,7 @@ class Filter {
   LocalMap<Pose> local_;
   Thresholds thresholds_;
   FrameReport report_;
+  Trajectory<Pose> trajectory_;
   SubmapKeeper<Pose> submaps_;
   MotionTrust<Pose> trust_;
   HealthMonitor<Pose> health_;

@@ -24,6 +24,7 @@ struct CapacityOptions {
   Index max_landmarks = FilterDefaults::max_landmarks;
   Index max_observations = FilterDefaults::max_observations;
   Index max_sensors = FilterDefaults::max_sensors;
+  Index trajectory_poses = FilterDefaults::trajectory_poses;
   Index max_companions = 0;  // poses of other vehicles in the state of a single map
 };
 

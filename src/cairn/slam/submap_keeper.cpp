@@ -58,8 +58,9 @@ bool FilterOptions<Pose>::sparse() const {
 }
 
 template <class Pose>
-SubmapKeeper<Pose>::SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, const Log& log)
-    : options_(options), local_(local), log_(log), policy_(options, local) {}
+SubmapKeeper<Pose>::SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local,
+                                 Trajectory<Pose>& trajectory, const Log& log)
+    : options_(options), local_(local), trajectory_(trajectory), log_(log), policy_(options, local) {}
 
 template <class Pose>
 void SubmapKeeper<Pose>::make_map() {
@@ -228,6 +229,7 @@ FixReport SubmapKeeper<Pose>::join(ClosedBy reason, const AbsoluteFix<Pose>* fix
     if (fix != nullptr) fixed = transaction->fix(*fix, threshold);
     next.join = transaction->commit();
   }
+  trajectory_.end_submap(map_->submap_count() - 1, submap.T_base_end, local_.state().pose_covariance());
   local_.start(Pose(), Square::Zero());  // deferred landmarks have to be found again
   policy_.restart();
   next.submaps = map_->submap_count();
@@ -327,6 +329,13 @@ template <class Pose>
 double SubmapKeeper<Pose>::pose_nees(const Pose& truth) const {
   if (map_ == nullptr) return local_.state().pose_nees(truth);
   return State<Pose>::nees(options_.error, options_.initial_pose.translation(), truth, pose(), pose_covariance());
+}
+
+template <class Pose>
+void SubmapKeeper<Pose>::keep_pose() {
+  if (trajectory_.capacity() == 0) return;
+  const std::size_t submap = map_ != nullptr ? map_->submap_count() : 0;
+  trajectory_.add(submap, local_.state().pose(), local_.state().pose_covariance());
 }
 
 template MapOptions<SE2> map_options(const FilterOptions<SE2>&);

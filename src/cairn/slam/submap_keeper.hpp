@@ -9,6 +9,7 @@
 #include "map/naming.hpp"
 #include "slam/log.hpp"
 #include "slam/submap_policy.hpp"
+#include "slam/trajectory.hpp"
 
 namespace cairn {
 
@@ -36,7 +37,7 @@ class SubmapKeeper {
   static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
   using Square = typename Pose::Square;
 
-  SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, const Log& log);
+  SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, Trajectory<Pose>& trajectory, const Log& log);
   static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of the map, if it is known beforehand
 
   const GlobalMap<Pose>* map() const { return map_.get(); }  // null: a single map
@@ -58,6 +59,7 @@ class SubmapKeeper {
   Pose pose() const { return map_ != nullptr ? map_->base() * local_.state().pose() : local_.state().pose(); }
   Square pose_covariance() const;
   double pose_nees(const Pose& truth) const;
+  void keep_pose();  // adds the pose to the trajectory
   // Values and covariance (both triangles) of the systematic errors.
   void systematic(double* values, double* covariance) const;
   // Covariance of [pose; landmarks of landmarks()], in space: 6 + 3 count on a side.
@@ -73,6 +75,7 @@ class SubmapKeeper {
 
   const FilterOptions<Pose>& options_;
   LocalMap<Pose>& local_;
+  Trajectory<Pose>& trajectory_;
   const Log& log_;
   std::unique_ptr<GlobalMap<Pose>> map_;
   SubmapPolicy<Pose> policy_;

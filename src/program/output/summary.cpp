@@ -117,7 +117,7 @@ void Summary::measure(const char* key, double value) {
 }
 
 void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing,
-                     double seconds) {
+                     const std::optional<double>& corrected_rmse, double seconds) {
   if (last_closing) {
     add_closing(*last_closing);
     closing_outside_ = last_closing->seconds;
@@ -140,6 +140,7 @@ void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closi
   finish_timing();
   measure("peak_rss_mib", peak_rss_mib());
   finish_pose(filter);
+  if (corrected_rmse) measure("pose_rmse_corrected_m", *corrected_rmse);
   finish_landmarks(landmarks);
   const int pose_dimension = drive_.planar() ? 3 : 6;
   if (nees_count_ > 0) measure("pose_anees_per_dof", nees_sum_ / static_cast<double>(nees_count_) / pose_dimension);

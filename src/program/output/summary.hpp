@@ -32,9 +32,10 @@ class Summary {
   Summary(const Drive& drive, bool names_known) : drive_(drive), names_known_(names_known) {}
 
   void add(const DriveStep& step, const StepResult& result, const std::optional<PoseScore>& score);
-  // To be called once, after the last step, with the closing of the submap that was still open, and the time of the
-  // whole run.
-  void finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing, double seconds);
+  // To be called once, after the last step, with the closing of the submap that was still open, the error of the
+  // corrected trajectory, if there is truth, and the time of the whole run.
+  void finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing,
+              const std::optional<double>& corrected_rmse, double seconds);
 
   const std::vector<Figure>& figures() const { return figures_; }
   // The drive's id of one of the filter's landmarks: the id of the observation that placed it.

@@ -11,7 +11,8 @@ namespace cairn::program {
 namespace {
 
 constexpr std::size_t kLandmarkMargin = 8;
-constexpr std::size_t kMostLandmarks = 10000000, kMostObservations = 4096;  // limits of the library
+constexpr std::size_t kMostLandmarks = 10000000, kMostObservations = 4096,
+                      kMostPoses = 10000000;  // limits of the library
 
 }  // namespace
 
@@ -34,6 +35,7 @@ void Runner::create() {
   options.max_landmarks = static_cast<std::uint32_t>(room);
   options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
   options.submap_landmarks = usual_submap(options.max_observations);
+  options.trajectory_poses = static_cast<std::uint32_t>(std::min(kMostPoses, drive_.steps()));
   choices_.apply(options);
   options.vehicle = drive_.planar() ? CAIRN_VEHICLE_PLANAR : CAIRN_VEHICLE_SPATIAL;
   has_submaps_ = options.submap_landmarks > 0;
@@ -77,7 +79,7 @@ void Runner::predict() {
 }
 
 void Runner::update() {
-  if (step_.count == 0) return;
+  if (step_.count == 0) return check(cairn_filter_keep_pose(filter_.get(), nullptr));
   check(cairn_filter_update(filter_.get(), sensor_, step_.observations, step_.count, result_.matches.data()));
 }
 
