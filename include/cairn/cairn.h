@@ -25,6 +25,7 @@
 #define CAIRN_CAIRN_H
 
 #include <cairn/filter.h>
+#include <cairn/health.h>
 #include <cairn/map.h>
 #include <cairn/motion.h>
 #include <cairn/pose.h>
@@ -32,5 +33,6 @@
 #include <cairn/status.h>
 #include <cairn/systematic.h>
 #include <cairn/team.h>
+#include <cairn/trajectory.h>
 
 #endif

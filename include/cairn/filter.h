@@ -57,6 +57,12 @@ enum {
                                        same d^2, the better known one is chosen. The gates still use d^2 */
 };
 
+/** What becomes of the noise that the filter learns from its innovations (docs/trust.md). */
+enum {
+  CAIRN_NOISE_REPORTED = 0, /**< \ref cairn_filter_health reports it; the default */
+  CAIRN_NOISE_APPLIED = 1   /**< from when it is known, it scales the stated noise of each sensor and of the motion */
+};
+
 /** Options of \ref cairn_filter_create. Set them by \ref cairn_filter_options_init first. */
 typedef struct cairn_filter_options {
   uint32_t struct_size;          /**< sizeof(cairn_filter_options) of the caller */
@@ -70,7 +76,7 @@ typedef struct cairn_filter_options {
   double iteration_tolerance;    /**< the iteration ends when the linearisation error of the batch is smaller than
                                       this, > 0; it is measured in standard deviations of the observations, root of
                                       the sum of squares; default 0.1 */
-  double gate_probability;       /**< chi-square gate of one observation, in (0, 1]; 1: no gate; default 0.99 */
+  double gate_probability;       /**< chi-square gate of one observation, in (0, 1]; 1: no gate; default 0.999 */
   double batch_gate_probability; /**< chi-square gate of a whole batch, in (0, 1]; 1: no gate; default 0.9999 */
   cairn_pose initial_pose;       /**< body in the map frame at the start; default identity */
   double initial_covariance[36]; /**< covariance of its error [dp; dtheta], symmetric, positive semidefinite; default
@@ -102,11 +108,16 @@ typedef struct cairn_filter_options {
   uint32_t missed_frames;        /**< a landmark is removed if it lay in a sensor's view
                                       (\ref cairn_filter_set_view), but was not seen, in this many consecutive frames
                                       of this sensor; 0, the default: never */
-  uint32_t reserved;             /**< 0 */
+  uint32_t trajectory_poses;     /**< newest poses that are kept for \ref cairn_filter_trajectory, 0 to 10000000; 0, the
+                                      default: none. The memory is taken at creation, at most 500 bytes a pose */
   double error_persistence;      /**< number of consecutive observations of a landmark whose errors are fully
                                       correlated, 1 to 1000000: an update multiplies the covariance of an
                                       observation's noise by this; association and placing use the noise unchanged;
                                       default 1 */
+  int32_t join_loss;             /**< loss of the landmarks that a closed submap shares with the map: CAIRN_LOSS_NONE,
+                                      CAIRN_LOSS_HUBER or CAIRN_LOSS_CAUCHY; default CAIRN_LOSS_NONE */
+  int32_t noise_learning;        /**< CAIRN_NOISE_REPORTED or CAIRN_NOISE_APPLIED; default CAIRN_NOISE_REPORTED */
+  double join_loss_width;        /**< where `join_loss` leaves the parabola, standard deviations, > 0; default 1.5 */
   double velocity_bias_sigma[3]; /**< a constant error of the measured body velocity (x, y, z) is a state, with this
                                       standard deviation at the start, m/s, >= 0; 0, the default: no state. The
                                       velocity is the measured one minus the bias (docs/systematic_errors.md). A
@@ -125,57 +136,65 @@ typedef struct cairn_filter_options {
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_options_init(cairn_filter_options* options, size_t struct_size);
+CAIRN_API cairn_status cairn_filter_options_init(cairn_filter_options *options, size_t struct_size);
 
 /** Bytes that \ref cairn_filter_create will take with these options. Only closings of submaps take more: workspace
  *  while they run, and with sparse joining the memory by which the map grows.
  *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_required_bytes(const cairn_filter_options* options, size_t* bytes);
+CAIRN_API cairn_status cairn_filter_required_bytes(const cairn_filter_options *options, size_t *bytes);
 
 /** Creates a filter. The caller destroys it with \ref cairn_filter_destroy. Options of an older or a newer header are
  *  used as far as both sides know them. On an error `*filter` is not written.
  *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_create(const cairn_filter_options* options, cairn_filter** filter);
+CAIRN_API cairn_status cairn_filter_create(const cairn_filter_options *options, cairn_filter **filter);
 
 /** Destroys a filter and the map that it owns. NULL is allowed. Threads: one a handle. \since 0.1.0 */
-CAIRN_API void cairn_filter_destroy(cairn_filter* filter);
+CAIRN_API void cairn_filter_destroy(cairn_filter *filter);
 
 /** Receives a line of a filter's log. `payload` is the pointer that \ref cairn_filter_set_log got. */
-typedef void (*cairn_log)(void* payload, const char* line);
+typedef void (*cairn_log)(void *payload, const char *line);
 
 /** Sets the receiver of this filter's log lines (refused batches, numerical refusals). NULL, the default: no log.
  *  The callback runs inside calls of the filter and must not call the same filter. Threads: one a handle.
  *  Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_set_log(cairn_filter* filter, cairn_log log, void* payload);
+CAIRN_API cairn_status cairn_filter_set_log(cairn_filter *filter, cairn_log log, void *payload);
 
 /* Sensors. Each call copies the description and returns the number of the sensor, counted from 0, for later calls. */
 
 /** Adds a stereo head. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_CAPACITY. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_add_stereo_head(cairn_filter* filter, const cairn_stereo_head* head,
-                                                    int32_t* sensor);
+CAIRN_API cairn_status cairn_filter_add_stereo_head(cairn_filter *filter, const cairn_stereo_head *head,
+                                                    int32_t *sensor);
 
 /** Adds a stereo camera. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_CAPACITY. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_add_stereo_camera(cairn_filter* filter, const cairn_stereo_camera* camera,
-                                                      int32_t* sensor);
+CAIRN_API cairn_status cairn_filter_add_stereo_camera(cairn_filter *filter, const cairn_stereo_camera *camera,
+                                                      int32_t *sensor);
 
 /** Adds a planar range-bearing sensor (radar, lidar, sonar). Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT
  *  (also if the vehicle is spatial), CAIRN_ERROR_CAPACITY. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_add_range_bearing(cairn_filter* filter, const cairn_range_bearing* radar,
-                                                      int32_t* sensor);
+CAIRN_API cairn_status cairn_filter_add_range_bearing(cairn_filter *filter, const cairn_range_bearing *radar,
+                                                      int32_t *sensor);
 
 /** Adds a cartesian sensor, which gives points. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT,
  *  CAIRN_ERROR_CAPACITY. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_add_cartesian(cairn_filter* filter, const cairn_cartesian* cartesian,
-                                                  int32_t* sensor);
+CAIRN_API cairn_status cairn_filter_add_cartesian(cairn_filter *filter, const cairn_cartesian *cartesian,
+                                                  int32_t *sensor);
 
 /** Adds a sensor of the caller's own. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_CAPACITY.
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_add_custom(cairn_filter* filter, const cairn_custom* custom, int32_t* sensor);
+CAIRN_API cairn_status cairn_filter_add_custom(cairn_filter *filter, const cairn_custom *custom, int32_t *sensor);
 
 /** Sets the pan and stick angle (rad) of a stereo head from now on; both are 0 after it was added. Call this function
  *  before each frame that was taken at other angles. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (not finite,
  *  or no stereo head), CAIRN_ERROR_NOT_FOUND. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_point_head(cairn_filter* filter, int32_t sensor, double pan, double stick);
+CAIRN_API cairn_status cairn_filter_point_head(cairn_filter *filter, int32_t sensor, double pan, double stick);
+
+/** Sets the loss of a sensor's residuals: an observation whose distance is large gets less weight, instead of being
+ *  refused. `width` (> 0) is where the loss leaves the parabola, in standard deviations of the observation's noise. The
+ *  weights are found in the iteration of the update, and the covariance is that of the robust estimate (docs/update.md,
+ *  "Robust losses"). The chi-square gates stay; options with gate probabilities of 1 open them. CAIRN_LOSS_NONE takes
+ *  the loss away; `width` is then ignored. Allocates nothing. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT,
+ *  CAIRN_ERROR_NOT_FOUND. \since 0.2.0 */
+CAIRN_API cairn_status cairn_filter_set_loss(cairn_filter *filter, int32_t sensor, int32_t loss, double width);
 
 /** Sets the region in which a sensor detects every landmark: all observations between `lower` and `upper`, value by
  *  value, in the sensor's units. An infinite value is no bound. A sensor of fewer than 3 rows uses the first values.
@@ -183,36 +202,36 @@ CAIRN_API cairn_status cairn_filter_point_head(cairn_filter* filter, int32_t sen
  *  and no observation of the frame was compared with the landmark (`missed_frames`). Threads: one a handle. Errors:
  *  CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND.
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_set_view(cairn_filter* filter, int32_t sensor, const double lower[3],
+CAIRN_API cairn_status cairn_filter_set_view(cairn_filter *filter, int32_t sensor, const double lower[3],
                                              const double upper[3]);
 
 /* Motion. A prediction costs O(1), whatever the size of the map, and allocates nothing. */
 
 /** Sets the wheels for \ref cairn_filter_predict_wheels. Until then those of \ref cairn_wheels_init are used.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_set_wheels(cairn_filter* filter, const cairn_wheels* wheels);
+CAIRN_API cairn_status cairn_filter_set_wheels(cairn_filter *filter, const cairn_wheels *wheels);
 
 /** Sets the noise of \ref cairn_filter_predict_twist. Until then that of \ref cairn_twist_noise_init is used.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_set_twist_noise(cairn_filter* filter, const cairn_twist_noise* noise);
+CAIRN_API cairn_status cairn_filter_set_twist_noise(cairn_filter *filter, const cairn_twist_noise *noise);
 
 /** Moves the vehicle by the turning rates of its left and right wheels (rad/s) over `dt` seconds (> 0).
  *  Mars paper, eq. 1 and 2. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL.
  *  Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_predict_wheels(cairn_filter* filter, double dt, double left_rad_per_s,
+CAIRN_API cairn_status cairn_filter_predict_wheels(cairn_filter *filter, double dt, double left_rad_per_s,
                                                    double right_rad_per_s);
 
 /** Moves the vehicle by the turning rates of its left and right wheels (rad/s) and the body rate of a gyro (rad/s)
  *  over `dt` seconds (> 0): the velocity is that of \ref cairn_filter_predict_wheels, with its noise, and the rate has
  *  the noise of \ref cairn_filter_set_twist_noise. A planar vehicle reads only the rate about z.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(1). \since 0.2.0 */
-CAIRN_API cairn_status cairn_filter_predict_wheels_gyro(cairn_filter* filter, double dt, double left_rad_per_s,
+CAIRN_API cairn_status cairn_filter_predict_wheels_gyro(cairn_filter *filter, double dt, double left_rad_per_s,
                                                         double right_rad_per_s, const double rate[3]);
 
 /** Moves the vehicle by its body velocity (m/s) and body rate (rad/s) over `dt` seconds (> 0).
  *  Mars paper, eq. 2. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(1).
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_predict_twist(cairn_filter* filter, double dt, const double velocity[3],
+CAIRN_API cairn_status cairn_filter_predict_twist(cairn_filter *filter, double dt, const double velocity[3],
                                                   const double rate[3]);
 
 /** Moves the vehicle by a relative pose, `T_map_body <- T_map_body T_before_after`, with the covariance (6x6 row-major,
@@ -220,7 +239,7 @@ CAIRN_API cairn_status cairn_filter_predict_twist(cairn_filter* filter, double d
  *  An increment has no duration: a filter that estimates a velocity or rate bias refuses it, and no random walk goes
  * on. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (a bias is a
  *  state). Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_predict_increment(cairn_filter* filter, const cairn_pose* T_before_after,
+CAIRN_API cairn_status cairn_filter_predict_increment(cairn_filter *filter, const cairn_pose *T_before_after,
                                                       const double covariance[36]);
 
 /* Observations. A call is one batch of observations. A call that fails leaves the filter as it was, bit for bit. */
@@ -231,8 +250,8 @@ CAIRN_API cairn_status cairn_filter_predict_increment(cairn_filter* filter, cons
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also an id twice, CAIRN_ID_NONE, noise that is not a
  *  covariance), CAIRN_ERROR_NOT_FOUND (sensor), CAIRN_ERROR_CAPACITY (more than max_observations, or the map would
  *  hold more than max_landmarks), CAIRN_ERROR_NUMERICAL. Complexity: O(n^2 m) for n states and m rows. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_update(cairn_filter* filter, int32_t sensor, const cairn_observation* observations,
-                                           size_t count, cairn_match* matches);
+CAIRN_API cairn_status cairn_filter_update(cairn_filter *filter, int32_t sensor, const cairn_observation *observations,
+                                           size_t count, cairn_match *matches);
 
 /** Updates the filter by an observation that the caller has linearised: `residual = z - h` (rows values),
  *  `covariance` of the noise (rows x rows), `jacobian_pose` = dh/[dp; dtheta] (rows x 6, NULL for zero) and
@@ -242,48 +261,48 @@ CAIRN_API cairn_status cairn_filter_update(cairn_filter* filter, int32_t sensor,
  *  or CAIRN_ID_NONE. rows is 1 to 3 max_observations (planar: 2), count at most max_observations.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_CAPACITY,
  *  CAIRN_ERROR_NUMERICAL. Complexity: O(n^2 rows). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_update_linear(cairn_filter* filter, const double* residual, size_t rows,
-                                                  const double* covariance, const double* jacobian_pose,
-                                                  const uint64_t* landmarks, size_t count,
-                                                  const double* jacobian_landmarks, cairn_match* match);
+CAIRN_API cairn_status cairn_filter_update_linear(cairn_filter *filter, const double *residual, size_t rows,
+                                                  const double *covariance, const double *jacobian_pose,
+                                                  const uint64_t *landmarks, size_t count,
+                                                  const double *jacobian_landmarks, cairn_match *match);
 
 /** Updates the filter by an absolute position (GNSS): `z = p + R lever_arm` in the map frame, m; 3x3 `covariance`,
  *  positive definite. `lever_arm` (body frame, m) may be NULL: zero. `match` (or NULL) gets the match.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(n^2). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_update_position(cairn_filter* filter, const double position[3],
+CAIRN_API cairn_status cairn_filter_update_position(cairn_filter *filter, const double position[3],
                                                     const double covariance[9], const double lever_arm[3],
-                                                    cairn_match* match);
+                                                    cairn_match *match);
 
 /** Updates the filter by an absolute attitude (star tracker): quaternion w x y z from body to map; 3x3 `covariance`
  *  (rad^2, positive definite) of its error dtheta in the map's axes. `match` (or NULL) gets the match.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(n^2). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_update_attitude(cairn_filter* filter, const double quaternion[4],
-                                                    const double covariance[9], cairn_match* match);
+CAIRN_API cairn_status cairn_filter_update_attitude(cairn_filter *filter, const double quaternion[4],
+                                                    const double covariance[9], cairn_match *match);
 
 /** Updates the filter by an absolute heading (sun sensor, compass): the yaw of the body's x axis in the map, rad,
  *  with its standard deviation (> 0). It is refused (CAIRN_REASON_NO_IMAGE) if the x axis is within 5 degrees of the
  *  vertical. `match` (or NULL) gets the match.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(n^2). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_update_heading(cairn_filter* filter, double heading, double sigma,
-                                                   cairn_match* match);
+CAIRN_API cairn_status cairn_filter_update_heading(cairn_filter *filter, double heading, double sigma,
+                                                   cairn_match *match);
 
 /** Removes a landmark from the map and from the open submap. The information that it gave about other states stays.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND. Complexity: O(n). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_remove_landmark(cairn_filter* filter, uint64_t id);
+CAIRN_API cairn_status cairn_filter_remove_landmark(cairn_filter *filter, uint64_t id);
 
 /** Merges two landmarks of the open submap, or of the single map, that are in truth one. The filter observes that
  *  their difference is zero; this observation is gated like any other (gate_probability). If it passes, `other` is
  *  removed, and `id` stays with the observations of both. `match` (or NULL) gets the match.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_CAPACITY (max_observations
  *  is 1), CAIRN_ERROR_NUMERICAL. Complexity: O(n^2). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_merge_landmarks(cairn_filter* filter, uint64_t id, uint64_t other,
-                                                    cairn_match* match);
+CAIRN_API cairn_status cairn_filter_merge_landmarks(cairn_filter *filter, uint64_t id, uint64_t other,
+                                                    cairn_match *match);
 
 /** Splits a landmark that is in truth two landmarks. The new landmark `fresh` gets the position of `id` plus an
  *  independent error with this 3x3 covariance (positive definite; it says how far apart the two may be). Later
  *  observations separate the two. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also if `fresh` exists),
  *  CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_CAPACITY. Complexity: O(n). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_split_landmark(cairn_filter* filter, uint64_t id, uint64_t fresh,
+CAIRN_API cairn_status cairn_filter_split_landmark(cairn_filter *filter, uint64_t id, uint64_t fresh,
                                                    const double covariance[9]);
 
 /* Submaps (docs/submaps.md). With submap_landmarks > 0 the filter works in a submap. A submap starts at the vehicle's
@@ -335,34 +354,34 @@ typedef struct cairn_closing_report {
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (a single map, or the submap holds no
  *  landmark), CAIRN_ERROR_CAPACITY (max_landmarks), CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_MEMORY. Complexity: dense
  *  O(n^2) for n states of the map; sparse: the part of the factor that the closing affects. \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_close_submap(cairn_filter* filter);
+CAIRN_API cairn_status cairn_filter_close_submap(cairn_filter *filter);
 
 /** Reports on the last attempt to close a submap; zeros before the first attempt. Set `report->struct_size` first.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_last_closing(const cairn_filter* filter, cairn_closing_report* report);
+CAIRN_API cairn_status cairn_filter_last_closing(const cairn_filter *filter, cairn_closing_report *report);
 
 /** Pose of the body in the open submap, and the covariance of its error [dp; dtheta] (6x6 row-major); each may be NULL.
  *  With a single map: in the map. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT.
  *  Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_local_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]);
+CAIRN_API cairn_status cairn_filter_local_pose(const cairn_filter *filter, cairn_pose *pose, double covariance[36]);
 
 /** Pose of the open submap's origin in the map, and the covariance of its error [dp; dtheta] (6x6 row-major); each
  *  may be NULL. With a single map: identity and zero. Threads: as any const query of the handle. Errors:
  *  CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_base_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]);
+CAIRN_API cairn_status cairn_filter_base_pose(const cairn_filter *filter, cairn_pose *pose, double covariance[36]);
 
 /** Number of submaps closed so far. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT.
  *  Complexity: O(1).
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_submap_count(const cairn_filter* filter, size_t* count);
+CAIRN_API cairn_status cairn_filter_submap_count(const cairn_filter *filter, size_t *count);
 
 /** A closed submap, counted from 0: the pose of its origin in the map as known now (dense: as known at its closing),
  *  and the ids of its landmarks in the order in which they were placed. `base` may be NULL. NULL with capacity 0 asks
  *  for the number of ids.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND,
  *  CAIRN_ERROR_BUFFER. Complexity: O(landmarks of the submap). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_submap(const cairn_filter* filter, size_t index, cairn_pose* base, uint64_t* ids,
-                                           size_t capacity, size_t* needed);
+CAIRN_API cairn_status cairn_filter_submap(const cairn_filter *filter, size_t index, cairn_pose *base, uint64_t *ids,
+                                           size_t capacity, size_t *needed);
 
 /** Report of the last update. */
 typedef struct cairn_update_report {
@@ -382,45 +401,49 @@ typedef struct cairn_update_report {
   uint32_t deferred;              /**< deferred landmarks after the update (`deferred_sightings`) */
   uint32_t removed;               /**< landmarks removed after the update: missed too often, or not seen again in
                                        time */
+  double widened_position;        /**< most of what was seen contradicted the estimate: standard deviation by which the
+                                       motion since the last agreement was widened, m; 0: it was not (docs/update.md,
+                                       "Finding back") */
+  double widened_attitude;        /**< the same of the attitude, rad */
 } cairn_update_report;
 
 /** Reports on the last successful update of any kind; zeros before the first update. Set `report->struct_size` first.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_report* report);
+CAIRN_API cairn_status cairn_filter_last_update(const cairn_filter *filter, cairn_update_report *report);
 
 /** Pose of the body in the map, and the covariance of its error [dp; dtheta] (6x6 row-major); each may be NULL.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]);
+CAIRN_API cairn_status cairn_filter_pose(const cairn_filter *filter, cairn_pose *pose, double covariance[36]);
 
 /** Joint covariance of the pose's error [dp; dtheta] and the positions of chosen landmarks, in this order, row-major,
  *  with 6 + 3 count rows and columns. `capacity` and `*needed` count doubles; NULL with capacity 0 asks for the size.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND,
  *  CAIRN_ERROR_BUFFER. Complexity: O(count^2). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_joint_covariance(const cairn_filter* filter, const uint64_t* ids, size_t count,
-                                                     double* matrix, size_t capacity, size_t* needed);
+CAIRN_API cairn_status cairn_filter_joint_covariance(const cairn_filter *filter, const uint64_t *ids, size_t count,
+                                                     double *matrix, size_t capacity, size_t *needed);
 
 /** The landmarks of the open submap, in its frame; with a single map the same as \ref cairn_filter_map. The filter owns
  *  this map; it lives as long as the filter and follows it. Fails only for NULL, and then returns NULL.
  *  Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
-CAIRN_API const cairn_map* cairn_filter_local_map(const cairn_filter* filter);
+CAIRN_API const cairn_map *cairn_filter_local_map(const cairn_filter *filter);
 
 /** The filter's map. With submaps it holds the landmarks of the closed submaps; the landmarks of the open submap join
  *  it when this submap is closed. The filter owns this map; it lives as long as the filter and follows it. Fails only
  *  for NULL, and then returns NULL.
  *  Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
-CAIRN_API const cairn_map* cairn_filter_map(const cairn_filter* filter);
+CAIRN_API const cairn_map *cairn_filter_map(const cairn_filter *filter);
 
 /** Normalised estimation error squared (NEES) of the pose against the true pose, in the error coordinates of the
  *  filter. A consistent filter has 6 on average, for a planar vehicle 3. Threads: as any const query of the handle.
  *  Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL (the covariance of the pose is singular, as at a known start).
  *  Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_pose_nees(const cairn_filter* filter, const cairn_pose* truth, double* nees);
+CAIRN_API cairn_status cairn_filter_pose_nees(const cairn_filter *filter, const cairn_pose *truth, double *nees);
 
 /** Checks the whole covariance (with submaps, that of the open submap): `min_pivot` gets the smallest pivot of its
  *  Cholesky factor after scaling to unit diagonal. It is 0 or less if the covariance is not positive definite. States
  *  that are known exactly (zero variance) are left out. Threads: one a handle (the call uses the filter's workspace).
  *  Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(n^3). \since 0.1.0 */
-CAIRN_API cairn_status cairn_filter_audit(cairn_filter* filter, double* min_pivot);
+CAIRN_API cairn_status cairn_filter_audit(cairn_filter *filter, double *min_pivot);
 
 #ifdef __cplusplus
 }

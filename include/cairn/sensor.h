@@ -159,6 +159,15 @@ CAIRN_API cairn_status cairn_custom_init(cairn_custom *custom, size_t struct_siz
 CAIRN_API cairn_status cairn_custom_check(const cairn_custom *custom, const cairn_pose *pose, const double landmark[3],
                                           double *worst);
 
+/** Loss of a residual at the distance d, in standard deviations (docs/update.md, "Robust losses"). */
+enum {
+  CAIRN_LOSS_NONE = 0,  /**< d^2 / 2: least squares; the default */
+  CAIRN_LOSS_HUBER = 1, /**< d^2 / 2 up to the width k, k d - k^2 / 2 beyond: the influence of an observation is
+                             bounded */
+  CAIRN_LOSS_CAUCHY = 2 /**< c^2 / 2 log(1 + d^2 / c^2): the influence falls with the distance, and gross outliers have
+                             nearly none */
+};
+
 /** One observation of one landmark by one sensor. Layout frozen. */
 typedef struct cairn_observation {
   uint64_t id;          /**< the caller's id of the landmark; not CAIRN_ID_NONE; once in a frame. Any value if the

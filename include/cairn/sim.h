@@ -155,7 +155,7 @@ typedef struct cairn_world_options {
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_options_init(cairn_world_options* options, size_t struct_size);
+CAIRN_API cairn_status cairn_world_options_init(cairn_world_options *options, size_t struct_size);
 
 /** Worlds for measurements. In the rows, velocity and rate noise are those of a sample of 0.2 s. The rows use
  *  CAIRN_TERRAIN_WAVES, CAIRN_CONTACT_POINT and a radius of 101.98 m. */
@@ -170,17 +170,17 @@ enum {
 /** Sets all options except `struct_size` and `seed` to those of a preset. `submap_landmarks` (or NULL) gets the size of
  *  submaps that belongs to the preset: 40, or 20 for rows 3 and 4. Set `options->struct_size` first.
  *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_options_preset(cairn_world_options* options, int32_t preset,
-                                                  uint32_t* submap_landmarks);
+CAIRN_API cairn_status cairn_world_options_preset(cairn_world_options *options, int32_t preset,
+                                                  uint32_t *submap_landmarks);
 
 /** Creates a world before its first step. The caller destroys it with \ref cairn_world_destroy. Options of an older or
  *  a newer header are used as far as both sides know them. On an error `*world` is not written.
  *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY, CAIRN_ERROR_NUMERICAL (the ground is too rough for
  *  four wheels). Complexity: O(n log n) for n landmarks; memory: 40 bytes for each landmark. \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_create(const cairn_world_options* options, cairn_world** world);
+CAIRN_API cairn_status cairn_world_create(const cairn_world_options *options, cairn_world **world);
 
 /** Destroys a world. NULL is allowed. Threads: one a handle. \since 0.1.0 */
-CAIRN_API void cairn_world_destroy(cairn_world* world);
+CAIRN_API void cairn_world_destroy(cairn_world *world);
 
 /** A motion sample: measured and true motion of the rover during `dt` seconds. Layout frozen. */
 typedef struct cairn_world_motion {
@@ -207,10 +207,10 @@ typedef struct cairn_world_step {
   double rate_sigma[3];                  /**< noise of the `rate` of each motion sample */
   double pan;                            /**< pan angle of the head, from its encoder, rad */
   double stick;                          /**< stick angle of the head, from its encoder, rad */
-  const cairn_world_motion* motions;     /**< `motion_count` motion samples, in order. The world owns them; they are
+  const cairn_world_motion *motions;     /**< `motion_count` motion samples, in order. The world owns them; they are
                                               valid until the next call with this world */
   size_t motion_count;                   /**< 0 at step 0 */
-  const cairn_observation* observations; /**< `observation_count` observations, by ascending id; z as
+  const cairn_observation *observations; /**< `observation_count` observations, by ascending id; z as
                                               \ref cairn_stereo_head defines it, covariance zero. The world owns
                                               them; they are valid until the next call with this world */
   size_t observation_count;              /**< number of observations */
@@ -220,62 +220,62 @@ typedef struct cairn_world_step {
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (there are no more steps),
  *  CAIRN_ERROR_NUMERICAL (the ground is too rough for four wheels).
  *  Complexity: O(motions + landmarks in range). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_next(cairn_world* world, cairn_world_step* step);
+CAIRN_API cairn_status cairn_world_next(cairn_world *world, cairn_world_step *step);
 
 /** Goes back to before the first step. The same drive follows, bit for bit. Threads: one a handle. Errors:
  *  CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_rewind(cairn_world* world);
+CAIRN_API cairn_status cairn_world_rewind(cairn_world *world);
 
 /** Number of steps, including the start. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT.
  *  Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_steps(const cairn_world* world, size_t* steps);
+CAIRN_API cairn_status cairn_world_steps(const cairn_world *world, size_t *steps);
 
 /** Upper bound of the number of observations in a frame, for \ref cairn_filter_options. Threads: as any const query
  *  of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(n). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_most_observations(const cairn_world* world, size_t* count);
+CAIRN_API cairn_status cairn_world_most_observations(const cairn_world *world, size_t *count);
 
 /** The stereo head of the world, to be added to a filter: mount, noise, encoder mode. Set `head->struct_size` first.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_head(const cairn_world* world, cairn_stereo_head* head);
+CAIRN_API cairn_status cairn_world_head(const cairn_world *world, cairn_stereo_head *head);
 
 /** The wheels of the rover, for \ref cairn_filter_set_wheels, with the noise of the wheel rates of one motion sample.
  *  Set `wheels->struct_size` first. The noise of rates that wheels do not measure is that of \ref cairn_wheels_init.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_wheels(const cairn_world* world, cairn_wheels* wheels);
+CAIRN_API cairn_status cairn_world_wheels(const cairn_world *world, cairn_wheels *wheels);
 
 /** True pose of the body in the map at `time` (s, 0 to the end of the drive). The origin of the body lies on the
  *  ground in the middle between the wheels. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT.
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_pose(const cairn_world* world, double time, cairn_pose* pose);
+CAIRN_API cairn_status cairn_world_pose(const cairn_world *world, double time, cairn_pose *pose);
 
 /** Points at which the wheels touch the ground at `time`: front left, front right, rear left, rear right, x y z each,
  *  in the map, m. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE
  *  (CAIRN_CONTACT_POINT).
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_contacts(const cairn_world* world, double time, double points[12]);
+CAIRN_API cairn_status cairn_world_contacts(const cairn_world *world, double time, double points[12]);
 
 /** Height of the ground at x, y (m), m. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT.
  *  Complexity: O(1).
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_height(const cairn_world* world, double x, double y, double* height);
+CAIRN_API cairn_status cairn_world_height(const cairn_world *world, double x, double y, double *height);
 
 /** The rectangle in the xy plane that contains the course and all landmarks, m. Threads: as any const query of the
  *  handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_extent(const cairn_world* world, double lower[2], double upper[2]);
+CAIRN_API cairn_status cairn_world_extent(const cairn_world *world, double lower[2], double upper[2]);
 
 /** True position (m) of the landmark `id`, 0 to the number of landmarks minus 1. Threads: as any const query of the
  *  handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_landmark(const cairn_world* world, uint64_t id, double position[3]);
+CAIRN_API cairn_status cairn_world_landmark(const cairn_world *world, uint64_t id, double position[3]);
 
 /** True positions of all landmarks, x y z each, m, by ascending id. `capacity` and `*needed` count landmarks; NULL with
  *  capacity 0 asks for their number. Threads: as any const query of the handle.
  *  Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. Complexity: O(n). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_landmarks(const cairn_world* world, double* positions, size_t capacity,
-                                             size_t* needed);
+CAIRN_API cairn_status cairn_world_landmarks(const cairn_world *world, double *positions, size_t capacity,
+                                             size_t *needed);
 
 /** One line about the last call of this library that failed in this thread, like \ref cairn_last_message for libcairn.
  *  Threads: any. \since 0.1.0 */
-CAIRN_API const char* cairn_sim_last_message(void);
+CAIRN_API const char *cairn_sim_last_message(void);
 
 #ifdef __cplusplus
 }

@@ -37,15 +37,15 @@ typedef struct cairn_calibration {
 } cairn_calibration;
 
 /** Fills in the defaults: no errors. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.2.0 */
-CAIRN_API cairn_status cairn_calibration_init(cairn_calibration* calibration, size_t struct_size);
+CAIRN_API cairn_status cairn_calibration_init(cairn_calibration *calibration, size_t struct_size);
 
 /** Makes systematic errors of a sensor states of the filter. Call it after the sensor was added, before the first
  * motion and the first observation, at most once for a sensor. All sensors together have at most max_sensor_errors of
  *  \ref cairn_filter_options. Association (with unknown ids) uses the estimates, but leaves their uncertainty out of
  * its gates. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND (sensor), CAIRN_ERROR_CAPACITY,
  *  CAIRN_ERROR_STATE (too late, or calibrated already), CAIRN_ERROR_MEMORY. \since 0.2.0 */
-CAIRN_API cairn_status cairn_filter_calibrate_sensor(cairn_filter* filter, int32_t sensor,
-                                                     const cairn_calibration* calibration);
+CAIRN_API cairn_status cairn_filter_calibrate_sensor(cairn_filter *filter, int32_t sensor,
+                                                     const cairn_calibration *calibration);
 
 /** The estimate of one component of a systematic error. */
 typedef struct cairn_systematic_error {
@@ -63,8 +63,8 @@ typedef struct cairn_systematic_error {
  *  the joint covariance of the `*needed` components, row-major. Capacity 0 asks for the number.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER.
  *  Complexity: O(1). \since 0.2.0 */
-CAIRN_API cairn_status cairn_filter_systematic_errors(const cairn_filter* filter, cairn_systematic_error* errors,
-                                                      double* covariance, size_t capacity, size_t* needed);
+CAIRN_API cairn_status cairn_filter_systematic_errors(const cairn_filter *filter, cairn_systematic_error *errors,
+                                                      double *covariance, size_t capacity, size_t *needed);
 
 #ifdef __cplusplus
 }

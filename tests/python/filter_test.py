@@ -161,6 +161,23 @@ class ResultsTest(unittest.TestCase):
                 one.submap(1)
             self.assertEqual(caught.exception.status, cairn.ERROR_NOT_FOUND)
 
+    def test_trajectory(self):
+        with cairn.Filter(submap_landmarks=50, trajectory_poses=2) as one:
+            sensor = one.add_cartesian()
+            for step in range(4):
+                self.assertEqual(one.trajectory_range(), (max(0, step - 2), step))
+                one.predict_increment(([1, 0, 0], [1, 0, 0, 0]), np.eye(6) * 1e-6)
+                one.update(sensor, [1], [[5 - step, 0, 0]])
+            one.close_submap()
+            np.testing.assert_allclose(one.trajectory()["position"], [[3, 0, 0], [4, 0, 0]], atol=1e-9)
+            np.testing.assert_allclose(one.trajectory(3)["quaternion"], [[1, 0, 0, 0]], atol=1e-9)
+            with self.assertRaises(cairn.CairnError) as caught:
+                one.trajectory(1)
+            self.assertEqual(caught.exception.status, cairn.ERROR_CAPACITY)
+            self.assertEqual(one.keep_pose(), 4)
+        with cairn.Filter() as none, self.assertRaises(cairn.CairnError) as caught:
+            none.trajectory()
+        self.assertEqual(caught.exception.status, cairn.ERROR_STATE)
     def test_systematic_errors(self):
         with cairn.Filter(max_landmarks=20, velocity_bias_sigma=[0, 0.2, 0.1], max_sensor_errors=2) as one:
             sensor = one.add_cartesian(sigma=[0.1, 0.1, 0.2])

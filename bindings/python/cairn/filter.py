@@ -259,10 +259,49 @@ class Filter(Handle):
         self._call(lib.cairn_filter_audit, pivot)
         return pivot[0]
 
+    def health(self):
+        """How far to trust the filter after the last update: cairn_health as a dictionary. `verdict` is cairn.VERDICT_GOOD,
+        VERDICT_DOUBTFUL or VERDICT_LOST, `reasons` has the bits cairn.DOUBT_...; `words` is the same in words: the
+        verdict, then the reasons."""
+        with self._use() as handle:
+            health = _structs.report("cairn_health", lambda report: lib.cairn_filter_health(handle, report))
+        reasons = [lib.cairn_doubt_text(1 << bit) for bit in range(32) if health["reasons"] >> bit & 1]
+        health["words"] = [ffi.string(text).decode() for text in [lib.cairn_verdict_text(health["verdict"]), *reasons]]
+        return health
+
+    def sensor_health(self, sensor):
+        """What the observations of one sensor show: cairn_sensor_health as a dictionary. `scale` is the factor of the
+        stated standard deviations that explains the observations, `scale_sigma` its standard deviation."""
+        with self._use() as handle:
+            return _structs.report("cairn_sensor_health",
+                                   lambda report: lib.cairn_filter_sensor_health(handle, sensor, report))
+
     def set_log(self, log):
         """From now on log(line) receives the filter's log lines; None switches the log off. `log` must not call this
         filter."""
         self._call(lib.cairn_filter_set_log, self._callbacks.log(log), ffi.NULL)
+
+    # Trajectory: poses that a filter with trajectory_poses > 0 keeps, numbered from 0. Every update keeps one.
+
+    def keep_pose(self):
+        """Keeps the pose of the body now, for a step in which nothing was observed. Returns the pose's number."""
+        number = ffi.new("uint64_t *")
+        self._call(lib.cairn_filter_keep_pose, number)
+        return number[0]
+
+    def trajectory_range(self):
+        """Numbers of the poses that are kept: the first one, and one behind the last one."""
+        first, end = ffi.new("uint64_t *"), ffi.new("uint64_t *")
+        self._call(lib.cairn_filter_trajectory_range, first, end)
+        return first[0], end[0]
+
+    def trajectory(self, first=None):
+        """Poses of the body in the map as they are known now, from number `first` on; None means all that are kept.
+        Returns an array with the fields position (3, m) and quaternion (4, w x y z)."""
+        if first is None:
+            first = self.trajectory_range()[0]
+        with self._use() as handle:
+            return _structs.filled("cairn_pose", lambda *buffer: lib.cairn_filter_trajectory(handle, first, *buffer))
 
     # Submaps.
 

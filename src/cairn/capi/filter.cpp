@@ -108,6 +108,19 @@ cairn_status cairn_filter_point_head(cairn_filter* filter, int32_t sensor, doubl
   });
 }
 
+cairn_status cairn_filter_set_loss(cairn_filter* filter, int32_t sensor, int32_t loss, double width) {
+  return guard([&] {
+    with_filter(filter, [&](auto& f) {
+      if (loss == CAIRN_LOSS_NONE) return f.set_loss(sensor, RobustLoss());
+      if (loss != CAIRN_LOSS_HUBER && loss != CAIRN_LOSS_CAUCHY)
+        throw Error(ErrorCode::argument, "loss is %d, and no CAIRN_LOSS_ constant", static_cast<int>(loss));
+      if (!(width > 0.0 && width <= 1e6))
+        throw Error(ErrorCode::argument, "width is %g, and must be above 0, at most 1e6", width);
+      f.set_loss(sensor, RobustLoss(loss == CAIRN_LOSS_HUBER ? LossKind::huber : LossKind::cauchy, width));
+    });
+  });
+}
+
 cairn_status cairn_filter_set_view(cairn_filter* filter, int32_t sensor, const double lower[3], const double upper[3]) {
   return guard([&] {
     with_filter(filter, [&](auto& f) {

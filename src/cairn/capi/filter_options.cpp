@@ -72,6 +72,12 @@ JoinKind join_of(const cairn_filter_options& o) {
                                        : JoinKind::automatic;
 }
 
+LossKind join_loss_of(const cairn_filter_options& o) {
+  return o.join_loss == CAIRN_LOSS_HUBER    ? LossKind::huber
+         : o.join_loss == CAIRN_LOSS_CAUCHY ? LossKind::cauchy
+                                            : LossKind::none;
+}
+
 AssociationKind association_of(const cairn_filter_options& o) {
   return o.association == CAIRN_ASSOCIATION_NEAREST ? AssociationKind::nearest
          : o.association == CAIRN_ASSOCIATION_JOINT ? AssociationKind::joint
@@ -99,7 +105,9 @@ FilterOptions<Pose> options_of(const cairn_filter_options& o) {
   options.initial_covariance = read_pose_covariance<Pose>(o.initial_covariance, "options.initial_covariance");
   options.error = error_of(o);
   options.join = join_of(o);
+  options.join_loss = join_loss_of(o);
   options.association = association_of(o);
+  options.apply_noise = o.noise_learning == CAIRN_NOISE_APPLIED;
   options.by_likelihood =
       options.association == AssociationKind::nearest && o.association_distance == CAIRN_DISTANCE_LIKELIHOOD;
   // Numbers have the same name on both sides.

@@ -65,6 +65,9 @@ TeamOptions team_options(const cairn_team_options& o, const cairn_filter_options
   const auto* planar = std::get_if<FilterOptions<SE2>>(&filter_options);
   if (planar == nullptr)
     throw Error(ErrorCode::argument, "filter: its vehicle is spatial; a team's is CAIRN_VEHICLE_PLANAR");
+  if (planar->trajectory_poses != 0)
+    throw Error(ErrorCode::argument, "filter.trajectory_poses must be 0 for a team, and is %td",
+                planar->trajectory_poses);
   options.filter = *planar;
   if (SystematicErrors(planar->systematic, false).any() || planar->max_sensor_errors > 0)
     throw Error(

@@ -35,6 +35,12 @@ class Batch {
     return add(noise_, noise_count_, noise_pool_, noise_used_, row, rows, row, rows);
   }
 
+  void scale_noise(Index row, double factor) {  // of the block that begins at this row
+    for (Index b = 0; b < noise_count_; ++b)
+      if (noise_[b].row == row)
+        for (Index i = 0; i < noise_[b].rows * noise_[b].rows; ++i) noise_[b].value[i] *= factor;
+  }
+
   // Keeps only the given blocks of `rows` rows, in rising order, and closes the gaps. No Jacobian block of the batch
   // may span two of them.
   void keep(const Index* blocks, Index count, Index rows) {

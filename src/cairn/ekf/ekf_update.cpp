@@ -185,6 +185,12 @@ bool EkfUpdate<Pose>::try_factor() {
 }
 
 template <class Pose>
+void EkfUpdate<Pose>::whiten(double* x) const {
+  require(stage_ == Stage::factored, "whiten");
+  solve_lower(workspace_.S, batch().rows(), batch().rows(), x);
+}
+
+template <class Pose>
 void EkfUpdate<Pose>::solve() {
   require(stage_ == Stage::factored, "solve");
   const Index m = batch().rows();

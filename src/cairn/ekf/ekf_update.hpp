@@ -18,6 +18,8 @@ struct Iterations {
   int most = 3;
   double tolerance = 0.1;  // of EkfUpdate::misfit()
   bool relative = true;    // all rows depend on the pose only through points R^T (l - p)
+  // Noise that depends on the iterate (robust losses): points to whether the last linearisation left it as it was.
+  const bool* settled = nullptr;
 };
 
 template <class Pose>
@@ -87,6 +89,11 @@ class EkfUpdate {
     if (!try_factor()) throw_not_definite();
   }
   double nis() const { return nis_; }  // r^T S^-1 r of the last factor()
+  // S from its entry (row, row) on; leading dimension batch().rows(). Before factor().
+  const double* covariance(Index row) const { return workspace_.S + row * (batch().rows() + 1); }
+  // After factor(): x <- L^-1 x, and L^-1 r.
+  void whiten(double* x) const;
+  const double* innovation() const { return workspace_.innovation; }
 
   // --- iterate --- Gauss-Newton on the factored batch (iterated EKF, Bell and Cathey 1993); returns how often the
   // batch was linearised. It ends when the linear model predicts the residual. Rows that are not relative have
@@ -101,7 +108,8 @@ class EkfUpdate {
       step();
       // If a landmark loses its image on the way, the last linearisation is used.
       if (!fill(workspace_.residual)) break;
-      if ((end.relative || i > 1) && !(misfit(workspace_.residual) > end.tolerance)) break;
+      const bool settled = end.settled == nullptr || *end.settled;
+      if (settled && (end.relative || i > 1) && !(misfit(workspace_.residual) > end.tolerance)) break;
       linearise(fill);
       factor();
     }

@@ -93,6 +93,15 @@ bool PendingMotion<Pose>::add(const Pose& before, const Pose& next, const Increm
 }
 
 template <class Pose>
+bool PendingMotion<Pose>::widen(const Square& covariance) {
+  const Square N = N_ + covariance;
+  if (!N.allFinite()) return false;
+  N_ = 0.5 * (N + N.transpose());
+  any_ = true;
+  return true;
+}
+
+template <class Pose>
 double PendingMotion<Pose>::plain(const LowerTriangle& P, Index i, Index column) const {
   if (column >= kDof) return P.symmetric(kDof + i, column);
   double sum = 0.0;

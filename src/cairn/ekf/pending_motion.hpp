@@ -47,6 +47,10 @@ class PendingMotion {
   bool add(const Pose& before, const Pose& next, const Increment<Pose>& increment,
            const MotionCoupling<Pose>* coupling = nullptr);
 
+  // Adds an independent error of the pose, with this covariance of the state's own error. Returns false, with nothing
+  // changed, if the result is not finite.
+  bool widen(const Square& covariance);
+
   bool any() const { return any_; }
   // The noise reaches the landmarks.
   bool reaches_points() const { return any_ && model_.invariant(); }

@@ -83,6 +83,11 @@ bool State<Pose>::propagate(const Increment<Pose>& increment, const MotionCoupli
 }
 
 template <class Pose>
+bool State<Pose>::widen(const Square& ordinary_covariance) {
+  return motion_.widen(model_.own(ordinary_covariance, pose_.translation()));
+}
+
+template <class Pose>
 void State<Pose>::write_covariance(Index rank, const double* columns) {
   const Index n = states();
   for (Index c = 0; c < layout_.moving(); ++c)

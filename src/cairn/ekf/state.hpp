@@ -63,6 +63,10 @@ class State {
 
   // --- propagate --- O(1). Returns false, with nothing changed, if a result is not finite.
   bool propagate(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
+  // Adds an independent error of the pose, with this covariance of the ordinary error, to the motion that is held back.
+  bool widen(const Square& ordinary_covariance);
+  typename PendingMotion<Pose>::Snapshot pending() const { return motion_.snapshot(); }
+  void restore_pending(const typename PendingMotion<Pose>::Snapshot& pending) { motion_.restore(pending); }
 
   // --- update --- of the pose, of a mount if `mount_noise` is given, and of the chosen points; O(states window).
   struct Window {

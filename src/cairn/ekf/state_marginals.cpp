@@ -276,6 +276,9 @@ double State<Pose>::smallest_pivot() {
   return smallest;
 }
 
+template State<SE2>::PointByMotion State<SE2>::with_motion_states(Index) const;
+template State<SE2>::PendingTurn State<SE2>::pending_turn() const;
+template State<SE2>::PointSquare State<SE2>::relative_change(Index, const PointByPose&) const;
 template void State<SE2>::gather(const Index*, Index, double*, Index) const;
 template void State<SE2>::gather_ordinary(const Index*, Index, double*, Index) const;
 template void State<SE2>::gather_systematic(const Index*, Index, double*, Index, bool) const;
@@ -287,6 +290,9 @@ template double State<SE2>::pose_nees(const SE2&) const;
 template double State<SE2>::nees(ErrorKind, const Point&, const SE2&, const SE2&, const Square&);
 template double State<SE2>::smallest_pivot();
 
+template State<SE3>::PointByMotion State<SE3>::with_motion_states(Index) const;
+template State<SE3>::PendingTurn State<SE3>::pending_turn() const;
+template State<SE3>::PointSquare State<SE3>::relative_change(Index, const PointByPose&) const;
 template void State<SE3>::gather(const Index*, Index, double*, Index) const;
 template void State<SE3>::gather_ordinary(const Index*, Index, double*, Index) const;
 template void State<SE3>::gather_systematic(const Index*, Index, double*, Index, bool) const;

@@ -52,8 +52,8 @@ template <class Pose>
 class MapTransaction {
  public:
   virtual ~MapTransaction() = default;
-  // Adds a submap that began at the map's base; its end is the new base. At most once.
-  virtual void join(const Submap<Pose>& submap) = 0;
+  // Adds a submap that began at the map's base; its end is the new base. At most once. Returns the report so far.
+  virtual JoinReport join(const Submap<Pose>& submap) = 0;
   // Applies an absolute fix to the base, unless its squared distance exceeds `threshold`. At most once, after join().
   virtual FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) = 0;
   // Makes the change final; the last call. Returns the report of the join, which is complete only now.

@@ -14,9 +14,12 @@ Filter<Pose>::Filter(Arena& arena, const FilterOptions<Pose>& options)
       thresholds_(arena, {options.gate_probability, options.batch_gate_probability, options.new_probability},
                   kDim * options.max_observations + kDof),
       report_(arena, options_.max_observations),
-      submaps_(options_, local_, log_),
-      frames_(arena, options_, local_, thresholds_, report_, log_),
-      batches_(arena, options_, local_, submaps_, thresholds_, report_, log_) {
+      trajectory_(arena, options_.trajectory_poses),
+      submaps_(options_, local_, trajectory_, log_),
+      trust_(arena, options_, local_, thresholds_, log_),
+      health_(arena, {options.max_sensors, options.max_observations, options.gate_probability, options.apply_noise}),
+      frames_(arena, options_, local_, thresholds_, trust_, report_, health_, log_),
+      batches_(arena, options_, local_, submaps_, thresholds_, trust_, report_, health_, log_) {
   if (!arena.measuring()) begin();
 }
 
@@ -117,9 +120,12 @@ void Filter<Pose>::move(const Increment<Pose>& increment, const MotionCoupling<P
   if (!(increment.covariance.diagonal().template tail<kTurn>().maxCoeff() <= kTurnSquared))
     throw Error(ErrorCode::numerical,
                 "prediction: the attitude's noise of this step exceeds a whole turn; nothing was changed");
-  if (!local_.state().propagate(increment, coupling))
+  Increment<Pose> scaled = increment;
+  scaled.covariance *= health_.applied_to_motion();
+  if (!local_.state().propagate(scaled, coupling))
     throw Error(ErrorCode::numerical,
                 "prediction: the pose or its covariance would not be finite; nothing was changed");
+  health_.moved(increment);
   started_ = true;
   submaps_.drive(increment.T_before_after.translation().norm());
 }
@@ -130,13 +136,46 @@ void Filter<Pose>::update(int sensor, const Observation* observations, Index lan
   log_.watch([&] {
     const Sensor<Pose>& own = sensors_.at(sensor);
     const SystematicErrors& errors = local_.systematic();
-    if (!errors.calibrates(sensor))
-      return frames_.run({own, sensors_.view(sensor), observations, landmarks, companions});
+    Frame<Pose> frame{own,       sensors_.view(sensor), sensors_.loss(sensor), observations, landmarks,
+                      companions, sensor,               health_.applied_to_sensor(sensor)};
+    if (!errors.calibrates(sensor)) return frames_.run(frame);
     CalibratedSensor<Pose> calibrated(
         own, errors.calibration<Pose>(sensor, [&](Index i) { return local_.state().systematic(i); }));
-    frames_.run({calibrated, sensors_.view(sensor), observations, landmarks, companions, &calibrated, sensor});
+    frames_.run(frame.with(calibrated));
   });
+  submaps_.keep_pose();  // of the frame, before its submap is closed
   submaps_.close_if_full();
+  note_closing();
+}
+
+template <class Pose>
+void Filter<Pose>::update_fix(const AbsoluteFix<Pose>& fix) {
+  started_ = true;
+  log_.watch([&] { batches_.fix(fix); });
+  submaps_.keep_pose();
+  note_closing();
+}
+
+template <class Pose>
+void Filter<Pose>::close_submap() {
+  submaps_.close();
+  note_closing();
+}
+
+// Tells the health monitor of the last closing, if there is a new one.
+template <class Pose>
+void Filter<Pose>::note_closing() {
+  const ClosingReport& closing = submaps_.closing();
+  if (closing.submaps == closings_) return;
+  closings_ = closing.submaps;
+  health_.closed(closing.join.refused, closing.join.refused + closing.join.fused);
+}
+
+template <class Pose>
+void Filter<Pose>::look_from(std::uint64_t id) {
+  if (id == local_.table().vehicle()) return;
+  local_.look_from(id);
+  health_.interrupt();
 }
 
 template <class Pose>

@@ -37,9 +37,11 @@ class Filter {
     return sensors_.add(typename SensorRack<Pose>::Any(sensor));
   }
   int sensor_rows(int sensor) { return sensors_.at(sensor).rows(); }
+  void check_sensor(int sensor) const { sensors_.check(sensor); }
   void point_head(int sensor, double pan, double stick) { sensors_.point_head(sensor, pan, stick); }
   // Sets the region in which the sensor detects every landmark: bounds on the predicted observation.
   void set_view(int sensor, const Vector3& lower, const Vector3& upper) { sensors_.set_view(sensor, {lower, upper}); }
+  void set_loss(int sensor, const RobustLoss& loss) { sensors_.set_loss(sensor, loss); }
   void set_sighting(int sensor, const MutualSighting& sighting) { sensors_.set_sighting(sensor, sighting); }
 
   // Systematic errors of a sensor become states: a standard deviation (0: none) and a random walk for each number of
@@ -60,11 +62,9 @@ class Filter {
   void update_linear(const LinearRows& rows) {
     started_ = true;
     log_.watch([&] { batches_.rows(rows); });
+    submaps_.keep_pose();
   }
-  void update_fix(const AbsoluteFix<Pose>& fix) {
-    started_ = true;
-    log_.watch([&] { batches_.fix(fix); });
-  }
+  void update_fix(const AbsoluteFix<Pose>& fix);
   void update_position(const Point& position, const PointSquare& covariance, const Point& lever_arm) {
     update_fix(AbsoluteFix<Pose>::position(position, covariance, lever_arm));
   }
@@ -76,6 +76,7 @@ class Filter {
   double* workspace() { return local_.state().scratch(); }
   const Match* matches() const { return report_.matches(); }
   const UpdateReport& report() const { return report_.last(); }
+  const HealthMonitor<Pose>& health() const { return health_; }
 
   // --- landmarks ---
   void remove_landmark(std::uint64_t id) { submaps_.remove_landmark(id); }
@@ -96,14 +97,19 @@ class Filter {
   // The companion's error is J_pose times the error of the active vehicle, plus noise.
   void add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise);
   void remove_vehicle(std::uint64_t id) { local_.remove_vehicle(id); }  // not the active one
-  void look_from(std::uint64_t id) { local_.look_from(id); }
+  void look_from(std::uint64_t id);
   bool has_vehicle(std::uint64_t id) const { return local_.has_vehicle(id); }
   Pose vehicle_pose(std::uint64_t id) const;
   Square vehicle_covariance(std::uint64_t id) const;
 
   // --- submaps --- throws with nothing changed
-  void close_submap() { submaps_.close(); }
+  void close_submap();
   const ClosingReport& closing() const { return submaps_.closing(); }
+
+  // --- trajectory --- every update adds its pose
+  void keep_pose() { submaps_.keep_pose(); }  // adds the present pose
+  const Trajectory<Pose>& trajectory() const { return trajectory_; }
+  Pose trajectory_pose(std::uint64_t number) const { return trajectory_.pose(number, submaps_.map()); }
 
   // --- queries ---
   Pose pose() const { return submaps_.pose(); }
@@ -126,6 +132,7 @@ class Filter {
  private:
   void begin();
   void move(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
+  void note_closing();
 
   FilterOptions<Pose> options_;
   Log log_;
@@ -135,7 +142,11 @@ class Filter {
   LocalMap<Pose> local_;
   Thresholds thresholds_;
   FrameReport report_;
+  Trajectory<Pose> trajectory_;
   SubmapKeeper<Pose> submaps_;
+  MotionTrust<Pose> trust_;
+  HealthMonitor<Pose> health_;
+  std::size_t closings_ = 0;  // that the health monitor knows of
   FramePipeline<Pose> frames_;
   WholeBatchUpdate<Pose> batches_;
   bool started_ = false;  // something was estimated: no systematic error can be added any more

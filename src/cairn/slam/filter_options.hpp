@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "ekf/error_model.hpp"
+#include "linear/robust_loss.hpp"
 #include "motion/motion.hpp"
 
 namespace cairn {
@@ -23,6 +24,7 @@ struct CapacityOptions {
   Index max_landmarks = FilterDefaults::max_landmarks;
   Index max_observations = FilterDefaults::max_observations;
   Index max_sensors = FilterDefaults::max_sensors;
+  Index trajectory_poses = FilterDefaults::trajectory_poses;
   Index max_sensor_errors = FilterDefaults::max_sensor_errors;  // numbers of the calibrations of all sensors
   Index max_companions = 0;                                     // poses of other vehicles in the state of a single map
 };
@@ -44,6 +46,8 @@ struct SubmapOptions {
   double submap_extent = FilterDefaults::submap_extent;
   double submap_sigma = FilterDefaults::submap_sigma;
   JoinKind join = JoinKind::automatic;
+  LossKind join_loss = LossKind::none;
+  double join_loss_width = FilterDefaults::join_loss_width;
   double step_tolerance = 1e-2;  // of the sparse joining, see MapOptions
 };
 
@@ -70,8 +74,18 @@ struct SystematicOptions {
   double motion_walk[MotionErrors::kCount] = {};
 };
 
+// What becomes of the noise that is learned (docs/trust.md).
+struct NoiseOptions {
+  bool apply_noise = false;  // scales the stated noise; otherwise it is only reported
+};
+
 template <class Pose>
-struct FilterOptions : CapacityOptions, UpdateOptions, SubmapOptions, AssociationOptions, LandmarkOptions {
+struct FilterOptions : CapacityOptions,
+                       UpdateOptions,
+                       SubmapOptions,
+                       AssociationOptions,
+                       LandmarkOptions,
+                       NoiseOptions {
   using PoseType = Pose;
   SystematicOptions systematic;
   ErrorKind error = ErrorKind::invariant;

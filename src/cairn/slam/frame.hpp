@@ -12,16 +12,22 @@ template <class Pose>
 struct Frame {
   const Sensor<Pose>& sensor;
   const View* view;  // of the sensor; null: none was set
+  const RobustLoss& loss;
   const Observation* observations;
   Index landmarks, companions;  // observations of landmarks, then observations of companions
-  // The same sensor, if its systematic errors are states, and its number: an update sets the errors of its iterate.
+  int number = 0;               // of the sensor
+  double noise_factor = 1.0;    // of the stated covariances, as learned
+  // The same sensor, if its systematic errors are states: an update sets the errors of its iterate.
   CalibratedSensor<Pose>* calibrated = nullptr;
-  int number = 0;
 
   Index count() const { return landmarks + companions; }
+  Frame with(CalibratedSensor<Pose>& other) const {  // the same frame of the calibrated sensor
+    return {other, view, loss, observations, landmarks, companions, number, noise_factor, &other};
+  }
   Vector3 z(Index observation) const { return Vector3(observations[observation].z); }
   // The noise of one observation's values. The noise of the mount comes on top.
-  Matrix3 noise(Index observation) const {
+  Matrix3 noise(Index observation) const { return noise_factor * stated_noise(observation); }
+  Matrix3 stated_noise(Index observation) const {
     const Observation& given = observations[observation];
     if (!given.has_covariance()) return sensor.noise();
     Matrix3 noise = Matrix3::Zero();

@@ -8,26 +8,47 @@ namespace cairn {
 
 template <class Pose>
 FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
-                                   Thresholds& thresholds, FrameReport& report, const Log& log)
+                                   Thresholds& thresholds, MotionTrust<Pose>& trust, FrameReport& report,
+                                   HealthMonitor<Pose>& health, const Log& log)
     : options_(options),
       map_(map),
+      trust_(trust),
       report_(report),
       sorted_(arena, options.max_observations),
       sorter_(arena, options, map, report),
       associator_(arena, options, map, thresholds, report, log),
-      updater_(arena, options, map, thresholds, report, log),
+      updater_(arena, options, map, thresholds, trust, report, log),
       placer_(options, map, report),
+      witness_(arena, options, map, report, health),
       review_(options, map, report) {}
 
 template <class Pose>
 void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
+  PendingRestore<Pose> restore(map_.state());
+  std::optional<EkfUpdate<Pose>> update;
+  typename Pose::Square widening = Pose::Square::Zero();
+  trust_.begin(map_.starts());
+  attempt(frame, update, false);
+  if (updater_.contradicted(*update, frame, sorted_, widening)) {
+    widen(map_.state(), widening);
+    attempt(frame, update, true);
+    report_.widened<Pose>(widening);
+  }
+  updater_.finish(*update, frame, sorted_);
+  restore.release();
+  placer_.place(*update, frame, sorted_);
+  report_.finish();
+  witness_.after(frame);
+  review_.run(frame);
+}
+
+// Everything before the first change of the state.
+template <class Pose>
+void FramePipeline<Pose>::attempt(const Frame<Pose>& frame, std::optional<EkfUpdate<Pose>>& update, bool again) {
   report_.start(frame.count());
   sort(frame);
-  EkfUpdate<Pose> update = updater_.begin(frame, sorted_);
-  updater_.run(update, frame, sorted_);
-  placer_.place(update, frame, sorted_);
-  report_.finish();
-  review_.run(frame);
+  if (!again) witness_.before(frame, sorted_);
+  updater_.begin(update, frame, sorted_);
 }
 
 template <class Pose>

@@ -2,10 +2,13 @@
 // The way of one frame through a filter: sort, update, place, review.
 #pragma once
 
+#include <optional>
+
 #include "slam/frame_associator.hpp"
 #include "slam/frame_placer.hpp"
 #include "slam/frame_sorter.hpp"
 #include "slam/frame_update.hpp"
+#include "slam/frame_witness.hpp"
 #include "slam/landmark_review.hpp"
 
 namespace cairn {
@@ -14,24 +17,27 @@ template <class Pose>
 class FramePipeline {
  public:
   FramePipeline(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map, Thresholds& thresholds,
-                FrameReport& report, const Log& log);
+                MotionTrust<Pose>& trust, FrameReport& report, HealthMonitor<Pose>& health, const Log& log);
 
   // Throws with nothing changed.
   void run(const Frame<Pose>& frame);
   void reserve_id(std::uint64_t id) { placer_.reserve_id(id); }
 
  private:
+  void attempt(const Frame<Pose>& frame, std::optional<EkfUpdate<Pose>>& update, bool again);
   void sort(const Frame<Pose>& frame);
   void check_room() const;
 
   const FilterOptions<Pose>& options_;
-  const LocalMap<Pose>& map_;
+  LocalMap<Pose>& map_;
+  MotionTrust<Pose>& trust_;
   FrameReport& report_;
   SortedFrame<Pose> sorted_;
   FrameSorter<Pose> sorter_;
   FrameAssociator<Pose> associator_;
   FrameUpdate<Pose> updater_;
   FramePlacer<Pose> placer_;
+  FrameWitness<Pose> witness_;
   LandmarkReview<Pose> review_;
 };
 

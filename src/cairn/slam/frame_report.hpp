@@ -3,6 +3,9 @@
 // readable until the next update has succeeded.
 #pragma once
 
+#include <Eigen/Core>
+#include <cmath>
+
 #include "core/arena.hpp"
 #include "slam/observation.hpp"
 
@@ -30,6 +33,8 @@ struct UpdateReport {
   double association_seconds = 0.0;
   Index deferred = 0;  // landmarks that do not count yet after the update
   Index removed = 0;   // removed landmarks: missed, or deferred for too long
+  double widened_position = 0.0, widened_attitude = 0.0;  // standard deviations by which the motion was widened
+  bool widened() const { return widened_position > 0.0 || widened_attitude > 0.0; }
 };
 
 class FrameReport {
@@ -40,6 +45,12 @@ class FrameReport {
   void start(Index count);  // every observation is rejected without a reason
   Match& match(Index observation) { return next_matches_[observation]; }
   UpdateReport& update() { return next_update_; }
+  template <class Pose>
+  void widened(const typename Pose::Square& covariance) {
+    next_update_.widened_position = std::sqrt(covariance.template topLeftCorner<Pose::kDim, Pose::kDim>().trace());
+    next_update_.widened_attitude =
+        std::sqrt(covariance.template bottomRightCorner<Pose::kTurn, Pose::kTurn>().trace());
+  }
   void finish();  // counts the matches; the update at hand becomes the last one
 
   // --- of the last update ---

@@ -2,40 +2,61 @@
 // One update by one frame.
 #include "slam/frame_update.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "ekf/update_gates.hpp"
 
 namespace cairn {
 
 template <class Pose>
 FrameUpdate<Pose>::FrameUpdate(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
-                               Thresholds& thresholds, FrameReport& report, const Log& log)
+                               Thresholds& thresholds, MotionTrust<Pose>& trust, FrameReport& report, const Log& log)
     : options_(options),
       map_(map),
       thresholds_(thresholds),
+      trust_(trust),
       report_(report),
       log_(log),
-      window_(arena.take<Index>(static_cast<std::size_t>(options.max_observations))) {}
+      window_(arena.take<Index>(static_cast<std::size_t>(options.max_observations))),
+      by_pose_(arena.take<double>(static_cast<std::size_t>(Pose::kDof * kMostRows * options.max_observations))),
+      noise_factors_(arena.take<double>(static_cast<std::size_t>(options.max_observations))) {}
 
 template <class Pose>
-EkfUpdate<Pose> FrameUpdate<Pose>::begin(const Frame<Pose>& frame, const SortedFrame<Pose>& sorted) {
+void FrameUpdate<Pose>::begin(std::optional<EkfUpdate<Pose>>& update, const Frame<Pose>& frame,
+                              SortedFrame<Pose>& sorted) {
   for (Index a = 0; a < sorted.candidates(); ++a) window_[a] = sorted.candidate(a).slot;
-  const MountSquare<Pose> mount = frame.sensor.mount_noise();
+  mount_ = frame.sensor.mount_noise();
   const bool shared = frame.sensor.mount_noise_mode() == MountNoise::per_frame;
-  return map_.state().begin({window_, sorted.candidates(), shared ? &mount : nullptr});
+  update.emplace(map_.state(), typename State<Pose>::Window{window_, sorted.candidates(), shared ? &mount_ : nullptr});
+  std::fill_n(noise_factors_, sorted.candidates(), 1.0);
+  update->linearise([&](double* residual_only) { return fill(*update, frame, sorted, residual_only); });
+  hear(*update, frame, sorted);
+  gate(*update, frame, sorted);
+}
+
+// Noise of one observation: that of its values, and that of a mount which moves between observations.
+template <class Pose>
+Matrix3 FrameUpdate<Pose>::noise(const Frame<Pose>& frame, const Candidate<Pose>& candidate,
+                                 const Prediction<Pose>& prediction) const {
+  Matrix3 noise = options_.error_persistence * candidate.noise;
+  if (frame.sensor.mount_noise_mode() == MountNoise::per_observation)
+    noise += prediction.J_z_mount * frame.sensor.mount_noise() * prediction.J_z_mount.transpose();
+  return noise;
 }
 
 // Fills the batch at the iterate or, if `residual_only` is given, only the residual. Returns false if a landmark has no
 // image.
 template <class Pose>
 bool FrameUpdate<Pose>::fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted,
-                             double* residual_only) const {
+                             double* residual_only) {
   const Sensor<Pose>& sensor = frame.sensor;
   const Index rows = sensor.rows();
-  const MountNoise mode = sensor.mount_noise_mode();
   const SystematicErrors& errors = map_.systematic();
   if (frame.calibrated != nullptr)
     frame.calibrated->set(errors.calibration<Pose>(frame.number, [&](Index i) { return update.systematic(i); }));
   if (residual_only == nullptr) update.batch().clear();
+  if (residual_only == nullptr) settled_ = true;
   for (Index a = 0; a < sorted.candidates(); ++a) {
     const Candidate<Pose>& candidate = sorted.candidate(a);
     Prediction<Pose> moved;
@@ -53,16 +74,37 @@ bool FrameUpdate<Pose>::fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
       const auto by_errors = errors.columns(frame.number, frame.calibrated->by_calibration(update.pose(), prediction));
       update.add_systematic_block(row, rows, by_errors.J, by_errors.first, by_errors.count);
     }
-    if (mode == MountNoise::per_frame) update.add_mount_block(row, rows, prediction.J_z_mount);
+    if (sensor.mount_noise_mode() == MountNoise::per_frame) update.add_mount_block(row, rows, prediction.J_z_mount);
     update.add_landmark_block(row, rows, prediction.J_z_landmark, candidate.number, pose);
-    Matrix3 noise = options_.error_persistence * candidate.noise;
-    if (mode == MountNoise::per_observation)
-      noise += prediction.J_z_mount * sensor.mount_noise() * prediction.J_z_mount.transpose();
+    const Matrix3 noise = this->noise(frame, candidate, prediction);
+    if (update.iterating() && frame.loss.robust()) {
+      // (L2): the weight at the iterate, by the distance from what the iterate predicts
+      constexpr double kSettled = 0.1;
+      const double distance = squared_distance(residual.data(), noise.data(), kMostRows, rows);
+      const double factor = frame.loss.noise_factor(distance, rows);
+      if (std::abs(factor - noise_factors_[a]) > kSettled * noise_factors_[a]) settled_ = false;
+      noise_factors_[a] = factor;
+    }
     double* block = update.batch().add_noise(row, rows);
     for (Index c = 0; c < rows; ++c)
-      for (Index r = 0; r < rows; ++r) block[c * rows + r] = noise(r, c);
+      for (Index r = 0; r < rows; ++r) block[c * rows + r] = noise_factors_[a] * noise(r, c);
   }
   return true;
+}
+
+// What the candidates that bear witness say about the pose.
+template <class Pose>
+void FrameUpdate<Pose>::hear(const EkfUpdate<Pose>& update, const Frame<Pose>& frame,
+                             const SortedFrame<Pose>& sorted) {
+  const int rows = frame.sensor.rows();
+  const Pose pose = map_.state().pose();
+  trust_.hear_nobody();
+  for (Index a = 0; a < sorted.candidates(); ++a) {
+    const Candidate<Pose>& candidate = sorted.candidate(a);
+    if (trust_.is_witness(candidate.slot))
+      trust_.hear(rows, static_cast<std::uint64_t>(candidate.slot), pose, update.batch().residual() + a * rows,
+                  candidate.prediction.J_z_pose, update.covariance(a * rows), update.batch().rows());
+  }
 }
 
 // The batch as the gates see it: block number a is candidate number a.
@@ -123,14 +165,46 @@ void FrameUpdate<Pose>::gate(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
 }
 
 template <class Pose>
-void FrameUpdate<Pose>::run(EkfUpdate<Pose>& update, const Frame<Pose>& frame, SortedFrame<Pose>& sorted) {
-  const auto fill_at = [&](double* residual_only) { return fill(update, frame, sorted, residual_only); };
-  update.linearise(fill_at);
-  gate(update, frame, sorted);
+bool FrameUpdate<Pose>::contradicted(const EkfUpdate<Pose>& update, const Frame<Pose>& frame,
+                                     const SortedFrame<Pose>& sorted, typename Pose::Square& widening) {
+  const Index rows = frame.sensor.rows(), m = update.batch().rows();
+  Index accepted = 0;  // witnesses
+  for (Index a = 0; a < sorted.candidates(); ++a) {
+    const bool witness = trust_.is_witness(sorted.candidate(a).slot);
+    if (witness) ++accepted;
+    for (int c = 0; c < Pose::kDof; ++c)
+      for (Index r = 0; r < rows; ++r)
+        by_pose_[c * m + a * rows + r] = witness ? sorted.candidate(a).prediction.J_z_pose(r, c) : 0.0;
+  }
+  for (int c = 0; c < Pose::kDof && accepted > 0; ++c) update.whiten(by_pose_ + c * m);
+  return trust_.contradicted(accepted, by_pose_, update.innovation(), accepted > 0 ? m : 0, widening);
+}
+
+// The weights of a robust loss at the prediction, where a distance counts the uncertainty of the estimate too.
+template <class Pose>
+void FrameUpdate<Pose>::weigh(EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted) {
+  const Index rows = frame.sensor.rows();
+  for (Index a = 0; a < sorted.candidates(); ++a) {
+    noise_factors_[a] =
+        frame.loss.noise_factor(report_.match(sorted.candidate(a).observation).distance, frame.sensor.rows());
+    update.batch().scale_noise(a * rows, noise_factors_[a]);
+  }
+  update.form_innovation();
+  update.factor();
+}
+
+template <class Pose>
+void FrameUpdate<Pose>::finish(EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted) {
   if (sorted.candidates() > 0) {
     report_.update().nis = update.nis();
+    Iterations end{options_.iterations, options_.iteration_tolerance, frame.sensor.relative()};
+    if (frame.loss.robust()) {
+      weigh(update, frame, sorted);
+      settled_ = false;
+      end.settled = &settled_;
+    }
     report_.update().iterations =
-        update.iterate({options_.iterations, options_.iteration_tolerance, frame.sensor.relative()}, fill_at);
+        update.iterate(end, [&](double* residual_only) { return fill(update, frame, sorted, residual_only); });
     update.commit();
     report_.update().rows = update.batch().rows();
   }

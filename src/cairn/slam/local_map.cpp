@@ -24,6 +24,7 @@ template <class Pose>
 void LocalMap<Pose>::start(const Pose& pose, const Square& covariance, const double* values, const double* errors) {
   systematic_.start(state_, pose, covariance, values, errors);
   table_.clear();
+  ++starts_;
 }
 
 template <class Pose>

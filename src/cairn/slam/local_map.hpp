@@ -23,6 +23,7 @@ class LocalMap final : public Landmarks {
   using PointSquare = typename State<Pose>::PointSquare;
 
   LocalMap(Arena& arena, const FilterOptions<Pose>& options);
+  std::uint64_t starts() const { return starts_; }         // how often it has started
   void start(const Pose& pose, const Square& covariance);  // forgets all landmarks, companions and systematic errors
   // The same, with these values and this covariance of the systematic errors. Allocates nothing.
   void start(const Pose& pose, const Square& covariance, const double* values, const double* errors);
@@ -75,6 +76,7 @@ class LocalMap final : public Landmarks {
   SystematicErrors systematic_;
   State<Pose> state_;
   LandmarkTable table_;
+  std::uint64_t starts_ = 0;
 };
 
 extern template class LocalMap<SE2>;

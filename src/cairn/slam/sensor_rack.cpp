@@ -28,10 +28,15 @@ int SensorRack<Pose>::add(const Any& sensor) {
 }
 
 template <class Pose>
-typename SensorRack<Pose>::Any& SensorRack<Pose>::any(int number) {
+void SensorRack<Pose>::check(int number) const {
   if (number < 0 || number >= count_)
     throw Error(ErrorCode::not_found, "sensor: there is no number %d; %d have been added, counted from 0", number,
                 count_);
+}
+
+template <class Pose>
+typename SensorRack<Pose>::Any& SensorRack<Pose>::any(int number) {
+  check(number);
   return *std::launder(reinterpret_cast<Any*>(places_[number].sensor));
 }
 
@@ -50,6 +55,12 @@ void SensorRack<Pose>::set_view(int number, const View& view) {
   any(number);  // throws if there is no sensor of this number
   places_[number].has_view = true;
   places_[number].view = view;
+}
+
+template <class Pose>
+void SensorRack<Pose>::set_loss(int number, const RobustLoss& loss) {
+  any(number);  // throws if there is no sensor of this number
+  places_[number].loss = loss;
 }
 
 template <class Pose>

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/arena.hpp"
+#include "linear/robust_loss.hpp"
 #include "linear/small_algebra.hpp"
 #include "sensor/cartesian.hpp"
 #include "sensor/custom.hpp"
@@ -43,8 +44,11 @@ class SensorRack {
 
   int add(const Any& sensor);  // its number
   const Sensor<Pose>& at(int number);
+  void check(int number) const;        // throws if there is no sensor of this number
   const View* view(int number) const;  // null: none was set
   void set_view(int number, const View& view);
+  const RobustLoss& loss(int number) const { return places_[number].loss; }
+  void set_loss(int number, const RobustLoss& loss);
   void point_head(int number, double pan, double stick);
   void set_sighting(int number, const MutualSighting& sighting);  // of an extended observation
 
@@ -53,6 +57,7 @@ class SensorRack {
     alignas(Any) unsigned char sensor[sizeof(Any)];
     bool has_view;
     View view;
+    RobustLoss loss;
   };
   Any& any(int number);
 

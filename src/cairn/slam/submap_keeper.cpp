@@ -4,11 +4,16 @@
 
 #include <chrono>
 #include <new>
+#include <optional>
 #include <vector>
 
+#include "core/chi_square.hpp"
 #include "core/error.hpp"
+#include "geometry/embedding.hpp"
 #include "map/join/dense/dense_map.hpp"
 #include "map/join/sparse/sparse_map.hpp"
+#include "map/submap_innovation.hpp"
+#include "slam/motion_vote.hpp"
 
 namespace cairn {
 namespace {
@@ -62,8 +67,9 @@ bool FilterOptions<Pose>::sparse() const {
 }
 
 template <class Pose>
-SubmapKeeper<Pose>::SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, const Log& log)
-    : options_(options), local_(local), log_(log), policy_(options, local) {}
+SubmapKeeper<Pose>::SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local,
+                                 Trajectory<Pose>& trajectory, const Log& log)
+    : options_(options), local_(local), trajectory_(trajectory), log_(log), policy_(options, local) {}
 
 template <class Pose>
 void SubmapKeeper<Pose>::make_map() {
@@ -130,6 +136,96 @@ Submap<Pose> SubmapKeeper<Pose>::take_submap() const {
   return submap;
 }
 
+namespace {
+
+// The submap's known landmarks against the map.
+template <class Pose>
+struct Agreement {
+  Agreement(const GlobalMap<Pose>& map, const Submap<Pose>& submap) {
+    std::vector<std::size_t> indices;
+    std::vector<typename Pose::Point> points;
+    for (Eigen::Index i = 0; i < submap.size(); ++i) {
+      std::size_t index = 0;
+      if (!map.find(submap.ids[static_cast<std::size_t>(i)], index)) continue;
+      locals.push_back(i);
+      indices.push_back(index);
+      points.push_back(Embedding<Pose>::down(map.position(index)));
+    }
+    if (locals.empty()) return;
+    const auto size = static_cast<Eigen::Index>(Pose::kDof + Pose::kDim * locals.size());
+    Eigen::MatrixXd P(size, size), noise = submap.covariance;
+    map.base_joint_covariance(indices.data(), indices.size(), P.data());
+    to_ordinary(submap, locals, noise);
+    innovation.emplace(map.base(), P, points, submap, locals, noise);
+  }
+
+  std::vector<Eigen::Index> locals;  // in the submap
+  std::optional<SubmapInnovation<Pose>> innovation;
+};
+
+}  // namespace
+
+// The robust loss of the options: a landmark that contradicts the map gets a larger covariance in the submap.
+template <class Pose>
+void SubmapKeeper<Pose>::soften(Submap<Pose>& submap) const {
+  if (options_.join_loss == LossKind::none) return;
+  const Agreement<Pose> known(*map_, submap);
+  if (!known.innovation) return;
+  const std::vector<double> factors =
+      noise_factors(*known.innovation, RobustLoss(options_.join_loss, options_.join_loss_width));
+  for (std::size_t a = 0; a < factors.size(); ++a) inflate(submap, known.locals[a], factors[a]);
+}
+
+// If most known landmarks contradict the map and agree on another pose of the submap's base, the motion to this base is
+// widened (docs/update.md, "Finding back").
+template <class Pose>
+bool SubmapKeeper<Pose>::find_back(Submap<Pose>& submap, ClosingReport& report) const {
+  const Agreement<Pose> known(*map_, submap);
+  if (!known.innovation) return false;
+  const SubmapInnovation<Pose>& innovation = *known.innovation;
+  const double bound = chi_square_quantile(kDim, options_.gate_probability);
+  BoundsByRows bounds = {};
+  bounds[kDim] = bound;
+  std::vector<Witness<Pose>> witnesses;
+  for (Eigen::Index a = 0; a < innovation.count(); ++a) {
+    Witness<Pose> witness = {};
+    typename Witness<Pose>::ByPose J = Witness<Pose>::ByPose::Zero();
+    J.template topRows<kDim>() = innovation.by_base[static_cast<std::size_t>(a)];
+    witness.rows = kDim;
+    witness.position = map_->base().translation();
+    if (witness.whiten(innovation.residual.data() + kDim * a, J, innovation.S.data() + kDim * a * (innovation.S.rows() + 1),
+                       innovation.S.rows()))
+      witnesses.push_back(witness);
+  }
+  const auto count = static_cast<Index>(witnesses.size());
+  const MotionVote<Pose> vote = vote_motion(witnesses.data(), count, bounds);
+  if (2 * vote.agreeing <= count || kDim * vote.agreeing < kDof + kDim) return false;
+  // The motion of the base in the axes of the submap.
+  typename Pose::Tangent motion;
+  const typename Pose::Rotation inverse = map_->base().rotation().inverse();
+  motion.template head<kDim>() = inverse * typename Pose::Point(vote.motion.template head<kDim>());
+  motion.template tail<Pose::kTurn>() = inverse.adjoint() * vote.motion.template tail<Pose::kTurn>();
+  widen(submap, Square(motion * motion.transpose()));
+  report.widened_position = motion.template head<kDim>().norm();
+  report.widened_attitude = motion.template tail<Pose::kTurn>().norm();
+  log_.say("closing: %td of %td known landmarks contradict the map and agree on another pose of the submap, %g m away",
+           vote.agreeing, count, report.widened_position);
+  return true;
+}
+
+// A transaction in which the submap has joined.
+template <class Pose>
+std::unique_ptr<MapTransaction<Pose>> SubmapKeeper<Pose>::join(Submap<Pose>& submap, ClosingReport& report) {
+  auto transaction = map_->begin();
+  const JoinReport tried = transaction->join(submap);
+  if (tried.refused <= tried.fused) return transaction;
+  transaction.reset();
+  find_back(submap, report);
+  transaction = map_->begin();
+  transaction->join(submap);
+  return transaction;
+}
+
 // Closes the open submap, even an empty one, and starts a new one at the vehicle's pose (Mars paper, eq. 14-16). A fix
 // is applied to the new base; if either step fails, neither is done.
 template <class Pose>
@@ -148,11 +244,12 @@ FixReport SubmapKeeper<Pose>::join(ClosedBy reason, const AbsoluteFix<Pose>* fix
   }
   FixReport fixed;
   {
-    const auto transaction = map_->begin();
-    transaction->join(submap);
+    soften(submap);
+    const auto transaction = join(submap, next);
     if (fix != nullptr) fixed = transaction->fix(*fix, threshold);
     next.join = transaction->commit();
   }
+  trajectory_.end_submap(map_->submap_count() - 1, submap.T_base_end, local_.state().pose_covariance());
   open();
   policy_.restart();
   next.submaps = map_->submap_count();
@@ -248,6 +345,13 @@ template <class Pose>
 double SubmapKeeper<Pose>::pose_nees(const Pose& truth) const {
   if (map_ == nullptr) return local_.state().pose_nees(truth);
   return State<Pose>::nees(options_.error, options_.initial_pose.translation(), truth, pose(), pose_covariance());
+}
+
+template <class Pose>
+void SubmapKeeper<Pose>::keep_pose() {
+  if (trajectory_.capacity() == 0) return;
+  const std::size_t submap = map_ != nullptr ? map_->submap_count() : 0;
+  trajectory_.add(submap, local_.state().pose(), local_.state().pose_covariance());
 }
 
 template MapOptions<SE2> map_options(const FilterOptions<SE2>&);

@@ -9,6 +9,7 @@
 #include "map/naming.hpp"
 #include "slam/log.hpp"
 #include "slam/submap_policy.hpp"
+#include "slam/trajectory.hpp"
 
 namespace cairn {
 
@@ -22,6 +23,7 @@ struct ClosingReport {
   Index landmarks = 0;
   JoinReport join;
   NamingReport naming;  // if observations bring no ids
+  double widened_position = 0.0, widened_attitude = 0.0;  // of the motion to the submap's base, standard deviations
   double seconds = 0.0;
 };
 
@@ -38,7 +40,7 @@ class SubmapKeeper {
   static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
   using Square = typename Pose::Square;
 
-  SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, const Log& log);
+  SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, Trajectory<Pose>& trajectory, const Log& log);
   static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of the map, if it is known beforehand
 
   const GlobalMap<Pose>* map() const { return map_.get(); }  // null: a single map
@@ -61,6 +63,7 @@ class SubmapKeeper {
   Pose pose() const;
   Square pose_covariance() const;
   double pose_nees(const Pose& truth) const;
+  void keep_pose();  // adds the pose to the trajectory
   // Values and covariance (both triangles) of the systematic errors.
   void systematic(double* values, double* covariance) const;
   // Covariance of [pose; landmarks of landmarks()], in space: 6 + 3 count on a side.
@@ -79,10 +82,14 @@ class SubmapKeeper {
   void open();  // a new submap; after a closing it does not fail
   Submap<Pose> take_submap() const;
   FixReport join(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
+  std::unique_ptr<MapTransaction<Pose>> join(Submap<Pose>& submap, ClosingReport& report);
+  void soften(Submap<Pose>& submap) const;
+  bool find_back(Submap<Pose>& submap, ClosingReport& report) const;
   bool moved() const;
 
   const FilterOptions<Pose>& options_;
   LocalMap<Pose>& local_;
+  Trajectory<Pose>& trajectory_;
   const Log& log_;
   std::unique_ptr<GlobalMap<Pose>> map_;
   SubmapPolicy<Pose> policy_;

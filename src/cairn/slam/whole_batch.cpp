@@ -3,6 +3,8 @@
 #include "slam/whole_batch.hpp"
 
 #include <algorithm>
+#include <exception>
+#include <optional>
 
 #include "core/error.hpp"
 #include "ekf/fix_rows.hpp"
@@ -11,39 +13,72 @@ namespace cairn {
 
 template <class Pose>
 WholeBatchUpdate<Pose>::WholeBatchUpdate(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
-                                         SubmapKeeper<Pose>& submaps, const Thresholds& thresholds, FrameReport& report,
+                                         SubmapKeeper<Pose>& submaps, const Thresholds& thresholds,
+                                         MotionTrust<Pose>& trust, FrameReport& report, HealthMonitor<Pose>& health,
                                          const Log& log)
     : options_(options),
       map_(map),
       submaps_(submaps),
       thresholds_(thresholds),
+      trust_(trust),
+      trust_in_map_(arena, options, map, thresholds, log),
       report_(report),
+      health_(health),
       log_(log),
       ids_(arena, static_cast<std::size_t>(options.max_observations)),
       window_(arena.take<Index>(static_cast<std::size_t>(options.max_observations))) {}
 
 template <class Pose>
 template <class Fill>
-void WholeBatchUpdate<Pose>::run(EkfUpdate<Pose>& update, Index rows, int iterations, std::uint64_t landmark,
-                                 Fill&& fill) {
+void WholeBatchUpdate<Pose>::test(EkfUpdate<Pose>& update, Index rows, std::uint64_t landmark, Fill&& fill) {
   update.linearise(fill);
   Match& match = report_.match(0);
   match.landmark = landmark;
   match.threshold = thresholds_.single(rows);
   update.factor();
   match.distance = update.nis();
-  if (!(match.distance <= match.threshold)) {
-    match.reason = Reason::gate;
-    log_.say("update: the gate refused a batch of %td rows, distance %g over %g", rows, match.distance,
-             match.threshold);
-  } else {
+}
+
+template <class Pose>
+template <class Fill>
+void WholeBatchUpdate<Pose>::finish(EkfUpdate<Pose>& update, int iterations, Fill&& fill) {
+  Match& match = report_.match(0);
+  if (accepted()) {
     report_.update().nis = update.nis();
     report_.update().iterations = update.iterate({iterations, options_.iteration_tolerance, false}, fill);
     update.commit();
     report_.update().rows = update.batch().rows();
     match.decision = Decision::matched;
+  } else {
+    match.reason = Reason::gate;
+    log_.say("update: the gate refused a batch of %td rows, distance %g over %g", update.batch().rows(),
+             match.distance, match.threshold);
   }
+  finish_report(update.batch().rows());
+}
+
+template <class Pose>
+void WholeBatchUpdate<Pose>::finish_report(Index rows) {
+  const Match& match = report_.match(0);
+  const double distance = match.distance;
+  const bool refused = match.decision != Decision::matched;
   report_.finish();
+  if (report_.last().widened()) health_.widened(report_.last().widened_position);
+  health_.fixed(rows, distance, refused);
+}
+
+// Whether the motion has to be widened because of this fix, of a vehicle at `pose`.
+template <class Pose>
+bool WholeBatchUpdate<Pose>::contradicted(MotionTrust<Pose>& trust, const AbsoluteFix<Pose>& fix, const Pose& pose,
+                                          const Square& covariance, bool accepted, Square& widening) {
+  const Index rows = fix.rows();
+  const Vector3 residual = fix.residual(pose);
+  typename Witness<Pose>::ByPose J = fix.jacobian(pose);
+  Matrix3 S = fix.covariance();
+  S.topLeftCorner(rows, rows) += J.topRows(rows) * covariance * J.topRows(rows).transpose();
+  trust.hear_nobody();
+  trust.hear(static_cast<int>(rows), kNoId - ++fixes_, pose, residual.data(), J, S.data(), 3);
+  return trust.contradicted(accepted, widening);
 }
 
 template <class Pose>
@@ -55,9 +90,57 @@ void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& fix) {
     return report_.finish();
   }
   if (submaps_.map() != nullptr) return fix_map(fix);
-  EkfUpdate<Pose> update = map_.state().begin({});
-  run(update, fix.rows(), options_.iterations, kNoId,
-      [&](double* residual_only) { return fill_fix(update, fix, residual_only); });
+  return fix_single(fix);
+}
+
+template <class Pose>
+void WholeBatchUpdate<Pose>::fix_single(const AbsoluteFix<Pose>& fix) {
+  State<Pose>& state = map_.state();
+  trust_.begin(map_.starts());
+  PendingRestore<Pose> restore(state);
+  std::optional<EkfUpdate<Pose>> update;
+  const auto fill = [&](double* residual_only) { return fill_fix(*update, fix, residual_only); };
+  const auto attempt = [&] {
+    update.emplace(state, typename State<Pose>::Window());
+    test(*update, fix.rows(), kNoId, fill);
+  };
+  attempt();
+  Square widening;
+  if (contradicted(trust_, fix, state.pose(), state.pose_covariance(), accepted(), widening)) {
+    widen(state, widening);
+    report_.widened<Pose>(widening);
+    attempt();
+  }
+  finish(*update, options_.iterations, fill);
+  restore.release();
+}
+
+// The submap closes at the first fix. If the fix contradicts the map and several fixes agree on another pose, the motion
+// in the new submap, which is empty, is widened, and the fix is tried again.
+template <class Pose>
+FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
+  const double threshold = report_.match(0).threshold;
+  trust_in_map_.begin(0);
+  const FixReport first = submaps_.fix(fix, threshold);
+  const JoinReport& join = submaps_.closing().join;
+  if (join.fused > 0 && join.fused > join.refused) trust_in_map_.agree();  // the landmarks support the pose
+  Square widening;
+  if (!contradicted(trust_in_map_, fix, submaps_.pose(), submaps_.pose_covariance(), first.accepted, widening))
+    return first;
+  const typename Pose::Rotation inverse = submaps_.map()->base().rotation().inverse();
+  Square turn = Square::Zero();  // to the axes of the submap
+  turn.template topLeftCorner<kDim, kDim>() = inverse.matrix();
+  turn.template bottomRightCorner<Pose::kTurn, Pose::kTurn>() = inverse.adjoint();
+  PendingRestore<Pose> restore(map_.state());
+  try {
+    widen(map_.state(), Square(turn * widening * turn.transpose()));
+    const FixReport second = submaps_.fix(fix, threshold);
+    restore.release();
+    report_.widened<Pose>(widening);
+    return second;
+  } catch (const std::exception&) {  // the submap has closed already: the fix stays refused
+    return first;
+  }
 }
 
 template <class Pose>
@@ -65,7 +148,7 @@ void WholeBatchUpdate<Pose>::fix_map(const AbsoluteFix<Pose>& fix) {
   Match& match = report_.match(0);
   match.landmark = kNoId;
   match.threshold = thresholds_.single(fix.rows());
-  const FixReport done = submaps_.fix(fix, match.threshold);
+  const FixReport done = try_fix(fix);
   match.distance = done.distance;
   if (done.accepted) {
     match.decision = Decision::matched;
@@ -76,7 +159,7 @@ void WholeBatchUpdate<Pose>::fix_map(const AbsoluteFix<Pose>& fix) {
     match.reason = Reason::gate;
     log_.say("update: the gate refused a fix, distance %g over %g", match.distance, match.threshold);
   }
-  report_.finish();
+  finish_report(fix.rows());
 }
 
 template <class Pose>
@@ -101,7 +184,7 @@ void WholeBatchUpdate<Pose>::rows(const LinearRows& linear) {
   find_window(linear);
   EkfUpdate<Pose> update = map_.state().begin({window_, linear.count, nullptr});
   const Index rows = linear.rows;
-  run(update, rows, 1, linear.count > 0 ? linear.landmarks[0] : kNoId, [&](double*) {
+  const auto fill = [&](double*) {
     update.batch().clear();
     const Index row = update.batch().add_rows(rows);
     std::copy_n(linear.residual, rows, update.batch().residual());
@@ -115,7 +198,9 @@ void WholeBatchUpdate<Pose>::rows(const LinearRows& linear) {
     for (Index k = 0; k < linear.count; ++k)
       update.add_landmark_block(row, rows, J.template middleCols<kDim>(3 * k), k, pose);
     return true;
-  });
+  };
+  test(update, rows, linear.count > 0 ? linear.landmarks[0] : kNoId, fill);
+  finish(update, 1, fill);
   if (matched())
     for (Index k = 0; k < linear.count; ++k) map_.table().add_observations(window_[k], 1);
 }
@@ -123,7 +208,7 @@ void WholeBatchUpdate<Pose>::rows(const LinearRows& linear) {
 // l_id - l_other = 0: an observation of both landmarks, exact but for a variance that keeps S positive definite.
 template <class Pose>
 void WholeBatchUpdate<Pose>::merge(std::uint64_t id, std::uint64_t other) {
-  using Square = Eigen::Matrix<double, kDim, kDim>;
+  using PointSquare = Eigen::Matrix<double, kDim, kDim>;
   constexpr double kExact = 1e-6;  // fraction of the smaller variance
   if (id == other) throw Error(ErrorCode::argument, "id: a landmark cannot be merged with itself");
   if (options_.max_observations < 2)
@@ -137,18 +222,20 @@ void WholeBatchUpdate<Pose>::merge(std::uint64_t id, std::uint64_t other) {
       std::min(state.landmark_covariance(keep).trace(), state.landmark_covariance(gone).trace()) / kDim;
   const typename Pose::Point apart = state.landmark(gone) - state.landmark(keep);
   EkfUpdate<Pose> update = state.begin({window_, 2, nullptr});
-  run(update, kDim, 1, id, [&](double*) {
+  const auto fill = [&](double*) {
     update.batch().clear();
     const Index row = update.batch().add_rows(kDim);
     std::copy_n(apart.data(), kDim, update.batch().residual());
-    Eigen::Map<Square>(update.batch().add_noise(row, kDim)) = kExact * variance * Square::Identity();
+    Eigen::Map<PointSquare>(update.batch().add_noise(row, kDim)) = kExact * variance * PointSquare::Identity();
     const Eigen::Matrix<double, kDim, kDof> J_pose = Eigen::Matrix<double, kDim, kDof>::Zero();
     const auto pose = update.add_pose_block(row, kDim, J_pose, false);
-    const Square one = Square::Identity(), minus = -Square::Identity();
+    const PointSquare one = PointSquare::Identity(), minus = -PointSquare::Identity();
     update.add_landmark_block(row, kDim, one, 0, pose);
     update.add_landmark_block(row, kDim, minus, 1, pose);
     return true;
-  });
+  };
+  test(update, kDim, id, fill);
+  finish(update, 1, fill);
   if (!matched()) return;
   map_.table().add_observations(keep, map_.table().observations(gone));
   map_.forget(gone);

@@ -4,8 +4,10 @@
 #pragma once
 
 #include "core/id_table.hpp"
+#include "health/health_monitor.hpp"
 #include "sensor/absolute_fix.hpp"
 #include "slam/frame_report.hpp"
+#include "slam/motion_trust.hpp"
 #include "slam/submap_keeper.hpp"
 #include "slam/thresholds.hpp"
 
@@ -16,9 +18,11 @@ template <class Pose>
 class WholeBatchUpdate {
  public:
   static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  using Square = typename Pose::Square;
 
   WholeBatchUpdate(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map, SubmapKeeper<Pose>& submaps,
-                   const Thresholds& thresholds, FrameReport& report, const Log& log);
+                   const Thresholds& thresholds, MotionTrust<Pose>& trust, FrameReport& report,
+                   HealthMonitor<Pose>& health, const Log& log);
 
   void fix(const AbsoluteFix<Pose>& fix);
   void rows(const LinearRows& rows);
@@ -26,9 +30,18 @@ class WholeBatchUpdate {
   void merge(std::uint64_t id, std::uint64_t other);
 
  private:
+  // Gates the batch that `fill` gives; if the gate accepts it, finish() takes it.
   template <class Fill>
-  void run(EkfUpdate<Pose>& update, Index rows, int iterations, std::uint64_t landmark, Fill&& fill);
+  void test(EkfUpdate<Pose>& update, Index rows, std::uint64_t landmark, Fill&& fill);
+  template <class Fill>
+  void finish(EkfUpdate<Pose>& update, int iterations, Fill&& fill);
+  bool accepted() { return report_.match(0).distance <= report_.match(0).threshold; }
+  void fix_single(const AbsoluteFix<Pose>& fix);
   void fix_map(const AbsoluteFix<Pose>& fix);
+  void finish_report(Index rows);
+  FixReport try_fix(const AbsoluteFix<Pose>& fix);
+  bool contradicted(MotionTrust<Pose>& trust, const AbsoluteFix<Pose>& fix, const Pose& pose, const Square& covariance,
+                    bool accepted, Square& widening);
   void find_window(const LinearRows& rows);
   bool matched() const { return report_.matches()[0].decision == Decision::matched; }
 
@@ -36,10 +49,14 @@ class WholeBatchUpdate {
   LocalMap<Pose>& map_;
   SubmapKeeper<Pose>& submaps_;
   const Thresholds& thresholds_;
+  MotionTrust<Pose>& trust_;
+  MotionTrust<Pose> trust_in_map_;  // of fixes, beside submaps
   FrameReport& report_;
+  HealthMonitor<Pose>& health_;
   const Log& log_;
   IdTable ids_;    // of the landmarks that the caller's rows depend on
   Index* window_;  // slots
+  std::uint64_t fixes_ = 0;
 };
 
 extern template class WholeBatchUpdate<SE2>;

@@ -47,6 +47,8 @@ class Drive {
 
   virtual std::size_t steps() const = 0;
   virtual cairn_pose start() const = 0;
+  // Whether the vehicle moves in the plane z = 0.
+  virtual bool planar() const { return false; }
   virtual std::size_t largest_frame() const = 0;
   // The largest number of landmarks that a filter holds at once if it forgets those that were not seen for
   // `forget_after` frames (0: never).

@@ -8,6 +8,12 @@
 
 namespace cairn::program {
 
+cairn_pose LogDrive::start() const {
+  cairn_pose identity;
+  check(cairn_pose_identity(&identity));
+  return log_.steps.front().truth.value_or(identity);
+}
+
 std::size_t LogDrive::largest_frame() const {
   std::size_t largest = 1;
   for (const logs::Step& step : log_.steps) largest = std::max(largest, step.observations.size());
@@ -52,15 +58,25 @@ std::size_t LogDrive::landmarks_at_once(std::uint64_t forget_after) const {
 
 std::int32_t LogDrive::equip(cairn_filter* filter) const {
   std::int32_t sensor = -1;
-  if (log_.sensor == logs::SensorKind::kStereoHead) {
-    check(cairn_filter_add_stereo_head(filter, &log_.head, &sensor));
-    return sensor;
+  switch (log_.sensor) {
+    case logs::SensorKind::kStereoHead:
+      check(cairn_filter_add_stereo_head(filter, &log_.head, &sensor));
+      break;
+    case logs::SensorKind::kStereoCamera: {
+      cairn_stereo_camera camera = log_.camera;
+      camera.min_disparity = camera_.min_disparity.value_or(camera.min_disparity);
+      camera.min_disparity_sigmas = camera_.min_disparity_sigmas.value_or(camera.min_disparity_sigmas);
+      check(cairn_filter_add_stereo_camera(filter, &camera, &sensor));
+      check(cairn_filter_set_twist_noise(filter, &log_.twist_noise));
+      break;
+    }
+    case logs::SensorKind::kCartesian:
+      check(cairn_filter_add_cartesian(filter, &log_.cartesian, &sensor));
+      break;
+    case logs::SensorKind::kRangeBearing:
+      check(cairn_filter_add_range_bearing(filter, &log_.radar, &sensor));
+      break;
   }
-  cairn_stereo_camera camera = log_.camera;
-  camera.min_disparity = camera_.min_disparity.value_or(camera.min_disparity);
-  camera.min_disparity_sigmas = camera_.min_disparity_sigmas.value_or(camera.min_disparity_sigmas);
-  check(cairn_filter_add_stereo_camera(filter, &camera, &sensor));
-  check(cairn_filter_set_twist_noise(filter, &log_.twist_noise));
   return sensor;
 }
 

@@ -21,7 +21,9 @@ class LogDrive : public Drive {
   LogDrive(const logs::Log& log, const CameraChoices& camera) : log_(log), camera_(camera) {}
 
   std::size_t steps() const override { return log_.steps.size(); }
-  cairn_pose start() const override { return log_.steps.front().truth.value(); }
+  // The first true pose; the identity if the log has none.
+  cairn_pose start() const override;
+  bool planar() const override { return log_.planar; }
   std::size_t largest_frame() const override;
   std::size_t landmarks_at_once(std::uint64_t forget_after) const override;
   std::int32_t equip(cairn_filter* filter) const override;

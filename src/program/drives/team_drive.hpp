@@ -4,12 +4,15 @@
 
 #include <cairn/cairn.h>
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "program/logs/planar.hpp"
+
 namespace cairn::program {
+
+using logs::planar_pose;
 
 // A planar body's speed and rate of turn, held for `dt` seconds, and their noise over that time.
 struct TeamMotion {
@@ -43,6 +46,8 @@ class TeamDrive {
   virtual const std::vector<std::uint64_t>& vehicles() const = 0;  // their numbers
   virtual std::size_t steps() const = 0;
   virtual cairn_pose start(std::size_t vehicle) const = 0;
+  // 6 x 6, of the error of the start; NULL: known exactly.
+  virtual const double* start_covariance(std::size_t) const { return nullptr; }
   virtual cairn_range_bearing radar() const = 0;
   virtual std::uint32_t landmarks() const = 0;      // at most
   virtual std::uint32_t largest_frame() const = 0;  // landmarks and vehicles
@@ -50,10 +55,5 @@ class TeamDrive {
   virtual bool next(TeamStep& step) = 0;            // false after the last step
   virtual bool true_landmark(std::uint64_t id, double position[2]) const = 0;
 };
-
-// A pose of the plane.
-inline cairn_pose planar_pose(double x, double y, double heading) {
-  return {{x, y, 0}, {std::cos(0.5 * heading), 0, 0, std::sin(0.5 * heading)}};
-}
 
 }  // namespace cairn::program

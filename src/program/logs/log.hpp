@@ -39,18 +39,21 @@ struct Step {
   std::optional<Increment> increment;                      // motion that leads to this step: one of these two,
   std::optional<Twist> twist;                              // none at the first step
   std::vector<cairn_observation> observations;
-  std::optional<cairn_pose> truth;  // body in the map frame; the first step always has it
+  std::optional<cairn_pose> truth;  // body in the map frame; if any step has it, the first one has it
 };
 
-enum class SensorKind { kStereoHead, kStereoCamera };
+enum class SensorKind { kStereoHead, kStereoCamera, kCartesian, kRangeBearing };
 
 struct Log {
   std::string format;              // for people
   std::vector<std::string> notes;  // what the reader left out
+  bool planar = false;             // the vehicle moves in the plane z = 0
   SensorKind sensor = SensorKind::kStereoHead;
   cairn_stereo_head head{};                                  // if the sensor is a stereo head
   cairn_stereo_camera camera{};                              // if it is a stereo camera
-  cairn_twist_noise twist_noise{};                           // of every twist
+  cairn_twist_noise twist_noise{};                           // of every twist, with the stereo camera
+  cairn_cartesian cartesian{};                               // if it gives points; each observation has its covariance
+  cairn_range_bearing radar{};                               // if it gives ranges and bearings; the same
   std::vector<Step> steps;                                   // never empty
   std::map<std::uint64_t, std::array<double, 3>> landmarks;  // true positions, m
 };
@@ -65,8 +68,9 @@ struct NoiseOverride {
 // Reads a log; its content decides its kind. Throws LogError.
 Log read_log(const std::string& path, const NoiseOverride& noise);
 
-// The two kinds. `text` is the file's whole content.
+// The kinds. `text` is the file's whole content.
 Log read_neutral_log(const std::string& path, const std::string& text);
+Log read_isam_log(const std::string& path, const std::string& text);
 Log read_stars_log(const std::string& path, const std::string& content, const NoiseOverride& noise);
 
 }  // namespace cairn::program::logs

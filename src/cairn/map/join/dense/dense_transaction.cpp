@@ -211,7 +211,7 @@ void DenseTransaction<Pose>::hand_over(const Submap<Pose>& submap, typename Stat
 }
 
 template <class Pose>
-void DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
+JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
   State<Pose>& state = map_.state_;
   const MapOptions<Pose>& options = map_.options_;
   for (Eigen::Index i = 0; i < submap.size(); ++i) {
@@ -269,6 +269,7 @@ void DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
   }
   for (Index i = 0; i < errors; ++i) shift(i) = state.systematic(i) - submap.errors.value(i);
   hand_over(submap, handover, shift);
+  return report_;
 }
 
 template <class Pose>

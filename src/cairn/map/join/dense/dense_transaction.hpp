@@ -20,7 +20,7 @@ class DenseTransaction final : public MapTransaction<Pose> {
   explicit DenseTransaction(DenseMap<Pose>& map) : map_(map) {}
   ~DenseTransaction() override;
 
-  void join(const Submap<Pose>& submap) override;
+  JoinReport join(const Submap<Pose>& submap) override;
   FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) override;
   JoinReport commit() override;
 

@@ -9,7 +9,7 @@
 #include "core/chi_square.hpp"
 #include "linear/joint_gate.hpp"
 #include "map/join/sparse/sparse_queries.hpp"
-#include "sensor/sensor.hpp"
+#include "map/submap_innovation.hpp"
 
 namespace cairn {
 
@@ -99,27 +99,20 @@ class KnownLandmarks {
 
   void form() {
     formed_ = true;
-    const Index m = kDim * count();
-    if (m == 0) return;
-    const Pose& base = state_.bases.back();
+    if (known_.empty()) return;
     std::vector<std::size_t> indices;
-    for (const Known& known : known_) indices.push_back(known.index);
-    Eigen::MatrixXd P(kDof + m, kDof + m), H = Eigen::MatrixXd::Zero(m, kDof + m);
-    joint_covariance_of_base(state_, indices.data(), indices.size(), P.data());
-    residual_.resize(m);
-    S_.resize(m, m);
-    for (Index a = 0; a < count(); ++a) {
-      const typename Pose::Point l = state_.point(known_[a].index);
-      Prediction<Pose> prediction;
-      map_jacobians(base, l, Prediction<Pose>::ByLandmark::Identity(), prediction);
-      H.block<kDim, kDof>(kDim * a, 0) = prediction.J_z_pose.template topRows<kDim>();
-      H.block<kDim, kDim>(kDim * a, kDof + kDim * a) = prediction.J_z_landmark.template topRows<kDim>();
-      residual_.segment<kDim>(kDim * a) = submap_.landmarks[known_[a].local] - base.inverse() * l;
-      for (Index b = 0; b < count(); ++b)
-        S_.block<kDim, kDim>(kDim * a, kDim * b) =
-            noise_.block<kDim, kDim>(kDof + kDim * known_[a].local, kDof + kDim * known_[b].local);
+    std::vector<Index> locals;
+    std::vector<typename Pose::Point> points;
+    for (const Known& known : known_) {
+      indices.push_back(known.index);
+      locals.push_back(known.local);
+      points.push_back(state_.point(known.index));
     }
-    S_ += H * P * H.transpose();
+    Eigen::MatrixXd P(kDof + kDim * count(), kDof + kDim * count());
+    joint_covariance_of_base(state_, indices.data(), indices.size(), P.data());
+    SubmapInnovation<Pose> innovation(state_.bases.back(), P, points, submap_, locals, noise_);
+    residual_ = std::move(innovation.residual);
+    S_ = std::move(innovation.S);
   }
 
   const SparseState<Pose>& state_;

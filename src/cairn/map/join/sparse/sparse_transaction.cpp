@@ -18,16 +18,17 @@ SparseTransaction<Pose>::SparseTransaction(SparseState<Pose>& state, SpatialInde
     : state_(state), index_(index), change_(std::in_place, state, index) {}
 
 template <class Pose>
-void SparseTransaction<Pose>::join(const Submap<Pose>& submap) {
+JoinReport SparseTransaction<Pose>::join(const Submap<Pose>& submap) {
   solved_ = true;
   const Number leaf = try_join(submap, std::vector<char>(submap.ids.size(), 0));
-  if (report_.rows == 0 || !may_contradict(state_, leaf, report_)) return;
+  if (report_.rows == 0 || !may_contradict(state_, leaf, report_)) return report_;
   // Some landmark does not fit: the exact gates, which cost more, find out which.
   change_.reset();
   const std::vector<char> left_out = find_contradicting(state_, submap);
   report_ = JoinReport();
   change_.emplace(state_, index_);
   try_join(submap, left_out);
+  return report_;
 }
 
 // Adds the submap and solves; the report tells how well the fused landmarks agree.

@@ -15,7 +15,7 @@ class SparseTransaction final : public MapTransaction<Pose> {
 
   // Two tries: the first one fuses all known landmarks. If some landmark may not fit, the second one fuses only the
   // landmarks that pass the exact gates.
-  void join(const Submap<Pose>& submap) override;
+  JoinReport join(const Submap<Pose>& submap) override;
   FixReport fix(const AbsoluteFix<Pose>& fix, double threshold) override;
   JoinReport commit() override;
 

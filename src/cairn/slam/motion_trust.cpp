@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam/motion_trust.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace cairn {
+namespace {
+
+// log of P(X >= refused), X binomial with the chance `refusal`, by its largest term.
+double log_chance(Index judged, Index refused, double refusal) {
+  const double n = static_cast<double>(judged), q = static_cast<double>(refused);
+  return std::lgamma(n + 1) - std::lgamma(q + 1) - std::lgamma(n - q + 1) + q * std::log(refusal) +
+         (n - q) * std::log1p(-refusal);
+}
+
+}  // namespace
+
+template <class Pose>
+MotionTrust<Pose>::MotionTrust(Arena& arena, const FilterOptions<Pose>& options, const LocalMap<Pose>& map,
+                               const Thresholds& thresholds, const Log& log)
+    : options_(options),
+      map_(map),
+      thresholds_(thresholds),
+      log_(log),
+      records_(arena.take<Record>(static_cast<std::size_t>(options.max_companions + 1))),
+      kept_(arena.take<Witness<Pose>>(static_cast<std::size_t>(kKept * (options.max_companions + 1)))),
+      witnesses_(arena.take<Witness<Pose>>(static_cast<std::size_t>(options.max_observations + kKept))) {}
+
+template <class Pose>
+typename MotionTrust<Pose>::Record& MotionTrust<Pose>::record() {
+  const std::uint64_t vehicle = map_.table().vehicle();
+  Index k = 0;
+  while (k < options_.max_companions && records_[k].used && records_[k].vehicle != vehicle) ++k;
+  if (!records_[k].used || records_[k].vehicle != vehicle) records_[k] = Record();
+  records_[k].used = true;
+  records_[k].vehicle = vehicle;
+  return records_[k];
+}
+
+template <class Pose>
+void MotionTrust<Pose>::begin(std::uint64_t map_frame) {
+  heard_ = 0;
+  ++frame_;
+  if (map_frame == map_frame_) return;
+  map_frame_ = map_frame;
+  for (Index k = 0; k <= options_.max_companions; ++k) forget(records_[k]);
+}
+
+template <class Pose>
+void MotionTrust<Pose>::hear(int rows, std::uint64_t source, const Pose& pose, const double* residual,
+                             const ByPose& J_pose, const double* S, Index ld) {
+  pose_ = pose;
+  Witness<Pose>& witness = witnesses_[heard_];
+  witness.rows = rows;
+  witness.frame = frame_;
+  witness.source = source;
+  witness.position = pose.translation();
+  if (witness.whiten(residual, J_pose, S, ld)) ++heard_;
+}
+
+template <class Pose>
+bool MotionTrust<Pose>::contradicted(Index accepted, const double* J, const double* r, Index rows, Square& widening) {
+  widening.setZero();
+  if (heard_ == 0) return false;
+  Record& own = record();
+  if (2 * accepted >= heard_) {  // agreement
+    forget(own);
+    const typename Pose::Rotation R = pose_.rotation();
+    Square axes = Square::Zero();
+    axes.template topLeftCorner<Pose::kDim, Pose::kDim>() = R.matrix();
+    axes.template bottomRightCorner<Pose::kTurn, Pose::kTurn>() = R.adjoint();
+    return own.evidence.weigh(sums_, J, r, rows, axes, widening);
+  }
+  own.judged += heard_;
+  own.refused += heard_ - accepted;
+  if (vote(own, widening)) return true;
+  keep(own);
+  return false;
+}
+
+template <class Pose>
+void MotionTrust<Pose>::keep(Record& own) {
+  const Index step = (heard_ + kKeptOfFrame - 1) / kKeptOfFrame, more = (heard_ + step - 1) / step;
+  const Index drop = std::max<Index>(0, own.kept + more - kKept);  // the oldest
+  std::move(kept(own) + drop, kept(own) + own.kept, kept(own));
+  own.kept -= drop;
+  for (Index a = 0; a < heard_; a += step) kept(own)[own.kept++] = witnesses_[a];
+}
+
+template <class Pose>
+bool MotionTrust<Pose>::vote(Record& own, Square& widening) {
+  constexpr double kChance = 1e-5;  // of so many refusals if the estimate is right
+  const double refusal = 1.0 - options_.gate_probability;
+  if (!(refusal > 0.0) || log_chance(own.judged, own.refused, refusal) > std::log(kChance)) return false;
+  const typename Pose::Point where = pose_.translation();
+  const Index count = heard_ + own.kept;
+  for (Index k = 0; k < own.kept; ++k) {
+    witnesses_[heard_ + k] = kept(own)[k];
+    witnesses_[heard_ + k].move_to(where);
+  }
+  BoundsByRows bounds = {};
+  for (int rows = 1; rows <= kMostRows; ++rows) bounds[static_cast<std::size_t>(rows)] = bound(rows);
+  const MotionVote<Pose> best = vote_motion(witnesses_, count, bounds);
+  if (!enough(witnesses_, count, best)) return false;
+  widening = best.motion * best.motion.transpose();  // (F2): this motion is one standard deviation
+  forget(own);
+  log_.say("update: %td of %td observations contradict the pose and agree on another one, %g m away", best.agreeing,
+           count, best.motion.template head<Pose::kDim>().norm());
+  return true;
+}
+
+// Most witnesses agree, in more than one frame, and different sources give more rows than a motion has freedoms: one
+// wrong source agrees with itself.
+template <class Pose>
+bool MotionTrust<Pose>::enough(const Witness<Pose>* witnesses, Index count, const MotionVote<Pose>& vote) const {
+  if (2 * vote.agreeing <= count) return false;
+  const auto agrees = [&](Index a) { return witnesses[a].distance(vote.motion) <= bound(witnesses[a].rows); };
+  Index rows = 0, now = 0, before = 0;
+  int widest = 0;
+  for (Index a = 0; a < count; ++a) {
+    if (!agrees(a)) continue;
+    (witnesses[a].frame == frame_ ? now : before) += 1;
+    bool heard_before = false;
+    for (Index b = 0; b < a && !heard_before; ++b)
+      heard_before = witnesses[b].source == witnesses[a].source && agrees(b);
+    if (heard_before) continue;
+    rows += witnesses[a].rows;
+    widest = std::max(widest, witnesses[a].rows);
+  }
+  return now > 0 && before > 0 && rows >= kDof + widest;
+}
+
+template <class Pose>
+void widen(State<Pose>& state, const typename Pose::Square& covariance) {
+  if (!state.widen(covariance))
+    throw Error(ErrorCode::numerical, "update: the widened motion would not be finite; nothing was changed");
+}
+
+template void widen(State<SE2>&, const SE2::Square&);
+template void widen(State<SE3>&, const SE3::Square&);
+template class MotionTrust<SE2>;
+template class MotionTrust<SE3>;
+
+}  // namespace cairn
