@@ -104,6 +104,7 @@ static void create(size_t number) {
   f.error = fuzz_one_in(3);
   if (fuzz_one_in(4)) f.association = (int32_t)fuzz_below(3);
   if (fuzz_one_in(3)) f.initial_covariance[0] = f.initial_covariance[7] = fuzz_positive(1);
+  if (o.mode == CAIRN_TEAM_SUBMAPS) f.submap_landmarks = 1 + (uint32_t)fuzz_below(8);
   if (fuzz_one_in(30)) f.submap_landmarks = 5;
   radar.range_sigma = fuzz_uniform(0.01, 1);
   if (fuzz_one_in(4)) radar.T_body_sensor.position[0] = fuzz_number(1);

@@ -148,6 +148,7 @@ class State {
   Eigen::Map<Point> place_of(Index slot) { return Eigen::Map<Point>(points_ + kDim * slot); }
   Square pose_block() const { return motion_.pose_block(P_); }  // with the motion held back
   void apply_pending();
+  void restore_lost_digits(const double* scale);
   // P <- P_now - W W^T over `rank` columns of W, the pending motion's noise added in the same pass.
   void write_covariance(Index rank, const double* pose_columns);
   void move(const double* error);  // every variable by its retraction
