@@ -74,7 +74,8 @@ void Mailbox::drop(std::list<Member>::iterator member) noexcept {
 // --- this vehicle ---
 
 void Mailbox::move(const Increment<SE2>& increment) {
-  if (!is_motion(increment))
+  constexpr double kTurnSquared = 39.478417604357432;  // (2 pi)^2
+  if (!is_motion(increment) || increment.covariance(2, 2) > kTurnSquared)
     throw Error(ErrorCode::numerical,
                 "prediction: a motion or its noise is not finite, longer than %g m or more than a whole turn; nothing "
                 "was changed",

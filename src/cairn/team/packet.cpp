@@ -150,7 +150,7 @@ bool is_motion(const Increment<SE2>& motion) {
   const Matrix3& C = motion.covariance;
   const double turned = T.rotation().matrix().col(0).squaredNorm();
   return std::abs(turned - 1.0) < 1e-9 && T.translation().cwiseAbs().maxCoeff() <= kFarthest &&
-         C.diagonal().head<2>().maxCoeff() <= kFarthest * kFarthest && C(2, 2) <= kTurnVariance &&
+         C.diagonal().head<2>().maxCoeff() <= kFarthest * kFarthest && C(2, 2) <= kLargestTurn * kLargestTurn &&
          is_covariance<3>(C, true);
 }
 

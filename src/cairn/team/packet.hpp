@@ -44,8 +44,8 @@ constexpr std::size_t kRequestSize = 64;      // bytes
 
 // Greater numbers are mistakes, not measurements. Inside these limits no product of a filter's numbers overflows. A
 // range may be any number: a range beyond kFarthest is no sighting, and only this sighting is not used.
-constexpr double kFarthest = 1e9;                     // m, of a motion, of a sighting and of a motion's noise
-constexpr double kTurnVariance = 39.478417604357432;  // rad^2, a whole turn: of a motion's noise
+constexpr double kFarthest = 1e9;       // m, of a motion, of a sighting and of a motion's noise
+constexpr double kLargestTurn = 100.0;  // rad, of a motion's noise; a filter refuses less
 constexpr double kLeastVariance = 1e-100, kLargestVariance = 1e100;  // of a sighting
 
 // Whether a motion is one: finite, inside the limits, and its noise is a covariance.
