@@ -87,10 +87,11 @@ class HealthMonitor {
   static double applied(const NoiseFactor& factor);
   void drive_all();
   bool due(Index stride) const { return places_[now_].frame % kStride[stride] == 0; }
-  void pair(const Sighted<Pose>& sighted, bool refused, const Left<Pose>& last, Index stride);
+  bool pair(const Sighted<Pose>& sighted, bool refused, const Left<Pose>& last, Index stride);
   FrameParts split(Index stride);
   void learn();
   void judge_jump(const FrameParts& parts);
+  void judge_steps();
 
   bool apply_;
   Index sensors_;
@@ -98,6 +99,7 @@ class HealthMonitor {
   Increment<Pose> since_;  // the last frame of any sensor
   SightingMemory<Pose> memory_;
   PairedFrame<Pose> paired_[kStrides];
+  typename SightingMemory<Pose>::Sighting** steps_;  // landmarks of the differences to the frame before
   NoiseRegression slow_, fast_;
   DriftTest<Pose> drift_;
   Verdict verdict_;

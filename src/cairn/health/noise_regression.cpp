@@ -15,7 +15,7 @@ constexpr double kSlight = 0.02;  // a direction with less says nothing about th
 // Two differences of one landmark in a row share an observation: their correlation is -1/2, and the variance of a mean
 // of squares 1 + 2 (1/2)^2 times that of independent ones.
 constexpr double kShared = 1.5;
-constexpr double kOverlap = 2.0;  // differences over several frames contain those over fewer
+constexpr double kOverlap = 1.5;  // differences over several frames contain those over fewer
 
 // Weights that fade have a sum of squares that is this part of their sum: 1 at first, 1/2 once the window is full.
 double old_weights(double young) {

@@ -15,7 +15,7 @@ constexpr double kKeepRefusals = 0.85;  // of the share of refusals
 constexpr double kSigmas = 4.5;         // of a test
 constexpr double kNisRatio = 1.3;       // less is no reason, however significant
 constexpr double kSensorFactor = 2.25;  // of a variance: a standard deviation that is 1.5 times what is stated
-constexpr double kMotionFactor = 4.0;   // the motion's shows less clearly
+constexpr double kMotionFactor = 3.0;   // the motion's shows less clearly
 constexpr double kJumpProbability = 1e-6;
 constexpr double kLostShare = 0.5, kLostCompared = 6.0;  // most of what is seen is refused
 
