@@ -129,6 +129,9 @@ typedef struct cairn_filter_options {
   double wheel_scale_sigma[2];   /**< the same for the scales of the left and the right wheels: a wheel turns at the
                                       measured rate times 1 + its scale */
   double wheel_scale_walk[2];    /**< in the square root of a second */
+  uint32_t max_sensor_errors;    /**< numbers that \ref cairn_filter_calibrate_sensor makes states, over all sensors,
+                                      0 to 64; default 0 */
+  uint32_t reserved2;            /**< 0 */
 } cairn_filter_options;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
@@ -218,6 +221,13 @@ CAIRN_API cairn_status cairn_filter_set_twist_noise(cairn_filter *filter, const 
 CAIRN_API cairn_status cairn_filter_predict_wheels(cairn_filter *filter, double dt, double left_rad_per_s,
                                                    double right_rad_per_s);
 
+/** Moves the vehicle by the turning rates of its left and right wheels (rad/s) and the body rate of a gyro (rad/s)
+ *  over `dt` seconds (> 0): the velocity is that of \ref cairn_filter_predict_wheels, with its noise, and the rate has
+ *  the noise of \ref cairn_filter_set_twist_noise. A planar vehicle reads only the rate about z.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(1). \since 0.2.0 */
+CAIRN_API cairn_status cairn_filter_predict_wheels_gyro(cairn_filter *filter, double dt, double left_rad_per_s,
+                                                        double right_rad_per_s, const double rate[3]);
+
 /** Moves the vehicle by its body velocity (m/s) and body rate (rad/s) over `dt` seconds (> 0).
  *  Mars paper, eq. 2. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(1).
  *  \since 0.1.0 */
@@ -226,8 +236,8 @@ CAIRN_API cairn_status cairn_filter_predict_twist(cairn_filter *filter, double d
 
 /** Moves the vehicle by a relative pose, `T_map_body <- T_map_body T_before_after`, with the covariance (6x6 row-major,
  *  symmetric, positive semidefinite) of its error [dp; dtheta] in the axes of the body before the motion.
- *  An increment has no duration: a filter that estimates a velocity or rate bias refuses it, and no random walk goes on.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (a bias is a
+ *  An increment has no duration: a filter that estimates a velocity or rate bias refuses it, and no random walk goes
+ * on. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (a bias is a
  *  state). Complexity: O(1). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_predict_increment(cairn_filter *filter, const cairn_pose *T_before_after,
                                                       const double covariance[36]);

@@ -67,6 +67,62 @@ class Usv(ProgramTest):
         with open(os.path.join(self.path("out"), "summary.json")) as file:
             self.assertEqual(self.untimed(json.load(file)), self.untimed(s))
 
+    def steps(self, name="out"):
+        """norm_m2 and recursion_ms of team_steps.csv by (features, mode, vehicle), as lists of floats over the steps."""
+        found = {}
+        for row in self.read_csv(self.path(name), "team_steps.csv"):
+            norm, taken = found.setdefault((row["features"], row["mode"], row["vehicle"]), ([], []))
+            self.assertEqual(len(norm), int(row["step"]))
+            norm.append(float(row["norm_m2"]))
+            taken.append(float(row["recursion_ms"]))
+        return found
+
+    def test_steps_of_the_team_and_of_each_boat_by_itself(self):
+        s = self.usv("--mode", "eo_full", "--features", "6", "--output", self.path("out"))
+        found = self.steps()
+        self.assertEqual(set(found), {("6", mode, boat) for mode in ("eo_full", "mono") for boat in ("1", "2")})
+        self.assertEqual({len(norm) for norm, _ in found.values()}, {s["steps"]})
+        first = s["steps"] // 10 + 1  # from a tenth of the run on, as the program scores
+        ratio = sum(found["6", "eo_full", "1"][0][first:]) / sum(found["6", "mono", "1"][0][first:])
+        self.assertAlmostEqual(1 - ratio, s["claimed_improvement"], places=5)
+        taken = found["6", "eo_full", "1"][1] + found["6", "eo_full", "2"][1]
+        self.assertAlmostEqual(sum(taken) / len(taken), s["recursion_ms_mean"], delta=1e-4 * s["recursion_ms_mean"])
+        correlated = 0
+        for row in self.read_csv(self.path("out"), "team_trajectories.csv"):  # the norm is at least that of the variances
+            norm = found["6", "eo_full", row["vehicle"]][0][int(row["step"])]
+            variances = [(float(row[name]) / 3) ** 2 for name in ("sigma3_x", "sigma3_y")]
+            self.assertGreaterEqual(norm * (1 + 1e-4), math.hypot(*variances))
+            self.assertLessEqual(norm, sum(variances) * (1 + 1e-4))
+            correlated += norm > 1.01 * math.hypot(*variances)
+        self.assertGreater(correlated, 100)
+
+    def test_steps_of_boats_by_themselves_are_written_once(self):
+        self.usv("--mode", "mono", "--duration", "100", "--output", self.path("out"))
+        rows = self.read_csv(self.path("out"), "team_steps.csv")
+        self.assertEqual({(row["mode"], row["runs"]) for row in rows}, {("mono", "1")})
+        self.assertEqual(len(rows), 2 * 21)
+
+    def test_the_scene(self):
+        self.usv("--vehicles", "3", "--features", "7", "--far-range", "4000", "--output", self.path("out"))
+        rows = self.read_csv(self.path("out"), "team_scene.csv")
+        kinds = {kind: [row for row in rows if row["kind"] == kind] for kind in ("coast", "feature", "course", "radar", "drive")}
+        self.assertEqual({kind: len(of_it) for kind, of_it in kinds.items()},
+                         {"coast": 201, "feature": 7, "course": 3, "radar": 3, "drive": 3 * 301})
+        self.assertEqual({float(row["radius"]) for row in kinds["radar"]}, {4000})
+        known = {row["id"]: row for row in self.read_csv(self.path("out"), "team_landmarks.csv")}
+        for row in kinds["feature"]:
+            if row["id"] in known:
+                self.assertEqual((row["x"], row["y"]), (known[row["id"]]["true_x"], known[row["id"]]["true_y"]))
+        truth = [row for row in self.read_csv(self.path("out"), "team_trajectories.csv")]
+        self.assertEqual([(row["id"], row["x"], row["y"]) for row in kinds["drive"]],
+                         [(row["vehicle"], row["true_x"], row["true_y"]) for row in truth])
+        for course, radar, start in zip(kinds["course"], kinds["radar"], truth):
+            self.assertEqual((radar["x"], radar["y"]), (start["true_x"], start["true_y"]))
+            radius = float(course["radius"])
+            self.assertAlmostEqual(radius, 1700 / (2 * math.pi), places=2)
+            self.assertAlmostEqual(float(course["x"]), float(start["true_x"]), places=2)  # it starts in the south
+            self.assertAlmostEqual(float(course["y"]) - radius, float(start["true_y"]), places=2)
+
     def test_withheld_ids(self):
         s = self.usv("--features", "6", "--association", "joint", "--range-noise", "3", "--bearing-noise", "0.001")
         self.assertGreater(s["paired"], 1000)
@@ -88,6 +144,17 @@ class Usv(ProgramTest):
         for row in rows:
             own = summary[f"{row['mode']}_{row['features']}"]
             self.assertAlmostEqual(100 * own["claimed_improvement"], float(row["claimed"]), places=3)
+        found = self.steps()
+        self.assertEqual(set(found), {(f, mode, boat) for f in ("6", "10", "40") for mode in MODES for boat in ("1", "2")})
+        self.assertTrue(all(0 < value < 1e4 for _, taken in found.values() for value in taken))
+        first = 301 // 10 + 1
+        for row in rows:
+            ratio = (sum(found[row["features"], row["mode"], "1"][0][first:])
+                     / sum(found[row["features"], "mono", "1"][0][first:]))
+            self.assertAlmostEqual(100 * (1 - ratio), float(row["claimed"]), places=3)
+        self.assertEqual({row["runs"] for row in self.read_csv(self.path("out"), "team_steps.csv")}, {"2"})
+        scene = self.read_csv(self.path("out"), "team_scene.csv")
+        self.assertEqual(sum(row["kind"] == "feature" for row in scene), 40)
 
     def test_bad_usage(self):
         for arguments, word in ((["--mode", "friends"], "eo_full"), (["--vehicles", "0"], "1 to 64"),

@@ -178,6 +178,24 @@ class ResultsTest(unittest.TestCase):
         with cairn.Filter() as none, self.assertRaises(cairn.CairnError) as caught:
             none.trajectory()
         self.assertEqual(caught.exception.status, cairn.ERROR_STATE)
+    def test_systematic_errors(self):
+        with cairn.Filter(max_landmarks=20, velocity_bias_sigma=[0, 0.2, 0.1], max_sensor_errors=2) as one:
+            sensor = one.add_cartesian(sigma=[0.1, 0.1, 0.2])
+            one.calibrate_sensor(sensor, mount_turn_sigma=[0, 0, 0.02], offset_sigma=[0.3, 0, 0])
+            errors = one.systematic_errors()
+            self.assertEqual(list(errors["kind"]), [lib.CAIRN_SYSTEMATIC_VELOCITY_BIAS] * 2 +
+                             [lib.CAIRN_SYSTEMATIC_MOUNT_TURN, lib.CAIRN_SYSTEMATIC_OFFSET])
+            self.assertEqual(list(errors["component"]), [1, 2, 2, 0])
+            self.assertEqual(list(errors["sensor"]), [-1, -1, sensor, sensor])
+            np.testing.assert_allclose(errors["sigma"], [0.2, 0.1, 0.02, 0.3])
+            np.testing.assert_allclose(one.systematic_covariance(), np.diag(errors["sigma"] ** 2))
+            one.predict_wheels_gyro(0.5, 2, 2, [0, 0, 0.1])
+            self.assertGreater(one.pose.position[0], 0.1)
+        with cairn.Filter() as none:
+            self.assertEqual(len(none.systematic_errors()), 0)
+            self.assertEqual(none.systematic_covariance().shape, (0, 0))
+        with self.assertRaisesRegex(ValueError, "velocity_bias_walk"):
+            cairn.Filter(velocity_bias_walk=[0.1, 0, 0])
 
     def test_required_bytes(self):
         small, large = (cairn.Filter.required_bytes(max_landmarks=n) for n in (10, 1000))

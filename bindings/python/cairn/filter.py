@@ -86,6 +86,30 @@ class Filter(Handle):
         """Sets the pan and stick angles of a stereo head, rad. They hold until the next call."""
         self._call(lib.cairn_filter_point_head, sensor, pan, stick)
 
+    # Systematic errors.
+
+    def calibrate_sensor(self, sensor, **calibration):
+        """Makes systematic errors of a sensor states: fields of cairn_calibration. Before the first motion."""
+        self._call(lib.cairn_filter_calibrate_sensor, sensor, _structs.new("cairn_calibration", calibration))
+
+    def systematic_errors(self):
+        """The estimates of all systematic errors that are states, as an array with the fields of
+        cairn_systematic_error."""
+        with self._use() as handle:
+            return _structs.filled("cairn_systematic_error",
+                                   lambda errors, capacity, needed: lib.cairn_filter_systematic_errors(
+                                       handle, errors, ffi.NULL, capacity, needed))
+
+    def systematic_covariance(self):
+        """The joint covariance of systematic_errors(), n x n."""
+        errors = self.systematic_errors()
+        covariance = np.zeros((len(errors), len(errors)))
+        if len(errors):
+            self._call(lib.cairn_filter_systematic_errors,
+                       ffi.from_buffer("cairn_systematic_error *", errors, require_writable=True),
+                       _structs.doubles(covariance), len(errors), ffi.new("size_t *"))
+        return covariance
+
     # Motion.
 
     def set_wheels(self, **description):
@@ -99,6 +123,11 @@ class Filter(Handle):
     def predict_wheels(self, dt, left_rad_per_s, right_rad_per_s):
         """Moves the vehicle by the rates of its wheels (rad/s) over dt (s)."""
         self._call(lib.cairn_filter_predict_wheels, dt, left_rad_per_s, right_rad_per_s)
+
+    def predict_wheels_gyro(self, dt, left_rad_per_s, right_rad_per_s, rate):
+        """Moves the vehicle by the rates of its wheels (rad/s) and the body rate of a gyro (3, rad/s) over dt (s)."""
+        rate = _structs.array("rate", rate, (3,))
+        self._call(lib.cairn_filter_predict_wheels_gyro, dt, left_rad_per_s, right_rad_per_s, _structs.doubles(rate))
 
     def predict_twist(self, dt, velocity, rate):
         """Moves the vehicle by its body velocity (3, m/s) and body rate (3, rad/s) over dt (s)."""

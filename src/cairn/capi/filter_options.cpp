@@ -3,10 +3,10 @@
 // choices come from one table, options/filter_options.def.
 #include <algorithm>
 #include <initializer_list>
-#include <string>
 
 #include "capi/convert.hpp"
 #include "capi/filter_handle.hpp"
+#include "capi/read_errors.hpp"
 #include "options/bounds.hpp"
 
 using namespace cairn;
@@ -84,38 +84,17 @@ AssociationKind association_of(const cairn_filter_options& o) {
                                                     : AssociationKind::known;
 }
 
-// Standard deviations and random walks of systematic errors, `count` of each.
-void read_errors(const double* sigma, const double* walk, int count, const char* name, bool (*exists)(int),
-                 double* sigmas, double* walks) {
-  for (int i = 0; i < count; ++i) {
-    const std::string at = "[" + std::to_string(i) + "]";
-    const std::string of_sigma = std::string("options.") + name + "_sigma" + at;
-    const std::string of_walk = std::string("options.") + name + "_walk" + at;
-    check_range(sigma[i], 0.0, 1e6, of_sigma.c_str());
-    check_range(walk[i], 0.0, 1e6, of_walk.c_str());
-    if (walk[i] > 0.0 && sigma[i] == 0.0)
-      throw Error(ErrorCode::argument, "%s is %g, but %s is 0; a random walk needs a standard deviation at the start",
-                  of_walk.c_str(), walk[i], of_sigma.c_str());
-    if (sigma[i] > 0.0 && !exists(i))
-      throw Error(ErrorCode::argument, "%s is %g, but a vehicle in the plane does not move along this axis",
-                  of_sigma.c_str(), sigma[i]);
-    sigmas[i] = sigma[i];
-    walks[i] = walk[i];
-  }
-}
-
 SystematicOptions systematic_of(const cairn_filter_options& o) {
   SystematicOptions options;
-  const auto always = [](int) { return true; };
   const bool planar = o.vehicle == CAIRN_VEHICLE_PLANAR;
-  const auto read = [&](const double* sigma, const double* walk, int count, const char* name, bool (*exists)(int),
-                        int first) {
-    read_errors(sigma, walk, count, name, exists, options.motion_sigma + first, options.motion_walk + first);
-  };
-  read(o.velocity_bias_sigma, o.velocity_bias_walk, 3, "velocity_bias", planar ? [](int i) { return i < 2; } : always,
-       0);
-  read(o.rate_bias_sigma, o.rate_bias_walk, 3, "rate_bias", planar ? [](int i) { return i == 2; } : always, 3);
-  read(o.wheel_scale_sigma, o.wheel_scale_walk, 2, "wheel_scale", always, MotionErrors::kScale);
+  double* const sigma = options.motion_sigma;
+  double* const walk = options.motion_walk;
+  read_errors(o.velocity_bias_sigma, o.velocity_bias_walk, 3, "options.velocity_bias", planar ? Axes::xy : Axes::all,
+              sigma, walk);
+  read_errors(o.rate_bias_sigma, o.rate_bias_walk, 3, "options.rate_bias", planar ? Axes::z : Axes::all, sigma + 3,
+              walk + 3);
+  read_errors(o.wheel_scale_sigma, o.wheel_scale_walk, 2, "options.wheel_scale", Axes::all,
+              sigma + MotionErrors::kScale, walk + MotionErrors::kScale);
   return options;
 }
 

@@ -103,6 +103,20 @@ cairn_status cairn_filter_predict_wheels(cairn_filter* filter, double dt, double
   });
 }
 
+cairn_status cairn_filter_predict_wheels_gyro(cairn_filter* filter, double dt, double left_rad_per_s,
+                                              double right_rad_per_s, const double rate[3]) {
+  return guard([&] {
+    with_filter(filter, [&](auto& f) {
+      check_positive(dt, "dt");
+      check_finite(left_rad_per_s, "left_rad_per_s");
+      check_finite(right_rad_per_s, "right_rad_per_s");
+      check_pointer(rate, "rate");
+      check_finite(rate, 3, "rate");
+      f.predict_wheels_gyro(dt, left_rad_per_s, right_rad_per_s, Vector3(rate));
+    });
+  });
+}
+
 cairn_status cairn_filter_predict_twist(cairn_filter* filter, double dt, const double velocity[3],
                                         const double rate[3]) {
   return guard([&] {

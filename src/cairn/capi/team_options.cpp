@@ -2,6 +2,7 @@
 // Options of teams.
 #include "capi/convert.hpp"
 #include "capi/team_handle.hpp"
+#include "slam/systematic_errors.hpp"
 
 namespace cairn {
 namespace capi {
@@ -68,6 +69,11 @@ TeamOptions team_options(const cairn_team_options& o, const cairn_filter_options
     throw Error(ErrorCode::argument, "filter.trajectory_poses must be 0 for a team, and is %td",
                 planar->trajectory_poses);
   options.filter = *planar;
+  if (SystematicErrors(planar->systematic, false).any() || planar->max_sensor_errors > 0)
+    throw Error(
+        ErrorCode::argument,
+        "filter: the filters of a team estimate no systematic errors; set velocity_bias_sigma, rate_bias_sigma, "
+        "wheel_scale_sigma and max_sensor_errors to 0");
   options.filter.max_sensors = 2;
   options.radar = read_range_bearing(radar);
   const bool extended = options.mode == TeamMode::eo_diagonal || options.mode == TeamMode::eo_full;

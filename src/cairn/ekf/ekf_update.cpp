@@ -276,11 +276,11 @@ void EkfUpdate<Pose>::correlate_mount() {
 
 template <class Pose>
 bool EkfUpdate<Pose>::place(const Point& position, const PointByPose& J_pose, const PointByMount* J_mount,
-                            const PointSquare& noise, bool relative) {
+                            const PointSquare& noise, bool relative, const ErrorColumns<kDim>* errors) {
   require(stage_ == Stage::committed || batch().rows() == 0, "place");
   stage_ = Stage::committed;  // the window's columns are those of the state before
   const typename State<Pose>::SharedMount mount{mount_covariance_, workspace_.mount_cross};
-  return state_.augment(position, J_pose, noise, relative, J_mount, &mount);
+  return state_.augment(position, J_pose, noise, relative, J_mount, &mount, errors);
 }
 
 template class EkfUpdate<SE2>;

@@ -62,10 +62,10 @@ bool PendingMotion<Pose>::add(const Pose& before, const Pose& next, const Increm
   Coupling C = C_, N_cross = N_cross_;
   const bool coupled = motion_ > 0 && coupling != nullptr;
   if (motion_ > 0 && !model_.invariant()) {
-    C.template topRows<kDim>() += Rotation::turn(next.translation() - before.translation()) *
-                                  C_.template bottomRows<kTurn>();
-    N_cross.template topRows<kDim>() += Rotation::turn(next.translation() - before.translation()) *
-                                        N_cross_.template bottomRows<kTurn>();
+    C.template topRows<kDim>() +=
+        Rotation::turn(next.translation() - before.translation()) * C_.template bottomRows<kTurn>();
+    N_cross.template topRows<kDim>() +=
+        Rotation::turn(next.translation() - before.translation()) * N_cross_.template bottomRows<kTurn>();
   }
   if (coupled) {  // (docs/systematic_errors.md, eq. 5 and 6): the walk so far moves the pose, too
     const Coupling E = B * coupling->J;

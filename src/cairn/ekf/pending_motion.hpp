@@ -58,7 +58,7 @@ class PendingMotion {
   const Square& N() const { return N_; }
   const Coupling& C() const { return C_; }  // of the first motion() systematic errors; zero elsewhere
   Index motion() const { return motion_; }
-  Square pose_block(const LowerTriangle& P) const;  // of P_now
+  Square pose_block(const LowerTriangle& P) const;                           // of P_now
   double walked(Index i) const { return any_ ? walk_[i] * elapsed_ : 0.0; }  // variance by the walk since then
   // Rows of systematic error i of P_now, with [pose; systematic errors].
   void systematic_row(const LowerTriangle& P, Index i, double* row) const;

@@ -38,8 +38,8 @@ UpdateWorkspace<Pose>::UpdateWorkspace(Arena& arena, const StateCapacity<Pose>& 
       scratch(arena.take<double>(
           std::max({solve_workspace(capacity.rows()),
                     static_cast<std::size_t>(capacity.rows() * capacity.rows()) + cholesky_workspace(capacity.rows()),
-                    update_triangle_workspace(
-                        capacity.states(), capacity.rows() + (capacity.systematic > 0 ? 2 : 1) * Pose::kTurn)}))),
+                    update_triangle_workspace(capacity.states(),
+                                              capacity.rows() + (capacity.systematic > 0 ? 2 : 1) * Pose::kTurn)}))),
       kept(arena.take<Index>(capacity.rows())),
       refused(arena.take<bool>(capacity.rows())) {}
 
@@ -90,7 +90,8 @@ bool State<Pose>::widen(const Square& ordinary_covariance) {
 template <class Pose>
 void State<Pose>::write_covariance(Index rank, const double* columns) {
   const Index n = states();
-  for (Index c = 0; c < layout_.moving(); ++c) std::copy(columns + c * ld_ + c, columns + c * ld_ + n, P_.column(c) + c);
+  for (Index c = 0; c < layout_.moving(); ++c)
+    std::copy(columns + c * ld_ + c, columns + c * ld_ + n, P_.column(c) + c);
   const TriangleTerm terms[] = {
       {workspace_.W, ld_, workspace_.W, ld_, rank, -1.0}, motion_.term(), motion_.second_term()};
   if (rank + motion_.rank() > 0)
@@ -132,9 +133,26 @@ void State<Pose>::move(const double* error) {
   }
 }
 
+// The part of a new landmark's covariance that systematic errors have.
+template <class Pose>
+typename State<Pose>::PointSquare State<Pose>::covariance_by(const ErrorColumns<kDim>& errors,
+                                                             const PointByPose& J) const {
+  PointSquare sum = PointSquare::Zero();
+  for (Index i = 0; i < errors.count; ++i) {
+    const Index at = kDof + errors.first + i;
+    Point with_pose = Point::Zero();  // covariance of J e_pose with the error
+    for (Index k = 0; k < kDof; ++k) with_pose += J.col(k) * P_(at, k);
+    const PointSquare mixed = with_pose * errors.J.col(i).transpose();
+    sum += mixed + mixed.transpose();
+    for (Index j = 0; j < errors.count; ++j)
+      sum += P_.symmetric(at, kDof + errors.first + j) * errors.J.col(i) * errors.J.col(j).transpose();
+  }
+  return sum;
+}
+
 template <class Pose>
 bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, const PointSquare& noise, bool relative,
-                          const PointByMount* J_mount, const SharedMount* mount) {
+                          const PointByMount* J_mount, const SharedMount* mount, const ErrorColumns<kDim>* errors) {
   const Point landmark = position - origin_;
   // Jacobians by the state's own errors: xi_l = e_l - G(l) xi_R, and e_p = xi_p + G(p) xi_R.
   PointByPose J = J_pose;
@@ -149,6 +167,7 @@ bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, cons
   const bool shares = J_mount != nullptr;
   const PointByMount M = shares ? *J_mount : PointByMount(PointByMount::Zero());
   const MountSquare<Pose> mount_covariance = shares ? mount->covariance : MountSquare<Pose>(MountSquare<Pose>::Zero());
+  if (errors != nullptr) apply_pending();  // so that the covariances below are those of P
   const Square pose = pose_block();
   PointByMount cross;  // covariance of the new landmark with the mount
   Eigen::Matrix<double, kDof, kMount> pose_mount = Eigen::Matrix<double, kDof, kMount>::Zero();
@@ -157,8 +176,21 @@ bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, cons
       for (Index r = 0; r < kDof; ++r) pose_mount(r, c) = mount->cross[c * ld_ + r];
   cross = J * pose_mount + M * mount_covariance;
   const PointSquare mixed = J * pose_mount * M.transpose();
-  const PointSquare block =
+  PointSquare block =
       J * pose * J.transpose() + mixed + mixed.transpose() + M * mount_covariance * M.transpose() + noise;
+  if (errors != nullptr) {
+    const PointSquare by_errors = covariance_by(*errors, J);
+    block += by_errors;
+    for (Index i = 0; shares && i < errors->count; ++i) {
+      PointSquare with_mount = PointSquare::Zero();
+      for (Index c = 0; c < kMount; ++c) {
+        const double covariance = mount->cross[c * ld_ + kDof + errors->first + i];
+        cross.col(c) += errors->J.col(i) * covariance;
+        with_mount += errors->J.col(i) * covariance * M.col(c).transpose();
+      }
+      block += with_mount + with_mount.transpose();
+    }
+  }
   if (!landmark.allFinite() || !J.allFinite() || !block.allFinite()) return false;
   apply_pending();
 
@@ -169,6 +201,8 @@ bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, cons
       for (Index k = 0; k < kDof; ++k) value += J(r, k) * P_.symmetric(c, k);
       if (shares)
         for (Index k = 0; k < kMount; ++k) value += M(r, k) * mount->cross[k * ld_ + c];
+      for (Index i = 0; errors != nullptr && i < errors->count; ++i)
+        value += errors->J(r, i) * P_.symmetric(c, kDof + errors->first + i);
       P_(n + r, c) = value;
     }
   for (Index c = 0; c < kDim; ++c)

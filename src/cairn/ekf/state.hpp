@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The state of a filter: one pose, systematic errors, many points (landmarks and companions), and their covariance, of
-// which this class is the only owner. ErrorModel defines which error the covariance describes. StateLayout defines the offset of each
-// variable.
+// which this class is the only owner. ErrorModel defines which error the covariance describes. StateLayout defines the
+// offset of each variable.
 //
 // Only the lower triangle of P is kept. Motion between two updates costs O(1): PendingMotion holds it back until the
 // next update. begin() makes an update (ekf_update.hpp).
@@ -80,8 +80,9 @@ class State {
   // --- marginals ---
   // Joint covariance of the pose and `count` points, both triangles, in the state's own error coordinates.
   void gather(const Index* slots, Index count, double* out, Index ld) const;
-  // The same with the systematic errors behind the pose: [pose; systematic errors; points].
-  void gather_systematic(const Index* slots, Index count, double* out, Index ld) const;
+  // The same with the systematic errors behind the pose: [pose; systematic errors; points]. `ordinary`: of the ordinary
+  // errors of pose and points. Allocates.
+  void gather_systematic(const Index* slots, Index count, double* out, Index ld, bool ordinary = false) const;
   // Covariance of the systematic errors, both triangles.
   void systematic_covariance(double* out) const;
   // The same as gather() in ordinary errors.
@@ -106,10 +107,11 @@ class State {
     double* cross;  // of every state with it; gets the new point's rows
   };
   // Appends a landmark that depends on the pose (ordinary Jacobian), on a shared mount (J_mount and `mount` may be
-  // null), and on independent noise. Returns false, with nothing changed, if a result is not finite. The caller checks
-  // the capacity.
+  // null), on systematic errors (`errors` may be null), and on independent noise. Returns false, with nothing changed,
+  // if a result is not finite. The caller checks the capacity.
   bool augment(const Point& position, const PointByPose& J_pose, const PointSquare& noise, bool relative,
-               const PointByMount* J_mount = nullptr, const SharedMount* mount = nullptr);
+               const PointByMount* J_mount = nullptr, const SharedMount* mount = nullptr,
+               const ErrorColumns<kDim>* errors = nullptr);
   // Removes a landmark; the last one moves into its slot.
   void remove(Index slot);
   // Two landmarks change slots.
@@ -140,9 +142,12 @@ class State {
     Index fused_count;
     const Point* fresh;  // landmarks not known here, in the submap's frame
     Index fresh_count;
-    // Error (of the error model) of [end pose; fresh landmarks] in the submap: K y + w. w has covariance W, and y is
-    // the ordinary error of the fused landmarks.
+    // Error (of the error model) of [end pose; what walked; fresh landmarks] in the submap: K y + w. w has covariance
+    // W, and y is the ordinary error of [systematic errors; fused landmarks].
     Eigen::MatrixXd K, W;
+    const Index* walking = nullptr;  // systematic errors that walked in the submap
+    Index walking_count = 0;
+    Eigen::VectorXd walked;  // how far
   };
   // The end pose becomes the state's pose, and the fresh landmarks are appended. The caller checks the capacity.
   // Allocates.
@@ -172,6 +177,7 @@ class State {
   };
   PointByMotion with_motion_states(Index row) const;  // covariance of a point with the motion's systematic errors
   PendingTurn pending_turn() const;
+  PointSquare covariance_by(const ErrorColumns<kDim>& errors, const PointByPose& J) const;
   PointSquare relative_change(Index row, const PointByPose& J) const;
   // P <- P_now - W W^T over `rank` columns of W, the pending motion's noise added in the same pass. `columns` are those
   // of the pose and the systematic errors.

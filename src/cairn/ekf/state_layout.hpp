@@ -3,11 +3,13 @@
 // it). This is the only file that computes offsets.
 //
 // The order is [pose; systematic errors; attitudes of companions; points], that is
-// [xi_p; xi_R; s; theta_1; theta_2; ...; xi_1; xi_2; ...]. A systematic error is a number, and a point is the position of
-// a companion (the first slots) or a landmark (all later slots). Pose and systematic errors are the states that motion
-// changes: their columns of P are always written completely. A new kind of variable (a clone) goes between them and the
-// points: it adds to lead() and gets a Retraction.
+// [xi_p; xi_R; s; theta_1; theta_2; ...; xi_1; xi_2; ...]. A systematic error is a number, and a point is the position
+// of a companion (the first slots) or a landmark (all later slots). Pose and systematic errors are the states that
+// motion changes: their columns of P are always written completely. A new kind of variable (a clone) goes between them
+// and the points: it adds to lead() and gets a Retraction.
 #pragma once
+
+#include <Eigen/Core>
 
 #include "linear/small_algebra.hpp"
 
@@ -39,7 +41,7 @@ class StateLayout {
   static Index states(Index companions, Index points, Index systematic = 0) {
     return kDof + systematic + kTurn * companions + kDim * points;
   }
-  Index moving() const { return kDof + systematic_; }               // states of the pose and the systematic errors
+  Index moving() const { return kDof + systematic_; }            // states of the pose and the systematic errors
   Index lead() const { return moving() + kTurn * companions_; }  // states before the first point
 
   static Block pose() { return {0, kDof, Retraction::pose, 0}; }
@@ -62,6 +64,15 @@ class StateLayout {
 
  private:
   Index systematic_ = 0, companions_ = 0, points_ = 0;
+};
+
+// Columns of a Jacobian by systematic errors that follow each other: at most two states for each number of a sensor's
+// calibration.
+template <int kRows>
+struct ErrorColumns {
+  static constexpr Index kMost = 18;
+  Eigen::Matrix<double, kRows, kMost> J = Eigen::Matrix<double, kRows, kMost>::Zero();
+  Index first = 0, count = 0;
 };
 
 // The layout of an update's window: [pose; systematic errors; mount; chosen points].

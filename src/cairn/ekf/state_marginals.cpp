@@ -133,7 +133,7 @@ void State<Pose>::gather(const Index* slots, Index count, double* out, Index ld)
 }
 
 template <class Pose>
-void State<Pose>::gather_systematic(const Index* slots, Index count, double* out, Index ld) const {
+void State<Pose>::gather_systematic(const Index* slots, Index count, double* out, Index ld, bool ordinary) const {
   const Index own = systematic(), moving = layout_.moving(), n = moving + kDim * count;
   std::vector<double> plain(static_cast<std::size_t>((n - own) * (n - own)));
   gather(slots, count, plain.data(), n - own);
@@ -154,8 +154,22 @@ void State<Pose>::gather_systematic(const Index* slots, Index count, double* out
                  Eigen::Map<const typename Rotation::Tangent>(turned.data() + (kDof + i) * kTurn);
       Eigen::Map<Point>(column + moving + kDim * a) = cross;
     }
-    for (Index r = 0; r < n; ++r) out[r * ld + kDof + i] = column[r];
   }
+  if (ordinary && model_.invariant()) {
+    model_.to_ordinary(
+        count, [&](Index x) -> Point { return x < 0 ? pose_.translation() : local(slots[x]); }, plain.data(), n - own);
+    for (Index c = 0; c < n - own; ++c)
+      for (Index r = 0; r < n - own; ++r) out[at(c) * ld + at(r)] = plain[static_cast<std::size_t>(c * (n - own) + r)];
+    for (Index i = 0; i < own; ++i) {
+      double* column = out + (kDof + i) * ld;
+      const typename Rotation::Tangent turn = Eigen::Map<const typename Rotation::Tangent>(column + kDim);
+      Eigen::Map<Point>(column) += model_.arm(pose_.translation()) * turn;
+      for (Index a = 0; a < count; ++a)
+        Eigen::Map<Point>(column + moving + kDim * a) += model_.arm(local(slots[a])) * turn;
+    }
+  }
+  for (Index i = 0; i < own; ++i)
+    for (Index r = 0; r < n; ++r) out[r * ld + kDof + i] = out[(kDof + i) * ld + r];
 }
 
 template <class Pose>
@@ -267,7 +281,7 @@ template State<SE2>::PendingTurn State<SE2>::pending_turn() const;
 template State<SE2>::PointSquare State<SE2>::relative_change(Index, const PointByPose&) const;
 template void State<SE2>::gather(const Index*, Index, double*, Index) const;
 template void State<SE2>::gather_ordinary(const Index*, Index, double*, Index) const;
-template void State<SE2>::gather_systematic(const Index*, Index, double*, Index) const;
+template void State<SE2>::gather_systematic(const Index*, Index, double*, Index, bool) const;
 template void State<SE2>::systematic_covariance(double*) const;
 template SE2::Square State<SE2>::pose_covariance() const;
 template State<SE2>::PointSquare State<SE2>::landmark_covariance(Index) const;
@@ -281,7 +295,7 @@ template State<SE3>::PendingTurn State<SE3>::pending_turn() const;
 template State<SE3>::PointSquare State<SE3>::relative_change(Index, const PointByPose&) const;
 template void State<SE3>::gather(const Index*, Index, double*, Index) const;
 template void State<SE3>::gather_ordinary(const Index*, Index, double*, Index) const;
-template void State<SE3>::gather_systematic(const Index*, Index, double*, Index) const;
+template void State<SE3>::gather_systematic(const Index*, Index, double*, Index, bool) const;
 template void State<SE3>::systematic_covariance(double*) const;
 template SE3::Square State<SE3>::pose_covariance() const;
 template State<SE3>::PointSquare State<SE3>::landmark_covariance(Index) const;

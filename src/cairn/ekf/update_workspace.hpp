@@ -16,7 +16,7 @@ struct StateCapacity {
   Index observations;  // points that one batch may touch
   Index companions = 0;
   Index systematic = 0;
-  Index rows() const { return std::max<Index>(kDim * observations, kDof); }
+  Index rows() const { return std::max<Index>({kDim * observations, kDof, systematic}); }
   Index window() const { return kDof + systematic + kMount + kDim * observations; }
   Index states() const { return kDof + systematic + kTurn * companions + kDim * landmarks; }
   Index blocks() const { return (systematic > 0 ? 4 : 3) * observations + 1; }  // of a batch's Jacobian

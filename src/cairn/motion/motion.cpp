@@ -88,6 +88,20 @@ CorrectedStep<Pose> drive_wheels(const Wheels& wheels, double left, double right
   return corrected<Pose>(twist, dt, noise, J_twist_rates * rates.asDiagonal());
 }
 
+template <class Pose>
+CorrectedStep<Pose> drive_wheels_gyro(const Wheels& wheels, double left, double right, const Vector3& w, double dt,
+                                      const TwistNoise& noise, const MotionErrors& errors) {
+  Matrix62 J_twist_rates = twist_by_rates(wheels);
+  J_twist_rates.row(5).setZero();
+  const Vector2 rates(left, right);
+  const Vector2 true_rates = rates.cwiseProduct(Vector2::Ones() + errors.scale);
+  Matrix6 noise_of_twist = noise_of(wheels, rates, J_twist_rates);
+  noise_of_twist.bottomRightCorner<3, 3>() = noise_of(noise).bottomRightCorner<3, 3>();
+  Vector6 twist = J_twist_rates * true_rates - errors.twist;
+  twist.tail<3>() += w;
+  return corrected<Pose>(twist, dt, noise_of_twist, J_twist_rates * rates.asDiagonal());
+}
+
 template Increment<SE2> integrate_twist<SE2>(const Vector3&, const Vector3&, double, const TwistNoise&);
 template Increment<SE3> integrate_twist<SE3>(const Vector3&, const Vector3&, double, const TwistNoise&);
 template CorrectedStep<SE2> integrate_twist<SE2>(const Vector3&, const Vector3&, double, const TwistNoise&,
@@ -98,5 +112,9 @@ template Increment<SE2> drive_wheels<SE2>(const Wheels&, double, double, double)
 template Increment<SE3> drive_wheels<SE3>(const Wheels&, double, double, double);
 template CorrectedStep<SE2> drive_wheels<SE2>(const Wheels&, double, double, double, const MotionErrors&);
 template CorrectedStep<SE3> drive_wheels<SE3>(const Wheels&, double, double, double, const MotionErrors&);
+template CorrectedStep<SE2> drive_wheels_gyro<SE2>(const Wheels&, double, double, const Vector3&, double,
+                                                   const TwistNoise&, const MotionErrors&);
+template CorrectedStep<SE3> drive_wheels_gyro<SE3>(const Wheels&, double, double, const Vector3&, double,
+                                                   const TwistNoise&, const MotionErrors&);
 
 }  // namespace cairn

@@ -88,5 +88,9 @@ Increment<Pose> drive_wheels(const Wheels& wheels, double left, double right, do
 template <class Pose>
 CorrectedStep<Pose> drive_wheels(const Wheels& wheels, double left, double right, double dt,
                                  const MotionErrors& errors);
+// The forward velocity of the wheels, and a measured body rate in place of theirs; `noise` is that of the rate.
+template <class Pose>
+CorrectedStep<Pose> drive_wheels_gyro(const Wheels& wheels, double left, double right, const Vector3& w, double dt,
+                                      const TwistNoise& noise, const MotionErrors& errors);
 
 }  // namespace cairn

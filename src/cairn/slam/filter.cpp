@@ -20,12 +20,7 @@ Filter<Pose>::Filter(Arena& arena, const FilterOptions<Pose>& options)
       health_(arena, {options.max_sensors, options.max_observations, options.gate_probability, options.apply_noise}),
       frames_(arena, options_, local_, thresholds_, trust_, report_, health_, log_),
       batches_(arena, options_, local_, submaps_, thresholds_, trust_, report_, health_, log_) {
-  if (arena.measuring()) return;
-  if (options.single_map())
-    local_.start(options.initial_pose, options.initial_covariance);
-  else
-    local_.start(Pose(), Square::Zero());
-  submaps_.make_map();
+  if (!arena.measuring()) begin();
 }
 
 template <class Pose>
@@ -41,10 +36,62 @@ std::size_t Filter<Pose>::required_bytes(const FilterOptions<Pose>& options) {
 }
 
 template <class Pose>
+void Filter<Pose>::calibrate(int sensor, const Calibration<Pose>& sigma, const Calibration<Pose>& walk) {
+  const int rows = sensors_.at(sensor).rows();
+  const SystematicErrors& errors = local_.systematic();
+  if (started_)
+    throw Error(ErrorCode::state,
+                "sensor: the filter has moved or observed something already; calibrate its sensors before that");
+  if (errors.calibrates(sensor)) throw Error(ErrorCode::state, "sensor: number %d has a calibration already", sensor);
+  Index count = 0, used = 0;
+  for (int i = 0; i < kCalibrationErrors<Pose>; ++i) {
+    if (!(sigma[i] > 0.0)) continue;
+    ++count;
+    if (i >= kDof + rows)
+      throw Error(ErrorCode::argument, "calibration.offset_sigma[%d] is %g, but the sensor gives %d values", i - kDof,
+                  sigma[i], rows);
+  }
+  for (Index i = 0; i < errors.count(); ++i) used += errors.sensor(i) != SystematicErrors::kMotion ? 1 : 0;
+  if (used + count > options_.max_sensor_errors)
+    throw Error(ErrorCode::capacity,
+                "calibration: %td errors, and %td of max_sensor_errors = %td are taken; create the filter with more",
+                count, used, options_.max_sensor_errors);
+  const SystematicErrors before = errors;
+  try {
+    for (int i = 0; i < kCalibrationErrors<Pose>; ++i)
+      if (sigma[i] > 0.0) local_.add_error(sensor, i, sigma[i], walk[i]);
+    begin();
+  } catch (...) {  // no memory: as before
+    local_.use_errors(before);
+    begin();
+    throw;
+  }
+}
+
+template <class Pose>
+void Filter<Pose>::begin() {
+  if (options_.single_map())
+    local_.start(options_.initial_pose, options_.initial_covariance);
+  else
+    local_.start(Pose(), Square::Zero());
+  submaps_.make_map();
+}
+
+template <class Pose>
 void Filter<Pose>::predict_wheels(double dt, double left, double right) {
   const SystematicErrors& errors = local_.systematic();
   if (!errors.any()) return move(drive_wheels<Pose>(wheels_, left, right, dt));
   const CorrectedStep<Pose> step = drive_wheels<Pose>(wheels_, left, right, dt, errors.motion(local_.state()));
+  const MotionCoupling<Pose> coupling = errors.coupling(step, dt);
+  move(step.increment, &coupling);
+}
+
+template <class Pose>
+void Filter<Pose>::predict_wheels_gyro(double dt, double left, double right, const Vector3& w) {
+  const SystematicErrors& errors = local_.systematic();
+  const CorrectedStep<Pose> step =
+      drive_wheels_gyro<Pose>(wheels_, left, right, w, dt, twist_noise_, errors.motion(local_.state()));
+  if (!errors.any()) return move(step.increment);
   const MotionCoupling<Pose> coupling = errors.coupling(step, dt);
   move(step.increment, &coupling);
 }
@@ -79,15 +126,22 @@ void Filter<Pose>::move(const Increment<Pose>& increment, const MotionCoupling<P
     throw Error(ErrorCode::numerical,
                 "prediction: the pose or its covariance would not be finite; nothing was changed");
   health_.moved(increment);
+  started_ = true;
   submaps_.drive(increment.T_before_after.translation().norm());
 }
 
 template <class Pose>
 void Filter<Pose>::update(int sensor, const Observation* observations, Index landmarks, Index companions) {
+  started_ = true;
   log_.watch([&] {
     const Sensor<Pose>& own = sensors_.at(sensor);
-    frames_.run({own, sensors_.view(sensor), sensors_.loss(sensor), observations, landmarks, companions, sensor,
-                 health_.applied_to_sensor(sensor)});
+    const SystematicErrors& errors = local_.systematic();
+    Frame<Pose> frame{own,       sensors_.view(sensor), sensors_.loss(sensor), observations, landmarks,
+                      companions, sensor,               health_.applied_to_sensor(sensor)};
+    if (!errors.calibrates(sensor)) return frames_.run(frame);
+    CalibratedSensor<Pose> calibrated(
+        own, errors.calibration<Pose>(sensor, [&](Index i) { return local_.state().systematic(i); }));
+    frames_.run(frame.with(calibrated));
   });
   submaps_.keep_pose();  // of the frame, before its submap is closed
   submaps_.close_if_full();
@@ -96,6 +150,7 @@ void Filter<Pose>::update(int sensor, const Observation* observations, Index lan
 
 template <class Pose>
 void Filter<Pose>::update_fix(const AbsoluteFix<Pose>& fix) {
+  started_ = true;
   log_.watch([&] { batches_.fix(fix); });
   submaps_.keep_pose();
   note_closing();

@@ -44,10 +44,15 @@ class Filter {
   void set_loss(int sensor, const RobustLoss& loss) { sensors_.set_loss(sensor, loss); }
   void set_sighting(int sensor, const MutualSighting& sighting) { sensors_.set_sighting(sensor, sighting); }
 
+  // Systematic errors of a sensor become states: a standard deviation (0: none) and a random walk for each number of
+  // its calibration. Before the first motion and the first observation.
+  void calibrate(int sensor, const Calibration<Pose>& sigma, const Calibration<Pose>& walk);
+
   // --- motion --- throws if the result is not finite, with nothing changed
   void set_wheels(const Wheels& wheels) { wheels_ = wheels; }
   void set_twist_noise(const TwistNoise& noise) { twist_noise_ = noise; }
   void predict_wheels(double dt, double left, double right);
+  void predict_wheels_gyro(double dt, double left, double right, const Vector3& w);
   void predict_twist(double dt, const Vector3& v, const Vector3& w);
   void propagate(const Increment<Pose>& increment);  // refused if a bias of the twist is a state
 
@@ -55,6 +60,7 @@ class Filter {
   // First the observations of landmarks, then those of companions, which bring ids whatever the association is.
   void update(int sensor, const Observation* observations, Index landmarks, Index companions = 0);
   void update_linear(const LinearRows& rows) {
+    started_ = true;
     log_.watch([&] { batches_.rows(rows); });
     submaps_.keep_pose();
   }
@@ -124,6 +130,7 @@ class Filter {
   }
 
  private:
+  void begin();
   void move(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
   void note_closing();
 
@@ -142,6 +149,7 @@ class Filter {
   std::size_t closings_ = 0;  // that the health monitor knows of
   FramePipeline<Pose> frames_;
   WholeBatchUpdate<Pose> batches_;
+  bool started_ = false;  // something was estimated: no systematic error can be added any more
 };
 
 extern template class Filter<SE2>;

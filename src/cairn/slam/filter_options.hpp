@@ -25,7 +25,8 @@ struct CapacityOptions {
   Index max_observations = FilterDefaults::max_observations;
   Index max_sensors = FilterDefaults::max_sensors;
   Index trajectory_poses = FilterDefaults::trajectory_poses;
-  Index max_companions = 0;  // poses of other vehicles in the state of a single map
+  Index max_sensor_errors = FilterDefaults::max_sensor_errors;  // numbers of the calibrations of all sensors
+  Index max_companions = 0;                                     // poses of other vehicles in the state of a single map
 };
 
 // An update: linearisations, chi-square gates, and the number of consecutive observations of a landmark whose errors
@@ -66,8 +67,8 @@ struct LandmarkOptions {
   Index missed_frames = FilterDefaults::missed_frames;  // it is removed if in view and not seen this often; 0: never
 };
 
-// Systematic errors of the motion that are states: by their numbers in MotionErrors, standard deviation at the start (0:
-// no state) and random walk in the square root of a second.
+// Systematic errors of the motion that are states: by their numbers in MotionErrors, standard deviation at the start
+// (0: no state) and random walk in the square root of a second.
 struct SystematicOptions {
   double motion_sigma[MotionErrors::kCount] = {};
   double motion_walk[MotionErrors::kCount] = {};

@@ -34,6 +34,10 @@ bool FramePlacer<Pose>::place_one(EkfUpdate<Pose>& update, const Frame<Pose>& fr
   using PointSquare = typename LocalMap<Pose>::PointSquare;
   const Sensor<Pose>& sensor = frame.sensor;
   const MountNoise mode = sensor.mount_noise_mode();
+  const State<Pose>& state = map_.state();
+  const SystematicErrors& errors = map_.systematic();
+  if (frame.calibrated != nullptr)
+    frame.calibrated->set(errors.calibration<Pose>(frame.number, [&](Index i) { return state.systematic(i); }));
   Placement<Pose> placement;
   if (!sensor.place(map_.state().pose(), frame.z(observation), update.mount(), placement)) return false;
   const int rows = sensor.rows();
@@ -43,8 +47,12 @@ bool FramePlacer<Pose>::place_one(EkfUpdate<Pose>& update, const Frame<Pose>& fr
       J_z.lazyProduct(frame.noise(observation).topLeftCorner(rows, rows).eval().lazyProduct(J_z.transpose()));
   if (mode == MountNoise::per_observation)
     noise += placement.J_landmark_mount * sensor.mount_noise() * placement.J_landmark_mount.transpose();
+  ErrorColumns<Pose::kDim> by_errors;
+  if (frame.calibrated != nullptr)
+    by_errors = errors.columns(frame.number, frame.calibrated->by_calibration(state.pose(), placement));
   return update.place(placement.landmark, placement.J_landmark_pose,
-                      mode == MountNoise::per_frame ? &placement.J_landmark_mount : nullptr, noise, sensor.relative());
+                      mode == MountNoise::per_frame ? &placement.J_landmark_mount : nullptr, noise, sensor.relative(),
+                      frame.calibrated != nullptr ? &by_errors : nullptr);
 }
 
 template <class Pose>

@@ -25,13 +25,15 @@ class LocalMap final : public Landmarks {
   LocalMap(Arena& arena, const FilterOptions<Pose>& options);
   std::uint64_t starts() const { return starts_; }         // how often it has started
   void start(const Pose& pose, const Square& covariance);  // forgets all landmarks, companions and systematic errors
-  // The same, with these values and this covariance of the systematic errors.
-  void start(const Pose& pose, const Square& covariance, const std::vector<double>& values,
-             const std::vector<double>& errors);
+  // The same, with these values and this covariance of the systematic errors. Allocates nothing.
+  void start(const Pose& pose, const Square& covariance, const double* values, const double* errors);
 
   State<Pose>& state() { return state_; }
   const State<Pose>& state() const { return state_; }
   const SystematicErrors& systematic() const { return systematic_; }
+  // Adds an error of a sensor before anything was estimated; start() has to follow.
+  void use_errors(const SystematicErrors& errors) { systematic_ = errors; }
+  void add_error(int sensor, int number, double sigma, double walk) { systematic_.add(sensor, number, sigma, walk); }
   LandmarkTable& table() { return table_; }
   const LandmarkTable& table() const { return table_; }
 

@@ -8,6 +8,7 @@
 #include "program/drives/fleet_drive.hpp"
 #include "program/options/team_options.hpp"
 #include "program/output/progress.hpp"
+#include "program/output/scene_output.hpp"
 #include "program/output/team_output.hpp"
 
 namespace cairn::program {
@@ -19,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 std::vector<Figure> run_team(TeamDrive& drive, TeamDrive* beside, const TeamChoices& choices, const std::string& folder,
                              Progress& progress, Clock::time_point begin) {
   std::optional<TeamOutput> output;
-  if (!folder.empty()) output.emplace(drive, folder);
+  if (!folder.empty()) output.emplace(drive, choices.mode, folder);
   TeamRunner runner(drive, choices);
   const TeamResult result = runner.run([&](const TeamStep& step, const std::vector<VehicleEstimate>& estimates) {
     if (output) output->add(step, estimates);
@@ -29,7 +30,10 @@ std::vector<Figure> run_team(TeamDrive& drive, TeamDrive* beside, const TeamChoi
   if (beside != nullptr) {
     TeamChoices mono = choices;
     mono.mode = CAIRN_TEAM_MONO;
-    alone = TeamRunner(*beside, mono).run([&](const TeamStep&, const std::vector<VehicleEstimate>&) {
+    const bool noted = output && choices.mode != CAIRN_TEAM_MONO;  // else the steps are the same
+    if (noted) output->begin_alone();
+    alone = TeamRunner(*beside, mono).run([&](const TeamStep& step, const std::vector<VehicleEstimate>& estimates) {
+      if (noted) output->add_alone(step, estimates);
       progress.advance();
     });
   }
@@ -51,12 +55,15 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
   if (options.compare) {
     if (!options.common.output.empty()) create_folder(options.common.output);
     std::string table, object, rows;
+    StepTable steps;
     {
       Progress progress(compared_runs(options), options.common.quiet);
       compare_modes(
-          options, [&] { progress.advance(); }, table, object, rows);
+          options, [&] { progress.advance(); }, table, object, rows, steps);
     }
     if (!options.common.output.empty()) {
+      steps.write(options.common.output);
+      write_scene(compared_scene(options), options.common.output);
       OutputFile file(options.common.output, "team_compare.csv");
       file.text(rows);
       file.close();
@@ -74,7 +81,9 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
     fleet.seed = options.common.seed + run;
     FleetDrive drive(fleet), beside(fleet);
     if (!progress) progress.emplace(2 * drive.steps() * options.runs, options.common.quiet);
-    runs.push_back(run_team(drive, &beside, options.team, run == 0 ? options.common.output : "", *progress, begin));
+    const std::string folder = run == 0 ? options.common.output : "";
+    runs.push_back(run_team(drive, &beside, options.team, folder, *progress, begin));
+    if (!folder.empty()) write_scene(fleet, folder);
   }
   progress.reset();
   const std::vector<Figure> figures = runs.size() == 1 ? runs.front() : means(runs);

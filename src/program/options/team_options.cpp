@@ -64,8 +64,8 @@ OptionGroup boat_options(UsvOptions& o) {
           {"--compare", "",
            "Run all modes with 6, 10 and 40 features, and print the figures beside those of the cooperative paper.",
            "For each mode the table has the improvement on a boat without a team: as its covariance claims it, and the "
-           "true one. It also has consistency, error and time. With `--output` the folder gets team_compare.csv and "
-           "summary.json."},
+           "true one. It also has consistency, error and time. With `--output` the folder gets team_compare.csv, "
+           "team_steps.csv, team_scene.csv and summary.json."},
           o.compare),
       whole({"--runs", "N",
              "Run N worlds, with seeds from `--seed` on, and print the mean of each figure. Default: "

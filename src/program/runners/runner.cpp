@@ -46,6 +46,7 @@ void Runner::create() {
   sensor_ = drive_.equip(filter);
   if (choices_.loss)
     check(cairn_filter_set_loss(filter, sensor_, *choices_.loss, choices_.loss_width.value_or(kUsualLossWidth)));
+  check(choices_.systematic.calibrate(filter, sensor_));
 }
 
 void Runner::run(const Observer& observe) {
@@ -74,7 +75,10 @@ void Runner::predict() {
     check(cairn_filter_predict_twist(filter_.get(), twist.dt, twist.velocity.data(), twist.rate.data()));
   }
   for (const WheelTurn& turn : step_.wheel_turns) {
-    check(cairn_filter_predict_wheels(filter_.get(), turn.dt, turn.left, turn.right));
+    if (turn.rate)
+      check(cairn_filter_predict_wheels_gyro(filter_.get(), turn.dt, turn.left, turn.right, turn.rate->data()));
+    else
+      check(cairn_filter_predict_wheels(filter_.get(), turn.dt, turn.left, turn.right));
   }
 }
 

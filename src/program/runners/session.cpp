@@ -6,6 +6,7 @@
 
 #include "program/output/csv_output.hpp"
 #include "program/output/summary.hpp"
+#include "program/output/systematic_csv.hpp"
 #include "program/output/trajectories.hpp"
 #include "program/runners/runner.hpp"
 
@@ -15,6 +16,8 @@ std::vector<Figure> run_drive(Drive& drive, const FilterChoices& choices, const 
   const auto begin = std::chrono::steady_clock::now();
   std::optional<CsvOutput> output;
   if (!session.output.empty()) output.emplace(drive, session.output);
+  std::optional<SystematicCsv> systematic;
+  if (output) systematic.emplace(session.output);
   Runner runner(drive, choices);
   Summary summary(drive, choices.names_known());
   Trajectories trajectories;
@@ -23,6 +26,7 @@ std::vector<Figure> run_drive(Drive& drive, const FilterChoices& choices, const 
     summary.add(step, result, score);
     trajectories.add(step, result);
     if (output) output->add(step, result, score);
+    if (systematic) systematic->add(filter, step);
     session.on_step();
   });
   const std::optional<cairn_closing_report> last_closing = runner.finish();
@@ -33,6 +37,7 @@ std::vector<Figure> run_drive(Drive& drive, const FilterChoices& choices, const 
   if (output) {
     output->finish(runner.filter(), last_closing, summary);
     trajectories.write(session.output);
+    systematic->finish();
   }
   return summary.figures();
 }

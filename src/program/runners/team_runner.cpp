@@ -2,37 +2,15 @@
 #include "program/runners/team_runner.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "program/library.hpp"
+#include "program/runners/stopwatch.hpp"
 
 namespace cairn::program {
 
 const std::vector<const char*> kModeNames = {"mono", "eo_diagonal", "eo_full", "joint", "submaps"};
-
-double VehicleScore::rmse() const {
-  return std::sqrt(square_error / static_cast<double>(steps));
-}
-double VehicleScore::landmark_rmse() const {
-  return std::sqrt(landmark_square / static_cast<double>(landmarks_known));
-}
-double VehicleScore::anees() const {
-  return nees / (3.0 * static_cast<double>(nees_steps));
-}
-void VehicleScore::add(const VehicleScore& other) {
-  steps += other.steps;
-  nees_steps += other.nees_steps;
-  claimed += other.claimed;
-  square_error += other.square_error;
-  nees += other.nees;
-  landmark_square += other.landmark_square;
-  landmarks += other.landmarks;
-  landmarks_known += other.landmarks_known;
-  paired += other.paired;
-  paired_wrongly += other.paired_wrongly;
-}
 
 TeamRunner::TeamRunner(TeamDrive& drive, const TeamChoices& choices)
     : drive_(drive), choices_(choices), votes_(drive.vehicles().size()) {
@@ -80,7 +58,9 @@ TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
 }
 
 void TeamRunner::step(const TeamStep& step) {
+  seconds_.assign(teams_.size(), 0);
   for (std::size_t v = 0; v < teams_.size(); ++v) {
+    const Stopwatch watch(seconds_[v]);
     cairn_team* team = teams_[v].get();
     const VehicleStep& own = step.vehicles[v];
     for (const TeamMotion& motion : own.motions) {
@@ -102,13 +82,19 @@ void TeamRunner::exchange() {
   for (std::size_t from = 0; from < teams_.size(); ++from) {
     for (;;) {
       std::size_t size = 0;
-      check(cairn_team_take_packet(teams_[from].get(), nullptr, 0, &size));
-      if (size == 0) break;
-      packet.resize(size);
-      check(cairn_team_take_packet(teams_[from].get(), packet.data(), size, &size));
+      {
+        const Stopwatch watch(seconds_[from]);
+        check(cairn_team_take_packet(teams_[from].get(), nullptr, 0, &size));
+        if (size == 0) break;
+        packet.resize(size);
+        check(cairn_team_take_packet(teams_[from].get(), packet.data(), size, &size));
+      }
       if (choices_.mode == CAIRN_TEAM_MONO) continue;
-      for (std::size_t to = 0; to < teams_.size(); ++to)
-        if (to != from) check(cairn_team_receive(teams_[to].get(), packet.data(), size, nullptr));
+      for (std::size_t to = 0; to < teams_.size(); ++to) {
+        if (to == from) continue;
+        const Stopwatch watch(seconds_[to]);
+        check(cairn_team_receive(teams_[to].get(), packet.data(), size, nullptr));
+      }
     }
   }
 }
@@ -147,7 +133,7 @@ double TeamRunner::score(std::size_t vehicle, const cairn_pose& truth, VehicleSc
   double P[36];
   check(cairn_team_pose(team, drive_.vehicles()[vehicle], &pose, P));
   ++score.steps;
-  score.claimed += std::sqrt(P[0] * P[0] + 2 * P[1] * P[1] + P[7] * P[7]);
+  score.claimed += position_norm(P);
   score.square_error +=
       std::pow(truth.position[0] - pose.position[0], 2) + std::pow(truth.position[1] - pose.position[1], 2);
   double nees = 0;
@@ -176,12 +162,11 @@ TeamResult TeamRunner::run(const Observer& observe) {
   std::vector<VehicleEstimate> estimates(teams_.size());
   TeamStep next;
   for (std::size_t number = 0; drive_.next(next); ++number) {
-    const auto begin = std::chrono::steady_clock::now();
     step(next);
-    result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result.recursions += teams_.size();
     double nees = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t v = 0; v < teams_.size(); ++v) {
+      result.seconds += estimates[v].seconds = seconds_[v];
       if (!choices_.filter.names_known()) note_pairs(v, next.vehicles[v], result.vehicles[v]);
       check(cairn_team_pose(teams_[v].get(), drive_.vehicles()[v], &estimates[v].pose, estimates[v].covariance));
       if (!next.vehicles[v].truth || static_cast<double>(number) < first) continue;

@@ -117,7 +117,7 @@ def step_time(runs):
             shown = np.flatnonzero(closings)[thin.envelope(taken[closings], 600)]
             traces.append(line(times[shown], taken[shown], "#b3261e", f"{label}a submap was closed", mode="markers",
                                marker={"size": 6, "symbol": "triangle-down", "color": "#b3261e"}))
-            note += f", {int(closings.sum())} closings ▼"
+            note += f", {int(closings.sum())} closing{'s' if closings.sum() > 1 else ''} ▼"
         notes.append(note)
     if not traces:
         return None
