@@ -113,7 +113,7 @@ def main():
     if not arguments.with_gtsam:
         notes.append("iSAM2 and batch were not run: --with-gtsam was not given")
 
-    option = " --with-gtsam" if arguments.with_gtsam else ""
+    option = "".join(" " + word for word in (["--with-gtsam"] if arguments.with_gtsam else []) + arguments.recordings)
     print(PREFACE.format(option=option, version=version, machine=f"{platform.machine()}, {os.cpu_count()} processors"))
     print(line(COLUMNS))
     print(line(["---"] * len(COLUMNS)))
