@@ -41,6 +41,8 @@ typedef struct cairn_team_options {
                               0.01 */
   uint32_t max_waiting;  /**< packets of one teammate that can wait for their turn, 1 to 1000000; default 4096 */
   uint32_t history;      /**< own packets that are kept for teammates that miss them, 1 to 1000000; default 1024 */
+  double max_jump;       /**< a step that follows the one before it by more than this, s, > 0, is refused until the
+                              next one confirms it; default 60 \since 0.2.0 */
 } cairn_team_options;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
@@ -143,8 +145,11 @@ enum {
   CAIRN_PACKET_VERSION = 13,  /**< this library does not read its version */
   CAIRN_PACKET_CUT = 14,      /**< bytes are missing, or there are too many */
   CAIRN_PACKET_CORRUPT = 15,  /**< its checksum is wrong */
-  CAIRN_PACKET_NONSENSE = 16  /**< it is complete, but not a valid step: values that are not finite, noise that is
-                                   not a covariance, an id or a number twice */
+  CAIRN_PACKET_NONSENSE = 16, /**< it is complete, but not a valid step: values that are not finite, noise that is
+                                   not a covariance, an id or a number twice, numbers of absurd size */
+  CAIRN_PACKET_AHEAD = 17     /**< its time is more than max_jump after that of the sender's packet before it. The next
+                                   packet of the sender decides: if it agrees with this one, both are right, and this
+                                   one can be received again \since 0.2.0 */
 };
 
 /** Receives a packet of a teammate. Packets may come late, repeatedly and in any order. `result` (or NULL) gets one
@@ -215,6 +220,9 @@ typedef struct cairn_team_report {
   double claimed_improvement; /**< (||C_mono|| - ||C||) / ||C_mono||: Frobenius norms of the position's covariance,
                                    summed over all scored steps (cooperative paper, section 3); 0 without `baseline` */
   double true_improvement;    /**< 1 - MSE / MSE_mono of the position; 0 without `baseline` */
+  uint64_t ahead;             /**< received packets that were too far ahead \since 0.2.0 */
+  uint64_t interrupted;       /**< 1: memory ran out while a submap was closed. The next call closes it first. Until
+                                   then no further packet has its turn. Otherwise 0 \since 0.2.0 */
 } cairn_team_report;
 
 /** Reports on the team so far. Set `report->struct_size` first. Threads: as any const query of the handle. Errors:

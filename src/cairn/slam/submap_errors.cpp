@@ -86,7 +86,7 @@ typename SubmapKeeper<Pose>::Place SubmapKeeper<Pose>::place(const std::size_t* 
   const Square noise = J.by_b * to_ordinary * given.covariance.topLeftCorner<kDof, kDof>() * to_ordinary.transpose() *
                        J.by_b.transpose();
   Place out{base * local, A * joint * A.transpose()};
-  out.joint.topLeftCorner<kDof, kDof>() += noise;
+  out.joint.template topLeftCorner<kDof, kDof>() += noise;
   out.joint = (0.5 * (out.joint + out.joint.transpose())).eval();
   return out;
 }
