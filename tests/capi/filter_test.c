@@ -13,7 +13,7 @@ static void options_defaults(void** state) {
   assert_int_equal(o.max_observations, 64);
   assert_int_equal(o.max_sensors, 8);
   assert_int_equal(o.iterations, 3);
-  assert_true(o.iteration_tolerance == 0.1 && o.gate_probability == 0.99 && o.batch_gate_probability == 0.9999);
+  assert_true(o.iteration_tolerance == 0.1 && o.gate_probability == 0.999 && o.batch_gate_probability == 0.9999);
   for (int i = 0; i < 3; ++i) assert_true(o.initial_pose.position[i] == 0 && o.initial_pose.quaternion[i + 1] == 0);
   assert_true(o.initial_pose.quaternion[0] == 1);
   for (int i = 0; i < 36; ++i) assert_true(o.initial_covariance[i] == 0);

@@ -86,6 +86,12 @@ class Filter(Handle):
         """Sets the pan and stick angles of a stereo head, rad. They hold until the next call."""
         self._call(lib.cairn_filter_point_head, sensor, pan, stick)
 
+    def set_loss(self, sensor, loss, width=1.5):
+        """Sets the loss of a sensor's residuals: "none", "huber" or "cauchy". An observation with a large residual gets
+        less weight. `width` is where the loss leaves the parabola, in standard deviations; "none" ignores it."""
+        kind = _structs.constant("loss", loss) if isinstance(loss, str) else loss
+        self._call(lib.cairn_filter_set_loss, sensor, kind, width)
+
     # Motion.
 
     def set_wheels(self, **description):

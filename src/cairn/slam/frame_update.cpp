@@ -95,7 +95,7 @@ void FrameUpdate<Pose>::hear(const EkfUpdate<Pose>& update, const Frame<Pose>& f
   for (Index a = 0; a < sorted.candidates(); ++a) {
     const Candidate<Pose>& candidate = sorted.candidate(a);
     if (trust_.is_witness(candidate.slot))
-      trust_.hear(rows, static_cast<std::uint64_t>(candidate.slot), pose, update.batch().residual() + a * rows,
+      trust_.hear(rows, map_.table().id(candidate.slot), pose, update.batch().residual() + a * rows,
                   candidate.prediction.J_z_pose, update.covariance(a * rows), update.batch().rows());
   }
 }

@@ -101,6 +101,7 @@ void WholeBatchUpdate<Pose>::fix_single(const AbsoluteFix<Pose>& fix) {
   }
   finish(*update, options_.iterations, fill);
   restore.release();
+  trust_.commit();
 }
 
 // The submap closes at the first fix. If the fix contradicts the map and several fixes agree on another pose, the motion
@@ -111,10 +112,15 @@ FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
   trust_in_map_.begin(0);
   const FixReport first = submaps_.fix(fix, threshold);
   const JoinReport& join = submaps_.closing().join;
-  if (join.fused > 0 && join.fused > join.refused) trust_in_map_.agree();  // the landmarks support the pose
+  const bool supported = join.fused > 0 && join.fused > join.refused;  // by the landmarks of the closing
+  // After an accepted fix the pose is no longer the prediction: its residual is no evidence.
+  if (first.accepted || supported) trust_in_map_.agree();
+  if (first.accepted) return first;
   Square widening;
-  if (!contradicted(trust_in_map_, fix, submaps_.pose(), submaps_.pose_covariance(), first.accepted, widening))
+  if (!contradicted(trust_in_map_, fix, submaps_.pose(), submaps_.pose_covariance(), false, widening)) {
+    trust_in_map_.commit();
     return first;
+  }
   const typename Pose::Rotation inverse = submaps_.map()->base().rotation().inverse();
   Square turn = Square::Zero();  // to the axes of the submap
   turn.template topLeftCorner<kDim, kDim>() = inverse.matrix();
@@ -124,6 +130,7 @@ FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
     widen(map_.state(), Square(turn * widening * turn.transpose()));
     const FixReport second = submaps_.fix(fix, threshold);
     restore.release();
+    trust_in_map_.commit();
     report_.widened<Pose>(widening);
     return second;
   } catch (const std::exception&) {  // the submap has closed already: the fix stays refused
