@@ -87,6 +87,22 @@ class SlipTest(unittest.TestCase):
         drive.step()
         self.assertEqual(drive.vehicle.last_update()["widened_position"], 0.0)
 
+    def test_an_accepted_heading_or_a_coarse_fix_is_no_agreement(self):
+        def heading(drive):
+            return drive.vehicle.update_heading(0.0, 0.05)
+
+        def coarse(drive):
+            return drive.vehicle.update_position([*drive.place, 0], 25 * np.eye(3))
+
+        for fix in (heading, coarse):
+            with self.subTest(fix=fix.__name__):
+                drive = Among()
+                for k in range(100):
+                    drive.step(slip=1.0 if k == 60 else 0.0)
+                    self.assertEqual(fix(drive)["result"], cairn.MATCHED)
+                self.assertLessEqual(sum(drive.refused[60:]), 20)
+                self.assertLess(drive.error().max(), 0.08)
+
     def test_a_closing_finds_the_slipped_submap(self):
         for join in ("dense", "sparse"):
             with self.subTest(join=join):

@@ -87,8 +87,7 @@ bool FrameUpdate<Pose>::fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
 
 // What the candidates that bear witness say about the pose.
 template <class Pose>
-void FrameUpdate<Pose>::hear(const EkfUpdate<Pose>& update, const Frame<Pose>& frame,
-                             const SortedFrame<Pose>& sorted) {
+void FrameUpdate<Pose>::hear(const EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted) {
   const int rows = frame.sensor.rows();
   const Pose pose = map_.state().pose();
   trust_.hear_nobody();

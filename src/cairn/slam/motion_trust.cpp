@@ -70,7 +70,12 @@ bool MotionTrust<Pose>::contradicted(Index accepted, const double* J, const doub
   next_ = *own_;
   keeping_ = false;
   if (2 * accepted >= heard_) {  // agreement
-    forget(next_);
+    const auto refuted = [&] {
+      // A witness that agrees with the contradicting ones as well supports nothing: a heading says nothing of a slip.
+      const MotionVote<Pose> other = vote_motion(move_kept(), next_.kept, bounds());
+      return witnesses_[0].distance(other.motion) > bound(witnesses_[0].rows);
+    };
+    if (heard_ > 1 || next_.kept == 0 || refuted()) forget(next_);
     const typename Pose::Rotation R = pose_.rotation();
     Square axes = Square::Zero();
     axes.template topLeftCorner<Pose::kDim, Pose::kDim>() = R.matrix();
@@ -101,21 +106,32 @@ void MotionTrust<Pose>::keep() {
   for (Index a = 0; a < heard_; a += step) kept()[own.kept++] = witnesses_[a];
 }
 
+// Copies the kept witnesses behind those of the frame, as witnesses of the pose where it is now.
+template <class Pose>
+Witness<Pose>* MotionTrust<Pose>::move_kept() {
+  for (Index k = 0; k < next_.kept; ++k) {
+    witnesses_[heard_ + k] = kept()[k];
+    witnesses_[heard_ + k].move_to(pose_.translation());
+  }
+  return witnesses_ + heard_;
+}
+
+template <class Pose>
+BoundsByRows MotionTrust<Pose>::bounds() const {
+  BoundsByRows bounds = {};
+  for (int rows = 1; rows <= kMostRows; ++rows) bounds[static_cast<std::size_t>(rows)] = bound(rows);
+  return bounds;
+}
+
 template <class Pose>
 bool MotionTrust<Pose>::vote(Square& widening) {
   Record& own = next_;
   constexpr double kChance = 1e-5;  // of so many refusals if the estimate is right
   const double refusal = 1.0 - options_.gate_probability;
   if (!(refusal > 0.0) || log_chance(own.judged, own.refused, refusal) > std::log(kChance)) return false;
-  const typename Pose::Point where = pose_.translation();
   const Index count = heard_ + own.kept;
-  for (Index k = 0; k < own.kept; ++k) {
-    witnesses_[heard_ + k] = kept()[k];
-    witnesses_[heard_ + k].move_to(where);
-  }
-  BoundsByRows bounds = {};
-  for (int rows = 1; rows <= kMostRows; ++rows) bounds[static_cast<std::size_t>(rows)] = bound(rows);
-  const MotionVote<Pose> best = vote_motion(witnesses_, count, bounds);
+  move_kept();
+  const MotionVote<Pose> best = vote_motion(witnesses_, count, bounds());
   if (!enough(witnesses_, count, best)) return false;
   widening = best.motion * best.motion.transpose();  // (F2): this motion is one standard deviation
   forget(own);

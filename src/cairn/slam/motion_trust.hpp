@@ -58,10 +58,12 @@ class MotionTrust {
   };
   static constexpr Index kKept = 32, kKeptOfFrame = 8;
 
-  Record& record();                                                             // of the active vehicle
+  Record& record();                                                          // of the active vehicle
   Witness<Pose>* kept() const { return kept_ + (own_ - records_) * kKept; }  // of the record at hand
   static void forget(Record& record) { record.kept = record.judged = record.refused = 0; }
   void keep();
+  Witness<Pose>* move_kept();
+  BoundsByRows bounds() const;
   bool vote(Square& widening);
   bool enough(const Witness<Pose>* witnesses, Index count, const MotionVote<Pose>& vote) const;
   double bound(int rows) const { return thresholds_.single(rows); }

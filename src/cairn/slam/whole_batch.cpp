@@ -13,8 +13,8 @@ namespace cairn {
 
 template <class Pose>
 WholeBatchUpdate<Pose>::WholeBatchUpdate(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
-                                         SubmapKeeper<Pose>& submaps, const Thresholds& thresholds, MotionTrust<Pose>& trust,
-                                         FrameReport& report, const Log& log)
+                                         SubmapKeeper<Pose>& submaps, const Thresholds& thresholds,
+                                         MotionTrust<Pose>& trust, FrameReport& report, const Log& log)
     : options_(options),
       map_(map),
       submaps_(submaps),
@@ -49,8 +49,8 @@ void WholeBatchUpdate<Pose>::finish(EkfUpdate<Pose>& update, int iterations, Fil
     match.decision = Decision::matched;
   } else {
     match.reason = Reason::gate;
-    log_.say("update: the gate refused a batch of %td rows, distance %g over %g", update.batch().rows(),
-             match.distance, match.threshold);
+    log_.say("update: the gate refused a batch of %td rows, distance %g over %g", update.batch().rows(), match.distance,
+             match.threshold);
   }
   report_.finish();
 }
@@ -104,8 +104,8 @@ void WholeBatchUpdate<Pose>::fix_single(const AbsoluteFix<Pose>& fix) {
   trust_.commit();
 }
 
-// The submap closes at the first fix. If the fix contradicts the map and several fixes agree on another pose, the motion
-// in the new submap, which is empty, is widened, and the fix is tried again.
+// The submap closes at the first fix. If the fix contradicts the map and several fixes agree on another pose, the
+// motion in the new submap, which is empty, is widened, and the fix is tried again.
 template <class Pose>
 FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
   const double threshold = report_.match(0).threshold;
@@ -113,11 +113,11 @@ FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
   const FixReport first = submaps_.fix(fix, threshold);
   const JoinReport& join = submaps_.closing().join;
   const bool supported = join.fused > 0 && join.fused > join.refused;  // by the landmarks of the closing
-  // After an accepted fix the pose is no longer the prediction: its residual is no evidence.
-  if (first.accepted || supported) trust_in_map_.agree();
-  if (first.accepted) return first;
+  if (supported) trust_in_map_.agree();
   Square widening;
-  if (!contradicted(trust_in_map_, fix, submaps_.pose(), submaps_.pose_covariance(), false, widening)) {
+  const bool wider =
+      contradicted(trust_in_map_, fix, submaps_.pose(), submaps_.pose_covariance(), first.accepted, widening);
+  if (!wider || first.accepted) {  // an accepted fix has been used: a second time would count it twice
     trust_in_map_.commit();
     return first;
   }
