@@ -72,7 +72,8 @@ class ResultsTest(unittest.TestCase):
             lib.cairn_filter_last_update(raw[0], report)
             self.assertEqual(layer.last_update(), {name: getattr(report, name) for name in (
                 "matched", "placed", "rejected", "rows", "iterations", "nis", "nis_lower", "nis_upper",
-                "association_nodes", "association_exhausted", "association_seconds", "deferred", "removed")})
+                "association_nodes", "association_exhausted", "association_seconds", "deferred", "removed",
+                "widened_position", "widened_attitude")})
         lib.cairn_filter_destroy(raw[0])
 
     @unittest.skipUnless(os.environ.get("CAIRN_ROVER"), "the C program of the same example was not built by GCC")
