@@ -102,7 +102,15 @@ cairn_status cairn_filter_calibrate_sensor(cairn_filter* filter, int32_t sensor,
       using Pose = PoseOf<decltype(f)>;
       Calibration<Pose> sigma, walk;
       read_calibration<Pose>(calibration, sigma, walk);
-      f.calibrate(sensor, sigma, walk);
+      // The filter makes its map anew, even if memory runs out. The handle of the map stays, and shows the new map.
+      const auto show_map = [&] { filter->map.landmarks = &f.landmarks(); };
+      try {
+        f.calibrate(sensor, sigma, walk);
+      } catch (...) {
+        show_map();
+        throw;
+      }
+      show_map();
     });
   });
 }
