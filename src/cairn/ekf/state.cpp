@@ -68,6 +68,7 @@ bool State<Pose>::propagate(const Increment<Pose>& increment) {
   const Pose next = pose_ * increment.T_before_after;
   if (!motion_.add(pose_, next, increment)) return false;
   pose_ = next;
+  if (far_from_origin()) move_origin();
   return true;
 }
 
@@ -136,9 +137,14 @@ bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, cons
       for (Index r = 0; r < kDof; ++r) pose_mount(r, c) = mount->cross[c * ld_ + r];
   cross = J * pose_mount + M * mount_covariance;
   const PointSquare mixed = J * pose_mount * M.transpose();
-  const PointSquare block =
+  PointSquare block =
       J * pose * J.transpose() + mixed + mixed.transpose() + M * mount_covariance * M.transpose() + noise;
   if (!landmark.allFinite() || !J.allFinite() || !block.allFinite()) return false;
+  // Beside a pose that is hardly known, the landmark's own noise would be lost to rounding: it is raised.
+  for (Index d = 0; d < kDim; ++d) {
+    const double rest = 1e-14 * block(d, d);
+    if (rest > 1e-6 * noise(d, d)) block(d, d) += rest;
+  }
   apply_pending();
 
   const Index n = states();
@@ -203,8 +209,12 @@ void State<Pose>::remove(Index slot) {
 template <class Pose>
 typename State<Pose>::Backup State<Pose>::backup() const {
   const Index n = states();
-  Backup backup{
-      pose_, {points_, points_ + kDim * size()}, {}, {attitudes_, attitudes_ + companions()}, motion_.snapshot()};
+  Backup backup{pose_,
+                origin_,
+                {points_, points_ + kDim * size()},
+                {},
+                {attitudes_, attitudes_ + companions()},
+                motion_.snapshot()};
   backup.triangle.reserve(n * (n + 1) / 2);
   for (Index c = 0; c < n; ++c) backup.triangle.insert(backup.triangle.end(), P_.column(c) + c, P_.column(c) + n);
   return backup;
@@ -213,6 +223,7 @@ typename State<Pose>::Backup State<Pose>::backup() const {
 template <class Pose>
 void State<Pose>::restore(const Backup& backup) {
   pose_ = backup.pose;
+  origin_ = backup.origin;
   const Index points = static_cast<Index>(backup.points.size()) / kDim;
   layout_.add_points(points - size());
   std::copy(backup.points.begin(), backup.points.end(), points_);

@@ -52,7 +52,8 @@ class State {
   Index states() const { return layout_.states(); }
   Point landmark(Index slot) const { return local(slot) + origin_; }
 
-  // --- propagate --- O(1). Returns false, with nothing changed, if a result is not finite.
+  // --- propagate --- O(1), and O(n^2) where the origin moves. Returns false, with nothing changed, if a result is not
+  // finite.
   bool propagate(const Increment<Pose>& increment);
 
   // --- update --- of the pose, of a mount if `mount_noise` is given, and of the chosen points; O(states window).
@@ -134,6 +135,7 @@ class State {
   // A copy of everything that an update and a composition change. Allocates.
   struct Backup {
     Pose pose;
+    Point origin;
     std::vector<double> points, triangle;
     std::vector<Rotation> attitudes;
     typename PendingMotion<Pose>::Snapshot motion;
@@ -151,12 +153,18 @@ class State {
   // P <- P_now - W W^T over `rank` columns of W, the pending motion's noise added in the same pass.
   void write_covariance(Index rank, const double* pose_columns);
   void move(const double* error);  // every variable by its retraction
+  bool far_from_origin() const;
+  void move_origin();  // to the vehicle
+  // Raises ordinary variances that a double cannot hold. `before`: the variances of P, state by state, before it
+  // changed; `turn`: the sum of those of the attitude.
+  void raise_variances(const double* before, double turn);
 
   ErrorModel<Pose> model_;
   StateLayout<Pose> layout_;
   Index ld_;  // of P and of every array with one row for each state
-  // All positions below are relative to the start position. The arms G(x) of the invariant error reach from the origin
-  // to x. With an origin far away, the arms would be long and the covariance would lose its digits to rounding.
+  // All positions below are relative to the origin: the start position, until the vehicle is far from it. The arms G(x)
+  // of the invariant error reach from the origin to x. With an origin far away, the arms would be long and the
+  // covariance would lose its digits to rounding.
   Point origin_ = Point::Zero();
   Pose pose_;
   double* points_;

@@ -43,6 +43,13 @@ void Filter<Pose>::propagate(const Increment<Pose>& increment) {
   if (!(increment.covariance.diagonal().template tail<kTurn>().maxCoeff() <= kTurnSquared))
     throw Error(ErrorCode::numerical,
                 "prediction: the attitude's noise of this step exceeds a whole turn; nothing was changed");
+  constexpr double kFarthestStep = 1e9;  // m
+  const Point& step = increment.T_before_after.translation();
+  if (!(step.cwiseAbs().maxCoeff() <= kFarthestStep))
+    throw Error(ErrorCode::numerical, "prediction: this step is longer than %g m; nothing was changed", kFarthestStep);
+  if (!(increment.covariance.diagonal().template head<kDim>().maxCoeff() <= kFarthestStep * kFarthestStep))
+    throw Error(ErrorCode::numerical, "prediction: the position's noise of this step exceeds %g m; nothing was changed",
+                kFarthestStep);
   if (!local_.state().propagate(increment))
     throw Error(ErrorCode::numerical,
                 "prediction: the pose or its covariance would not be finite; nothing was changed");

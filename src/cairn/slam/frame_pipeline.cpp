@@ -2,21 +2,18 @@
 // One frame, from its observations to the reviewed map.
 #include "slam/frame_pipeline.hpp"
 
-#include "core/error.hpp"
-
 namespace cairn {
 
 template <class Pose>
 FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
                                    Thresholds& thresholds, FrameReport& report, const Log& log)
     : options_(options),
-      map_(map),
       report_(report),
       sorted_(arena, options.max_observations),
       sorter_(arena, options, map, report),
       associator_(arena, options, map, thresholds, report, log),
       updater_(arena, options, map, thresholds, report, log),
-      placer_(options, map, report),
+      placer_(arena, options, map, report, log),
       review_(options, map, report) {}
 
 template <class Pose>
@@ -25,6 +22,11 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
   sort(frame);
   EkfUpdate<Pose> update = updater_.begin(frame, sorted_);
   updater_.run(update, frame, sorted_);
+  if (frame.sensor.may_abort()) {
+    placer_.prepare(update, frame, sorted_);
+    review_.prepare(frame);
+  }
+  updater_.commit(update, sorted_);
   placer_.place(update, frame, sorted_);
   report_.finish();
   review_.run(frame);
@@ -38,20 +40,6 @@ void FramePipeline<Pose>::sort(const Frame<Pose>& frame) {
   else
     associator_.sort_landmarks(frame, sorted_);
   sorter_.sort_companions(frame, sorted_);
-  check_room();
-}
-
-template <class Pose>
-void FramePipeline<Pose>::check_room() const {
-  const Index room = options_.local_landmarks(), held = map_.table().landmarks(), fresh = sorted_.new_ones();
-  if (held + fresh <= room) return;
-  if (!options_.single_map())
-    throw Error(ErrorCode::capacity,
-                "observations: %td new landmarks, and the open submap, which could not be closed, "
-                "holds %td of %td",
-                fresh, held, room);
-  throw Error(ErrorCode::capacity, "observations: %td new landmarks, and the map holds %td of max_landmarks = %td",
-              fresh, held, room);
 }
 
 template class FramePipeline<SE2>;

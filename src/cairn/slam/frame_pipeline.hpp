@@ -22,10 +22,8 @@ class FramePipeline {
 
  private:
   void sort(const Frame<Pose>& frame);
-  void check_room() const;
 
   const FilterOptions<Pose>& options_;
-  const LocalMap<Pose>& map_;
   FrameReport& report_;
   SortedFrame<Pose> sorted_;
   FrameSorter<Pose> sorter_;

@@ -124,9 +124,13 @@ void FrameUpdate<Pose>::run(EkfUpdate<Pose>& update, const Frame<Pose>& frame, S
     report_.update().nis = update.nis();
     report_.update().iterations =
         update.iterate({options_.iterations, options_.iteration_tolerance, frame.sensor.relative()}, fill_at);
-    update.commit();
     report_.update().rows = update.batch().rows();
   }
+}
+
+template <class Pose>
+void FrameUpdate<Pose>::commit(EkfUpdate<Pose>& update, const SortedFrame<Pose>& sorted) {
+  if (sorted.candidates() > 0) update.commit();
   for (const Candidate<Pose>& candidate : sorted) {
     report_.match(candidate.observation).decision = Decision::matched;
     map_.table().add_observations(candidate.slot, 1);

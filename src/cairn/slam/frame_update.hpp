@@ -18,8 +18,9 @@ class FrameUpdate {
 
   // The update whose window holds the candidates.
   EkfUpdate<Pose> begin(const Frame<Pose>& frame, const SortedFrame<Pose>& sorted);
-  // Everything up to the commit. The candidates that the gates accept are left in `sorted`.
+  // Everything before the commit. The candidates that the gates accept are left in `sorted`.
   void run(EkfUpdate<Pose>& update, const Frame<Pose>& frame, SortedFrame<Pose>& sorted);
+  void commit(EkfUpdate<Pose>& update, const SortedFrame<Pose>& sorted);
 
  private:
   class Gates;

@@ -32,7 +32,7 @@ void WholeBatchUpdate<Pose>::run(EkfUpdate<Pose>& update, Index rows, int iterat
   match.threshold = thresholds_.single(rows);
   update.factor();
   match.distance = update.nis();
-  if (!(match.distance <= match.threshold)) {
+  if (!(match.distance <= std::min(match.threshold, kAbsurdDistance))) {
     match.reason = Reason::gate;
     log_.say("update: the gate refused a batch of %td rows, distance %g over %g", rows, match.distance,
              match.threshold);
@@ -47,17 +47,18 @@ void WholeBatchUpdate<Pose>::run(EkfUpdate<Pose>& update, Index rows, int iterat
 }
 
 template <class Pose>
-void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& fix) {
+void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& given) {
   report_.start(1);
-  if (!fix.defined(submaps_.pose())) {
+  const std::optional<AbsoluteFix<Pose>> fix = given.usable(submaps_.pose(), submaps_.pose_covariance());
+  if (!fix) {
     report_.match(0).reason = Reason::no_image;
-    log_.say("update: no heading, because the body's x axis is too close to the vertical");
+    log_.say("update: no heading, because the body's x axis may be vertical");
     return report_.finish();
   }
-  if (submaps_.map() != nullptr) return fix_map(fix);
+  if (submaps_.map() != nullptr) return fix_map(*fix);
   EkfUpdate<Pose> update = map_.state().begin({});
-  run(update, fix.rows(), options_.iterations, kNoId,
-      [&](double* residual_only) { return fill_fix(update, fix, residual_only); });
+  run(update, fix->rows(), options_.iterations, kNoId,
+      [&](double* residual_only) { return fill_fix(update, *fix, residual_only); });
 }
 
 template <class Pose>

@@ -20,7 +20,7 @@ class WholeBatchUpdate {
   WholeBatchUpdate(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map, SubmapKeeper<Pose>& submaps,
                    const Thresholds& thresholds, FrameReport& report, const Log& log);
 
-  void fix(const AbsoluteFix<Pose>& fix);
+  void fix(const AbsoluteFix<Pose>& given);
   void rows(const LinearRows& rows);
   // If the gate accepts that two landmarks are one, `other` is removed.
   void merge(std::uint64_t id, std::uint64_t other);
