@@ -248,8 +248,9 @@ CAIRN_API cairn_status cairn_filter_predict_increment(cairn_filter *filter, cons
  *  observation with an unknown id places a new landmark, with all its correlations. `matches` (room for `count`, or
  *  NULL) gets the match of each observation. `count` may be 0. Allocates nothing.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also an id twice, CAIRN_ID_NONE, noise that is not a
- *  covariance), CAIRN_ERROR_NOT_FOUND (sensor), CAIRN_ERROR_CAPACITY (more than max_observations, or the map would
- *  hold more than max_landmarks), CAIRN_ERROR_NUMERICAL. Complexity: O(n^2 m) for n states and m rows. \since 0.1.0 */
+ *  covariance), CAIRN_ERROR_NOT_FOUND (sensor), CAIRN_ERROR_CAPACITY (more than max_observations),
+ *  CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_CALLBACK (a custom sensor's function aborted). Complexity: O(n^2 m) for n states
+ *  and m rows. \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_update(cairn_filter *filter, int32_t sensor, const cairn_observation *observations,
                                            size_t count, cairn_match *matches);
 
@@ -280,8 +281,9 @@ CAIRN_API cairn_status cairn_filter_update_attitude(cairn_filter *filter, const 
                                                     const double covariance[9], cairn_match *match);
 
 /** Updates the filter by an absolute heading (sun sensor, compass): the yaw of the body's x axis in the map, rad,
- *  with its standard deviation (> 0). It is refused (CAIRN_REASON_NO_IMAGE) if the x axis is within 5 degrees of the
- *  vertical. `match` (or NULL) gets the match.
+ *  with its standard deviation (> 0). A tilted body adds noise of second order (docs/sensors.md). The heading is
+ *  refused (CAIRN_REASON_NO_IMAGE) if the x axis is within three standard deviations of the tilt of the vertical.
+ *  `match` (or NULL) gets the match.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(n^2). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_update_heading(cairn_filter *filter, double heading, double sigma,
                                                    cairn_match *match);

@@ -325,7 +325,7 @@ int main(int argc, char** argv) {
   for (size_t i = 0; i < TEAMS; ++i) cairn_team_destroy(teams[i]);
   for (size_t i = 0; i < POOL; ++i) free(pool[i].bytes);
   printf("seed %llu: %llu calls", (unsigned long long)seed, calls);
-  for (int i = 0; i < 9; ++i) printf(", %s %llu", cairn_status_name(-i), fuzz_counts[i]);
+  for (int i = 0; i < 10; ++i) printf(", %s %llu", cairn_status_name(-i), fuzz_counts[i]);
   printf("\npackets by result:");
   for (int i = 1; i < 18; ++i) printf(" %llu", results[i]);
   printf("; %llu taken\n", (unsigned long long)taken);

@@ -257,6 +257,31 @@ class CallbackTest(unittest.TestCase):
             one.update(wrong, [7], [[1.0, 2.0]])
         self.assertEqual(one.update(sensor, [7], seen([7]))["result"].tolist(), [cairn.MATCHED])
 
+    def test_an_exception_leaves_no_part_of_the_frame(self):
+        calls = []
+
+        def second_fails(pose, landmark):
+            calls.append(landmark)
+            if len(calls) == 2:
+                raise KeyError("no calibration for this landmark")
+            return landmark - pose.position, np.hstack([-np.eye(3), np.zeros((3, 3))]), np.eye(3)
+
+        one = cairn.Filter(initial_covariance=np.eye(6) * 0.01)
+        lidar, custom = one.add_cartesian(), one.add_custom(second_fails, sigma=[0.1] * 3)
+        one.update(lidar, [1, 2], [[3, 0, 0], [0, 3, 0]])
+        before, pose = one.map.landmark(1), one.pose()
+        for _ in range(3):
+            calls.clear()
+            with self.assertRaisesRegex(KeyError, "no calibration"):
+                one.update(custom, [1, 2], [[3.2, 0, 0], [0, 3, 0]])
+            after = one.map.landmark(1)
+            self.assertEqual(after["observations"], before["observations"])
+            np.testing.assert_array_equal(after["position"], before["position"])
+            np.testing.assert_array_equal(after["covariance"], before["covariance"])
+            np.testing.assert_array_equal(one.pose()[2], pose[2])
+        calls.extend([None, None])
+        self.assertEqual(one.update(custom, [1, 2], [[3.2, 0, 0], [0, 3, 0]])["result"].tolist(), [cairn.MATCHED] * 2)
+
     def test_a_callback_may_not_call_its_filter(self):
         one, _ = filled()
         custom = one.add_custom(lambda pose, landmark: one.pose(), rows=2)
@@ -311,7 +336,7 @@ class BadInputTest(unittest.TestCase):
         self.refused(TypeError, "z: must be numbers", one.update, sensor, [1], [["a", "b", "c"]])
         self.refused(TypeError, "z is missing", one.update, sensor, [1])
         for ids, z, word in (([7, 7], seen([7, 7]), "ARGUMENT"), ([2**64 - 1], seen([7]), "ARGUMENT"),
-                             ([7], [[np.nan, 0, 0]], "ARGUMENT"), (np.arange(30), np.ones((30, 3)), "CAPACITY")):
+                             ([7], [[np.nan, 0, 0]], "ARGUMENT"), (np.arange(300), np.ones((300, 3)), "CAPACITY")):
             self.refused(cairn.CairnError, f"CAIRN_ERROR_{word}", one.update, sensor, ids, z)
         self.refused(cairn.CairnError, "CAIRN_ERROR_NOT_FOUND", one.update, sensor + 1, [7], seen([7]))
         self.refused(OverflowError, "", one.update, 2**40, [7], seen([7]))

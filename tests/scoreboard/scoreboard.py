@@ -16,15 +16,20 @@ COLUMNS = ("recording", "steps", "odometry", "online", "corrected", "map", "ANEE
 
 PREFACE = """# Scoreboard {{#scoreboard}}
 
-`bash tests/scoreboard.sh{option} > docs/scoreboard.md` wrote this page: {version}, {machine}.
+{version}, {machine}. This command wrote the page:
+
+```sh
+bash tests/scoreboard.sh{option} > docs/scoreboard.md
+```
 
 Every recording of a kind is run with the same options of `cairn run`, and none is tuned by its truth. Errors are root
 mean squares of positions in metres against the truth, with nothing aligned. *odometry*: motions without observations.
 *online*: each pose as it was estimated directly after its step. *corrected*: the same poses as they are known at the
 end of the run ([trajectory](trajectory.md)). *map*: landmarks at the end, where their truth is known. *ANEES*: for each
 degree of freedom, 1 for a consistent filter. *refused*: observations that the filter refused. *verdict*: that of the
-filter at the end of the run. *time*: of all steps, in the library. For robots, errors and ANEES are means over the
-robots, the map is a mean over their maps, and the time is that of all of them.
+filter at the end of the run. *time*: of all steps, in the library, by a clock that also counts what else the machine
+did. For robots, errors and ANEES are means over the robots, the map is a mean over their maps, and the time is that of
+all of them.
 
 *iSAM2* and *batch* are those of GTSAM in the same run (`tests/scoreboard/smoothers.py`). The poses of iSAM2 are online
 estimates; its map, and all of the batch, are those of the whole recording. Stereo observations have a Cauchy loss,

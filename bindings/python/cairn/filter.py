@@ -74,7 +74,7 @@ class Filter(Handle):
         predict(pose, landmark) returns (z (rows,), dz/d[dp; dtheta] (rows x 6), dz/dlandmark (rows x 3)), or None if
         the landmark cannot be seen from the pose. place(pose, z) returns (landmark (3,), its Jacobian by the pose (3 x 6),
         its Jacobian by z (3 x rows)), or None. Without `place` the sensor only observes landmarks that other
-        sensors placed. An exception in either function is raised by update().
+        sensors placed. An exception in either function is raised by update(), and no part of that frame counts.
         """
         struct = _structs.new("cairn_custom", description)
         self._callbacks.custom(struct, predict, place)

@@ -98,11 +98,24 @@ SystematicOptions systematic_of(const cairn_filter_options& o) {
   return options;
 }
 
+// A start that is not known at all has a large covariance, but not one that no map has.
+template <class Pose>
+void check_initial_covariance(const typename Pose::Square& covariance) {
+  for (int i = 0; i < Pose::kDof; ++i) {
+    const double largest = i < Pose::kDim ? kLargestPositionSigma : kLargestAttitudeSigma;
+    if (covariance(i, i) > largest * largest)
+      throw Error(ErrorCode::argument,
+                  "options.initial_covariance: the variance of the %s is %g, and must be at most %g",
+                  i < Pose::kDim ? "position" : "attitude", covariance(i, i), largest * largest);
+  }
+}
+
 template <class Pose>
 FilterOptions<Pose> options_of(const cairn_filter_options& o) {
   FilterOptions<Pose> options;
   options.initial_pose = read_pose_of<Pose>(&o.initial_pose, "options.initial_pose");
   options.initial_covariance = read_pose_covariance<Pose>(o.initial_covariance, "options.initial_covariance");
+  check_initial_covariance<Pose>(options.initial_covariance);
   options.error = error_of(o);
   options.join = join_of(o);
   options.join_loss = join_loss_of(o);

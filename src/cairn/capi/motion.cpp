@@ -43,12 +43,12 @@ Wheels read_wheels(const cairn_wheels* user) {
                 w.yaw_sign);
   check_positive(w.radius, "wheels.radius");
   check_positive(w.track, "wheels.track");
-  check_not_negative(w.rate_sigma, "wheels.rate_sigma");
-  check_not_negative(w.slip_sigma, "wheels.slip_sigma");
-  check_not_negative(w.lateral_sigma, "wheels.lateral_sigma");
-  check_not_negative(w.vertical_sigma, "wheels.vertical_sigma");
-  check_not_negative(w.roll_rate_sigma, "wheels.roll_rate_sigma");
-  check_not_negative(w.pitch_rate_sigma, "wheels.pitch_rate_sigma");
+  check_sigma_or_zero(w.rate_sigma, "wheels.rate_sigma");
+  check_sigma_or_zero(w.slip_sigma, "wheels.slip_sigma");
+  check_sigma_or_zero(w.lateral_sigma, "wheels.lateral_sigma");
+  check_sigma_or_zero(w.vertical_sigma, "wheels.vertical_sigma");
+  check_sigma_or_zero(w.roll_rate_sigma, "wheels.roll_rate_sigma");
+  check_sigma_or_zero(w.pitch_rate_sigma, "wheels.pitch_rate_sigma");
   return {w.yaw_sign == CAIRN_YAW_LEFT_MINUS_RIGHT,
           w.radius,
           w.track,
@@ -62,8 +62,8 @@ Wheels read_wheels(const cairn_wheels* user) {
 
 TwistNoise read_twist_noise(const cairn_twist_noise* user) {
   const cairn_twist_noise n = read_options(user, default_twist_noise(), "noise");
-  check_not_negative(n.velocity_sigma, 3, "noise.velocity_sigma");
-  check_not_negative(n.rate_sigma, 3, "noise.rate_sigma");
+  check_sigma_or_zero(n.velocity_sigma, 3, "noise.velocity_sigma");
+  check_sigma_or_zero(n.rate_sigma, 3, "noise.rate_sigma");
   return {Vector3(n.velocity_sigma), Vector3(n.rate_sigma)};
 }
 

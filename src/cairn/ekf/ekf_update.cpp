@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -114,7 +115,10 @@ template <class Pose>
 void EkfUpdate<Pose>::form_innovation() {
   require(stage_ == Stage::linearised || stage_ == Stage::factored, "form_innovation");
   const Index m = batch().rows();
-  batch().innovation_covariance(workspace_.HP, m, workspace_.S, m);
+  double prior[kDim];
+  double largest = 0.0;
+  for (Index d = 0; d < kDim; ++d) largest = std::max(largest, prior[d] = workspace_.columns[d * state_.ld_ + d]);
+  batch().innovation_covariance(workspace_.HP, m, workspace_.S, m, prior, largest > kHardlyKnown ? kDim : 0);
   std::copy_n(batch().residual(), m, workspace_.innovation);
   stage_ = Stage::linearised;
 }
@@ -125,8 +129,7 @@ double EkfUpdate<Pose>::distance(Index block, Index rows) const {
   const Index m = batch().rows();
   const double distance =
       squared_distance(batch().residual() + block * rows, workspace_.S + block * rows * (m + 1), m, rows);
-  if (distance < 0.0) throw_not_definite();
-  return distance;
+  return distance >= 0.0 ? distance : std::numeric_limits<double>::infinity();
 }
 
 template <class Pose>
@@ -217,6 +220,21 @@ void EkfUpdate<Pose>::step() {
 }
 
 template <class Pose>
+Pose EkfUpdate<Pose>::solved_pose() const {
+  Pose pose = state_.pose_;
+  if (stage_ == Stage::solved) state_.model_.retract(Eigen::Map<const Tangent>(workspace_.error_window), pose);
+  return Pose(pose.rotation(), pose.translation() + state_.origin_);
+}
+
+template <class Pose>
+MountError<Pose> EkfUpdate<Pose>::solved_mount() const {
+  MountError<Pose> mount = mount_;
+  for (Index i = 0; i < window_.mount_size() && stage_ == Stage::solved; ++i)
+    mount(i) = workspace_.error_window[window_.mount() + i];
+  return mount;
+}
+
+template <class Pose>
 double EkfUpdate<Pose>::misfit(const double* residual) const {
   require(stage_ == Stage::solved, "misfit");
   double sum = 0.0;
@@ -231,7 +249,6 @@ template <class Pose>
 bool EkfUpdate<Pose>::try_commit() {
   require(stage_ == Stage::solved, "commit");
   stage_ = Stage::open;  // W is overwritten, even if the commit is refused
-  constexpr double kLeast = 1e-14;
   const Index n = state_.states(), m = batch().rows(), ld = state_.ld_;
   // P H^T of the last linearisation becomes W = P H^T L^-T. The error xi = W L^-1 r and the decrease of the diagonal by
   // P_new = P - W W^T (Mars paper, eq. 13) are computed before anything is changed.
@@ -246,14 +263,25 @@ bool EkfUpdate<Pose>::try_commit() {
     for (Index t = 0; t < motion.rank(); ++t)
       for (Index i = moving; i < n; ++i) diagonal[i] += motion.left()[t * ld + i] * motion.right()[t * ld + i];
   for (Index i = 0; i < n; ++i) {
-    if (!std::isfinite(workspace_.error_state[i])) return false;
+    if (!(std::abs(workspace_.error_state[i]) <= kFarthest)) return false;  // also refuses NaN
     // A variance after the update must exceed the rounding error of the variance before it. A zero variance stays zero.
-    if (!(diagonal[i] - workspace_.shrunk[i] >= kLeast * diagonal[i] && diagonal[i] >= 0.0)) return false;
+    if (!(diagonal[i] - workspace_.shrunk[i] >= kLeast * diagonal[i] && diagonal[i] >= 0.0) && !pose_alone())
+      return false;
+  }
+  if (pose_alone()) {
+    bool cancels = false;
+    for (Index i = 0; i < n; ++i)
+      cancels = cancels || !(diagonal[i] - workspace_.shrunk[i] >= 1e-8 * diagonal[i]) ||
+                (i < kDim && diagonal[i] > kHardlyKnown);
+    if (cancels) return commit_pose_alone();
   }
 
   if (window_.mount_size() != 0) correlate_mount();
   state_.write_covariance(m, workspace_.columns);
   state_.move(workspace_.error_state);
+  double turn = 0.0;
+  for (Index t = kDim; t < kDof; ++t) turn += diagonal[t];
+  state_.raise_variances(diagonal, turn);
   stage_ = Stage::committed;
   return true;
 }

@@ -76,7 +76,7 @@ class EkfUpdate {
   void add_systematic_block(Index row, Index rows, const JErrors& J_errors, Index first, Index count);
 
   // --- gates ---
-  // Squared Mahalanobis distance of one block of `rows` rows by itself. Throws if its S is not positive definite.
+  // Squared Mahalanobis distance of one block of `rows` rows by itself; infinity if its S is not positive definite.
   double distance(Index block, Index rows) const;
   // Keeps only these blocks of `rows` rows, in rising order, and their S; the window stays.
   void keep(const Index* blocks, Index count, Index rows);
@@ -118,6 +118,9 @@ class EkfUpdate {
   void solve();                                 // the iterate's error against the estimate
   void step();                                  // iterate <- estimate retracted by that error
   double misfit(const double* residual) const;  // misfit of the linear model at the iterate, sigmas
+  // The pose and the mount's error that the commit will give, up to rounding.
+  Pose solved_pose() const;
+  MountError<Pose> solved_mount() const;
 
   // --- commit --- P and every variable. Throws, with nothing changed, if a variance of P would not stay positive or
   // a value not finite. This check costs O(n m) and finds most updates after which P is not definite;
@@ -133,6 +136,10 @@ class EkfUpdate {
              bool relative, const ErrorColumns<kDim>* errors = nullptr);
 
  private:
+  static constexpr double kLeast = 1e-14;      // a variance after an update, relative to the variance before it
+  static constexpr double kFarthest = 1e12;    // m by which an update may move a point
+  static constexpr double kHardlyKnown = 1e8;  // m^2, variance of a position
+
   enum class Stage { open, linearised, factored, solved, committed };
   void require(bool legal, const char* call) const;
   Point local(Index number) const { return Eigen::Map<const Point>(workspace_.iterate_points + kDim * number); }
@@ -141,6 +148,8 @@ class EkfUpdate {
   void compute_innovation();
   bool try_factor();
   bool try_commit();
+  bool pose_alone() const { return state_.size() == 0 && window_.mount_size() == 0; }
+  bool commit_pose_alone();
   void correlate_mount();
 
   State<Pose>& state_;

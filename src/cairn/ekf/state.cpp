@@ -79,6 +79,7 @@ bool State<Pose>::propagate(const Increment<Pose>& increment, const MotionCoupli
   const Pose next = pose_ * increment.T_before_after;
   if (!motion_.add(pose_, next, increment, coupling)) return false;
   pose_ = next;
+  if (far_from_origin()) move_origin();
   return true;
 }
 
@@ -192,6 +193,11 @@ bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, cons
     }
   }
   if (!landmark.allFinite() || !J.allFinite() || !block.allFinite()) return false;
+  // Beside a pose that is hardly known, the landmark's own noise would be lost to rounding: it is raised.
+  for (Index d = 0; d < kDim; ++d) {
+    const double rest = 1e-14 * block(d, d);
+    if (rest > 1e-6 * noise(d, d)) block(d, d) += rest;
+  }
   apply_pending();
 
   const Index n = states();
@@ -259,6 +265,7 @@ template <class Pose>
 typename State<Pose>::Backup State<Pose>::backup() const {
   const Index n = states();
   Backup backup{pose_,
+                origin_,
                 {points_, points_ + kDim * size()},
                 {},
                 {systematic_, systematic_ + systematic()},
@@ -272,6 +279,7 @@ typename State<Pose>::Backup State<Pose>::backup() const {
 template <class Pose>
 void State<Pose>::restore(const Backup& backup) {
   pose_ = backup.pose;
+  origin_ = backup.origin;
   const Index points = static_cast<Index>(backup.points.size()) / kDim;
   layout_.add_points(points - size());
   std::copy(backup.points.begin(), backup.points.end(), points_);

@@ -61,7 +61,8 @@ class State {
   Index systematic() const { return layout_.systematic(); }
   double systematic(Index number) const { return systematic_[number]; }
 
-  // --- propagate --- O(1). Returns false, with nothing changed, if a result is not finite.
+  // --- propagate --- O(1), and O(n^2) where the origin moves. Returns false, with nothing changed, if a result is not
+  // finite.
   bool propagate(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
   // Adds an independent error of the pose, with this covariance of the ordinary error, to the motion that is held back.
   bool widen(const Square& ordinary_covariance);
@@ -156,6 +157,7 @@ class State {
   // A copy of everything that an update and a composition change. Allocates.
   struct Backup {
     Pose pose;
+    Point origin;
     std::vector<double> points, triangle, systematic;
     std::vector<Rotation> attitudes;
     typename PendingMotion<Pose>::Snapshot motion;
@@ -184,12 +186,18 @@ class State {
   // of the pose and the systematic errors.
   void write_covariance(Index rank, const double* columns);
   void move(const double* error);  // every variable by its retraction
+  bool far_from_origin() const;
+  void move_origin();  // to the vehicle
+  // Raises ordinary variances that a double cannot hold. `before`: the variances of P, state by state, before it
+  // changed; `turn`: the sum of those of the attitude.
+  void raise_variances(const double* before, double turn);
 
   ErrorModel<Pose> model_;
   StateLayout<Pose> layout_;
   Index ld_;  // of P and of every array with one row for each state
-  // All positions below are relative to the start position. The arms G(x) of the invariant error reach from the origin
-  // to x. With an origin far away, the arms would be long and the covariance would lose its digits to rounding.
+  // All positions below are relative to the origin: the start position, until the vehicle is far from it. The arms G(x)
+  // of the invariant error reach from the origin to x. With an origin far away, the arms would be long and the
+  // covariance would lose its digits to rounding.
   Point origin_ = Point::Zero();
   Pose pose_;
   double* points_;

@@ -78,6 +78,11 @@ void State<Pose>::compose(const Handover& handover) {
   Matrix across = A * columns.transpose();  // new by old states, before the old ones' reference turns
   Matrix block = A * columns(chosen, all) * A.transpose() + noise;
   block = (0.5 * (block + block.transpose())).eval();
+  // Beside a base that is hardly known, the submap's own noise would be lost to rounding: it is raised (augment()).
+  for (Index i = 0; i < rest; ++i) {
+    const double lost = 1e-14 * block(i, i);
+    if (lost > 1e-6 * noise(i, i) && (i < kDim || i >= kDof)) block(i, i) += lost;
+  }
 
   if (invariant && size() > 0) {
     const Matrix turned = columns * C.transpose();  // covariance of all states with R_S xi_RL
@@ -109,6 +114,11 @@ void State<Pose>::compose(const Handover& handover) {
   for (Index a = 0; a < fresh; ++a) place_of(size() + a) = p + R * handover.fresh[a];
   layout_.add_points(fresh);
   pose_ = pose_ * handover.T_base_end;
+  if (far_from_origin()) return move_origin();
+  double turn = 0.0;
+  for (Index i = 0; i < states(); ++i) workspace_.diagonal[i] = P_(i, i);
+  for (Index t = kDim; t < kDof; ++t) turn += P_(t, t);
+  raise_variances(workspace_.diagonal, turn);
 }
 
 template void State<SE2>::compose(const Handover&);

@@ -258,7 +258,7 @@ double State<Pose>::smallest_pivot() {
         const double* other = P_.column(i);
         double sum = 0.0;
         if (P_(i, i) > 0.0) {
-          sum = P_(j, i) / std::sqrt(variance * P_(i, i));
+          sum = P_(j, i) / std::sqrt(variance) / std::sqrt(P_(i, i));  // a product of the variances could underflow
           for (Index k = 0; k < i; ++k) sum -= other[k] * column[k];
           sum /= pivots[i];
         }

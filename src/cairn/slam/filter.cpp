@@ -120,6 +120,13 @@ void Filter<Pose>::move(const Increment<Pose>& increment, const MotionCoupling<P
   if (!(increment.covariance.diagonal().template tail<kTurn>().maxCoeff() <= kTurnSquared))
     throw Error(ErrorCode::numerical,
                 "prediction: the attitude's noise of this step exceeds a whole turn; nothing was changed");
+  constexpr double kFarthestStep = 1e9;  // m
+  const Point step = increment.T_before_after.translation();
+  if (!(step.cwiseAbs().maxCoeff() <= kFarthestStep))
+    throw Error(ErrorCode::numerical, "prediction: this step is longer than %g m; nothing was changed", kFarthestStep);
+  if (!(increment.covariance.diagonal().template head<kDim>().maxCoeff() <= kFarthestStep * kFarthestStep))
+    throw Error(ErrorCode::numerical, "prediction: the position's noise of this step exceeds %g m; nothing was changed",
+                kFarthestStep);
   Increment<Pose> scaled = increment;
   scaled.covariance *= health_.applied_to_motion();
   if (!local_.state().propagate(scaled, coupling))

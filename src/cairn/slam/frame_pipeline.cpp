@@ -2,8 +2,6 @@
 // One frame, from its observations to the reviewed map.
 #include "slam/frame_pipeline.hpp"
 
-#include "core/error.hpp"
-
 namespace cairn {
 
 template <class Pose>
@@ -18,7 +16,7 @@ FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& opti
       sorter_(arena, options, map, report),
       associator_(arena, options, map, thresholds, report, log),
       updater_(arena, options, map, thresholds, trust, report, log),
-      placer_(options, map, report),
+      placer_(arena, options, map, report, log),
       witness_(arena, options, map, report, health),
       review_(options, map, report) {}
 
@@ -35,6 +33,11 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
     report_.widened<Pose>(widening);
   }
   updater_.finish(*update, frame, sorted_);
+  if (frame.sensor.may_abort()) {
+    placer_.prepare(*update, frame, sorted_);
+    review_.prepare(frame);
+  }
+  updater_.commit(*update, sorted_);
   restore.release();
   trust_.commit();
   placer_.place(*update, frame, sorted_);
@@ -60,20 +63,6 @@ void FramePipeline<Pose>::sort(const Frame<Pose>& frame) {
   else
     associator_.sort_landmarks(frame, sorted_);
   sorter_.sort_companions(frame, sorted_);
-  check_room();
-}
-
-template <class Pose>
-void FramePipeline<Pose>::check_room() const {
-  const Index room = options_.local_landmarks(), held = map_.table().landmarks(), fresh = sorted_.new_ones();
-  if (held + fresh <= room) return;
-  if (!options_.single_map())
-    throw Error(ErrorCode::capacity,
-                "observations: %td new landmarks, and the open submap, which could not be closed, "
-                "holds %td of %td",
-                fresh, held, room);
-  throw Error(ErrorCode::capacity, "observations: %td new landmarks, and the map holds %td of max_landmarks = %td",
-              fresh, held, room);
 }
 
 template class FramePipeline<SE2>;

@@ -26,7 +26,6 @@ class FramePipeline {
  private:
   void attempt(const Frame<Pose>& frame, std::optional<EkfUpdate<Pose>>& update, bool again);
   void sort(const Frame<Pose>& frame);
-  void check_room() const;
 
   const FilterOptions<Pose>& options_;
   LocalMap<Pose>& map_;

@@ -204,9 +204,13 @@ void FrameUpdate<Pose>::finish(EkfUpdate<Pose>& update, const Frame<Pose>& frame
     }
     report_.update().iterations =
         update.iterate(end, [&](double* residual_only) { return fill(update, frame, sorted, residual_only); });
-    update.commit();
     report_.update().rows = update.batch().rows();
   }
+}
+
+template <class Pose>
+void FrameUpdate<Pose>::commit(EkfUpdate<Pose>& update, const SortedFrame<Pose>& sorted) {
+  if (sorted.candidates() > 0) update.commit();
   for (const Candidate<Pose>& candidate : sorted) {
     report_.match(candidate.observation).decision = Decision::matched;
     map_.table().add_observations(candidate.slot, 1);

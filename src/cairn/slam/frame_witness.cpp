@@ -2,6 +2,8 @@
 // A frame before and after its update, for the health monitor.
 #include "slam/frame_witness.hpp"
 
+#include "core/error.hpp"
+
 namespace cairn {
 namespace {
 
@@ -79,7 +81,11 @@ void FrameWitness<Pose>::remember(const Frame<Pose>& frame, Index observation) {
     landmark = placement.landmark;
   }
   Prediction<Pose> prediction;
-  if (!frame.sensor.predict(pose, landmark, MountError<Pose>::Zero(), prediction)) return;
+  try {
+    if (!frame.sensor.predict(pose, landmark, MountError<Pose>::Zero(), prediction)) return;
+  } catch (const Error&) {  // the update has been committed: a sensor that aborts now is only not remembered
+    return;
+  }
   Left<Pose> left;
   left.residual = frame.sensor.residual(frame.z(observation), prediction.z);
   left.noise = stated_noise(frame, observation, prediction);

@@ -82,15 +82,16 @@ bool WholeBatchUpdate<Pose>::contradicted(MotionTrust<Pose>& trust, const Absolu
 }
 
 template <class Pose>
-void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& fix) {
+void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& given) {
   report_.start(1);
-  if (!fix.defined(submaps_.pose())) {
+  const std::optional<AbsoluteFix<Pose>> fix = given.usable(submaps_.pose(), submaps_.pose_covariance());
+  if (!fix) {
     report_.match(0).reason = Reason::no_image;
-    log_.say("update: no heading, because the body's x axis is too close to the vertical");
+    log_.say("update: no heading, because the body's x axis may be vertical");
     return report_.finish();
   }
-  if (submaps_.map() != nullptr) return fix_map(fix);
-  return fix_single(fix);
+  if (submaps_.map() != nullptr) return fix_map(*fix);
+  return fix_single(*fix);
 }
 
 template <class Pose>

@@ -24,7 +24,7 @@ class WholeBatchUpdate {
                    const Thresholds& thresholds, MotionTrust<Pose>& trust, FrameReport& report,
                    HealthMonitor<Pose>& health, const Log& log);
 
-  void fix(const AbsoluteFix<Pose>& fix);
+  void fix(const AbsoluteFix<Pose>& given);
   void rows(const LinearRows& rows);
   // If the gate accepts that two landmarks are one, `other` is removed.
   void merge(std::uint64_t id, std::uint64_t other);
@@ -35,7 +35,9 @@ class WholeBatchUpdate {
   void test(EkfUpdate<Pose>& update, Index rows, std::uint64_t landmark, Fill&& fill);
   template <class Fill>
   void finish(EkfUpdate<Pose>& update, int iterations, Fill&& fill);
-  bool accepted() { return report_.match(0).distance <= report_.match(0).threshold; }
+  bool accepted() {
+    return report_.match(0).distance <= std::min(report_.match(0).threshold, kAbsurdDistance);
+  }
   void fix_single(const AbsoluteFix<Pose>& fix);
   void fix_map(const AbsoluteFix<Pose>& fix);
   void finish_report(Index rows);

@@ -54,6 +54,8 @@ const char* reason_name(std::int32_t reason) {
       return "no_place";
     case CAIRN_REASON_AMBIGUOUS:
       return "ambiguous";
+    case CAIRN_REASON_NO_ROOM:
+      return "no_room";
     default:
       return "unknown";
   }

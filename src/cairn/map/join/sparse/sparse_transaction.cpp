@@ -182,7 +182,7 @@ FixReport SparseTransaction<Pose>::fix(const AbsoluteFix<Pose>& fix, double thre
   report.accepted = report.distance <= threshold;
   if (!report.accepted) return report;
   if (state_.leaves.empty()) {
-    fix_prior(r, J, S);
+    fix_prior(r, J, S, fix.covariance().topLeftCorner(rows, rows));
     report.iterations = 1;
     return report;
   }
@@ -201,14 +201,19 @@ FixReport SparseTransaction<Pose>::fix(const AbsoluteFix<Pose>& fix, double thre
   return report;
 }
 
-// Without a submap there is only the prior: one linearisation.
+// Without a submap there is only the prior: one linearisation. Joseph's form keeps the digits of a precise fix of a
+// start that is hardly known.
 template <class Pose>
-void SparseTransaction<Pose>::fix_prior(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& S) {
+void SparseTransaction<Pose>::fix_prior(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& S,
+                                        const Eigen::MatrixXd& R) {
+  using Square = typename Pose::Square;
   change_->save_base(0);
-  typename Pose::Square& P = state_.solution.base_covariance;
+  Square& P = state_.solution.base_covariance;
   const Eigen::MatrixXd PJ = P * J.transpose();
   const typename Pose::Tangent e = PJ * S.ldlt().solve(r);
-  const typename Pose::Square lower = P - PJ * S.ldlt().solve(PJ.transpose());
+  const Eigen::MatrixXd K = S.ldlt().solve(PJ.transpose()).transpose();
+  const Square A = Square::Identity() - K * J;
+  const Square lower = A * P * A.transpose() + K * R * K.transpose();
   state_.bases[0] = retract(state_.bases[0], e);
   P = lower.template selfadjointView<Eigen::Lower>();
   state_.solution.anchors.set_prior(state_.bases[0], P);
