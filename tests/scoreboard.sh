@@ -33,7 +33,8 @@ if $with_gtsam; then
   python=$root/build/gtsam/bin/python
   if ! "$python" -c 'import gtsam, scipy' 2>/dev/null; then
     say "GTSAM (build/gtsam)" >&2
-    /usr/bin/python3 -m venv "$root/build/gtsam" >&2 || fail "python3 makes no virtual environment (Debian: python3-venv)"
+    /usr/bin/python3 -m venv "$root/build/gtsam" >&2 ||
+      fail "python3 makes no virtual environment (Debian: python3-venv)"
     "$root/build/gtsam/bin/pip" install --quiet gtsam scipy numpy >&2
   fi
 fi

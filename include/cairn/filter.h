@@ -109,7 +109,7 @@ typedef struct cairn_filter_options {
                                       (\ref cairn_filter_set_view), but was not seen, in this many consecutive frames
                                       of this sensor; 0, the default: never */
   uint32_t trajectory_poses;     /**< newest poses that are kept for \ref cairn_filter_trajectory, 0 to 10000000; 0, the
-                                      default: none. The memory is taken at creation, at most 500 bytes a pose */
+                                      default: none. The memory is taken at creation, at most 600 bytes a pose */
   double error_persistence;      /**< number of consecutive observations of a landmark whose errors are fully
                                       correlated, 1 to 1000000: an update multiplies the covariance of an
                                       observation's noise by this; association and placing use the noise unchanged;

@@ -25,7 +25,7 @@ enum {
   CAIRN_DOUBT_REFUSALS = 2,      /**< the gates refuse more than they refuse of honest observations */
   CAIRN_DOUBT_WIDENED = 4,       /**< the motion was widened, because most of what was seen contradicted it */
   CAIRN_DOUBT_SENSOR_NOISE = 8,  /**< a sensor's noise is more than 1.5 times what is stated */
-  CAIRN_DOUBT_MOTION_NOISE = 16, /**< the motion's noise is more than 1.5 times what is stated */
+  CAIRN_DOUBT_MOTION_NOISE = 16, /**< the motion's noise is clearly more than what is stated */
   CAIRN_DOUBT_BIAS = 32,         /**< the corrections of the pose have a mean: the motion has a constant error */
   CAIRN_DOUBT_JUMP = 64,         /**< a frame contradicts the motion since the last frame: a slip, or another place */
   CAIRN_DOUBT_LANDMARKS = 128,   /**< single landmarks contradict the rest: moved, or under a wrong id */

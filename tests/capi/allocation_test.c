@@ -53,7 +53,8 @@ static void live(const scale* s) {
   uint64_t* ids = calloc(s->observations, sizeof *ids);
   rig r;
   world w;
-  size_t result[4] = {0}, reasons[6] = {0}, most = 0, failed = 0;
+  size_t result[4] = {0}, reasons[6] = {0}, most = 0, failed = 0, widened = 0;
+  cairn_update_report report;
   double covariance[36], small[9], pivot;
   uint64_t kept;
   cairn_pose pose;
@@ -83,10 +84,18 @@ static void live(const scale* s) {
     if (step % 3 == 1) failed += cairn_filter_predict_twist(f, 0.001, still, still) != CAIRN_OK;
     if (step % 3 == 2) failed += cairn_filter_predict_increment(f, &stay, covariance) != CAIRN_OK;
     failed += cairn_filter_point_head(f, r.sensors[HEAD], 0.1, 0.05) != CAIRN_OK;
+    if (step == s->steps / 2) { /* the vehicle is carried off; then losses weigh what its sensors see */
+      w.truth.position[0] += 1;
+      failed += cairn_filter_set_loss(f, r.sensors[CAMERA], CAIRN_LOSS_HUBER, 1.5) != CAIRN_OK;
+      failed += cairn_filter_set_loss(f, r.sensors[CARTESIAN], CAIRN_LOSS_CAUCHY, 1) != CAIRN_OK;
+    }
     n = look(&w, sensor, (size_t)step * s->observations / 2, s->landmarks, s->observations, o);
     if (step % 4 == 3 && n > 2) o[1].z[0] += 30; /* an outlier, or a point behind the lens */
     failed += cairn_filter_update(f, r.sensors[sensor], o, n, m) != CAIRN_OK;
     for (size_t i = 0; i < n; ++i) ++result[m[i].result], ++reasons[m[i].reason];
+    report.struct_size = sizeof report;
+    failed += cairn_filter_last_update(f, &report) != CAIRN_OK;
+    widened += report.widened_position > 0;
     if (n > most) most = n;
     failed += cairn_filter_update_position(f, w.truth.position, small, step % 2 ? NULL : centre, &one) != CAIRN_OK;
     failed += cairn_filter_update_attitude(f, w.truth.quaternion, small, &one) != CAIRN_OK;
@@ -114,6 +123,7 @@ static void live(const scale* s) {
   assert_true(most == s->observations);
   assert_true(result[CAIRN_MATCHED] > 0 && result[CAIRN_NEW] > 0);
   assert_true(reasons[CAIRN_REASON_GATE] + reasons[CAIRN_REASON_NO_IMAGE] > 0);
+  if (s->association == CAIRN_ASSOCIATION_KNOWN && s->steps >= 300) assert_true(widened > 0);
   rig_close(&r);
   free(o), free(m), free(residual), free(noise), free(jp), free(jl), free(ids);
 }

@@ -303,6 +303,24 @@ static void removal(void** state) {
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_remove_landmark(NULL, 1));
 }
 
+static void losses(void** state) {
+  bench* b = *state;
+  cairn_filter* f = b->main.filter;
+  const int32_t sensor = b->main.sensors[CARTESIAN];
+  static const int32_t unknown[] = {-1, 3, INT32_MIN, INT32_MAX};
+  static const double widths[] = {0, -1, NAN, INFINITY, -INFINITY, 1.1e6};
+  for (size_t n = 0; n < LENGTH(unknown); ++n)
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "loss", cairn_filter_set_loss(f, sensor, unknown[n], 1));
+  for (size_t n = 0; n < LENGTH(widths); ++n) {
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "width", cairn_filter_set_loss(f, sensor, CAIRN_LOSS_HUBER, widths[n]));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "width", cairn_filter_set_loss(f, sensor, CAIRN_LOSS_CAUCHY, widths[n]));
+  }
+  assert_refused(b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_set_loss(f, SENSORS, CAIRN_LOSS_HUBER, 1));
+  assert_refused(b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_set_loss(f, -1, CAIRN_LOSS_NONE, 1));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_set_loss(NULL, sensor, CAIRN_LOSS_HUBER, 1));
+  assert_ok(cairn_filter_set_loss(f, sensor, CAIRN_LOSS_NONE, NAN)); /* ignores the width */
+}
+
 /* A result that would not be finite is a numerical error, and the state stays unchanged. */
 static void overflow(void** state) {
   bench* b = *state;
@@ -387,6 +405,7 @@ int main(void) {
       TEST(absolute_attitude_and_heading),
       TEST(linear),
       TEST(removal),
+      TEST(losses),
       TEST(overflow),
       cmocka_unit_test(a_custom_sensor_that_gives_no_numbers_is_refused),
   };

@@ -13,7 +13,8 @@ static void options_defaults(void** state) {
   assert_int_equal(o.max_observations, 64);
   assert_int_equal(o.max_sensors, 8);
   assert_int_equal(o.iterations, 3);
-  assert_true(o.iteration_tolerance == 0.1 && o.gate_probability == 0.99 && o.batch_gate_probability == 0.9999);
+  assert_true(o.join_loss == CAIRN_LOSS_NONE && o.join_loss_width == 1.5);
+  assert_true(o.iteration_tolerance == 0.1 && o.gate_probability == 0.999 && o.batch_gate_probability == 0.9999);
   for (int i = 0; i < 3; ++i) assert_true(o.initial_pose.position[i] == 0 && o.initial_pose.quaternion[i + 1] == 0);
   assert_true(o.initial_pose.quaternion[0] == 1);
   for (int i = 0; i < 36; ++i) assert_true(o.initial_covariance[i] == 0);
@@ -94,6 +95,15 @@ static void options_out_of_range_are_refused_one_by_one(void** state) {
     o = good;
     o.iteration_tolerance = bad[n];
     refuse_options(&o, "iteration_tolerance");
+    o = good;
+    o.join_loss_width = bad[n];
+    refuse_options(&o, "join_loss_width");
+  }
+  static const int32_t losses[] = {-1, 3, INT32_MIN, INT32_MAX};
+  for (size_t n = 0; n < LENGTH(losses); ++n) {
+    cairn_filter_options o = good;
+    o.join_loss = losses[n];
+    refuse_options(&o, "join_loss");
   }
 }
 

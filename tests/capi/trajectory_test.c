@@ -44,10 +44,10 @@ static void poses_follow_the_map(void** state) {
       for (int i = 0; i < 36; ++i) o.initial_covariance[i] = 0;
       cairn_filter* f = ring_filter(&o);
       for (int k = 0; k < STEPS; ++k) {
-        ring_frame frame;
-        ring_next(&course, &frame);
-        assert_ok(ring_take(f, &frame));
-        truth[k] = course.truth, steps[k] = frame.increment;
+        ring_frame seen;
+        ring_next(&course, &seen);
+        assert_ok(ring_take(f, &seen));
+        truth[k] = course.truth, steps[k] = seen.increment;
         assert_ok(cairn_filter_pose(f, &first[k], NULL));
         const cairn_pose last = newest(f);
         assert_same_pose(&last, &first[k], 1e-8); /* the jitter of a singular covariance */

@@ -94,9 +94,9 @@ class World:
             self.motion_noise = 3.0
         elif fault in ("wrong pairing", "moved landmark"):
             # Landmarks that stay in sight for a while: ahead of the vehicle.
-            ahead = seen[np.argsort(-((self.landmarks[seen] - self.p) @ self.R)[:, 0])]
+            ahead = seen[np.argsort(-((self.landmarks[seen] - self.p) @ self.R)[:, 0])][len(seen) // 4:]
             if fault == "moved landmark":
-                self.landmarks[ahead[0]] += 2.0 * away
+                self.landmarks[ahead[0]] += 3.0 * away
             else:
                 apart = np.linalg.norm(self.landmarks[ahead] - self.landmarks[ahead[0]], axis=1)
                 other = ahead[np.flatnonzero(apart > 2.0)[0]]

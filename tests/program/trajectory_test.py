@@ -22,7 +22,8 @@ class Trajectories(ProgramTest):
     def check_files(self, *command):
         folder = self.path("out")
         s = self.figures(*command, "--output", folder)
-        online, corrected, truth = (self.tum(folder, f"trajectory_{name}.tum") for name in ("online", "corrected", "truth"))
+        online, corrected, truth = (self.tum(folder, f"trajectory_{name}.tum")
+                                    for name in ("online", "corrected", "truth"))
         table = self.read_csv(folder, "trajectory.csv")
         self.assertEqual({len(online), len(corrected), len(truth), len(table)}, {s["steps"]})
         for row, wanted in zip(online, table):

@@ -72,7 +72,8 @@ class ResultsTest(unittest.TestCase):
             lib.cairn_filter_last_update(raw[0], report)
             self.assertEqual(layer.last_update(), {name: getattr(report, name) for name in (
                 "matched", "placed", "rejected", "rows", "iterations", "nis", "nis_lower", "nis_upper",
-                "association_nodes", "association_exhausted", "association_seconds", "deferred", "removed")})
+                "association_nodes", "association_exhausted", "association_seconds", "deferred", "removed",
+                "widened_position", "widened_attitude")})
         lib.cairn_filter_destroy(raw[0])
 
     @unittest.skipUnless(os.environ.get("CAIRN_ROVER"), "the C program of the same example was not built by GCC")
@@ -139,6 +140,24 @@ class ResultsTest(unittest.TestCase):
     def test_nees(self):
         one = cairn.Filter(initial_covariance=np.diag([4.0, 1, 1, 1, 1, 1]))
         self.assertAlmostEqual(one.pose_nees(([2.0, 0, 0], [1, 0, 0, 0])), 1.0)
+
+    def test_health(self):
+        made, sensor = filled()
+        with made:
+            health = made.health()
+            self.assertEqual((health["verdict"], health["reasons"], health["words"]), (cairn.VERDICT_GOOD, 0, ["good"]))
+            for _ in range(10):
+                made.update(sensor, list(support.LANDMARKS), seen() + np.array([7.0, 0.0, 0.0]))
+            health = made.health()
+            self.assertEqual(health["verdict"], cairn.VERDICT_LOST)
+            self.assertTrue(health["reasons"] & cairn.DOUBT_REFUSALS)
+            self.assertEqual(health["words"][0], "lost")
+            self.assertEqual(len(health["words"]), 1 + bin(health["reasons"]).count("1"))
+            of_sensor = made.sensor_health(sensor)
+            self.assertEqual(of_sensor["refused"], 10 * len(support.LANDMARKS))
+            self.assertEqual(of_sensor["persistence"].shape, (4,))
+            with self.assertRaises(cairn.CairnError):
+                made.sensor_health(1)
 
     def test_submaps(self):
         with cairn.Filter(submap_landmarks=100, max_landmarks=100, join="dense") as one:

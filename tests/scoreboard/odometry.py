@@ -46,7 +46,8 @@ def motion(robot, start, end):
 
 
 def along(robot, times, nodes=None):
-    """Poses at `times`, each by odometry from the last node before it. `nodes`: times and poses; None: the true start."""
+    """Poses at `times`, each by odometry from the last node before it. `nodes`: times and poses; None: the true
+    start."""
     start = robot.odometry[0, 0]
     if nodes is None:
         nodes = np.array([start]), robot.true_pose(np.array([start]))

@@ -162,8 +162,9 @@ def read_stereo(path):
     pixels = m.get("y_var", np.array([1, 2, 1, 2]) * settings.PIXELS ** 2)
     true_points = m.get("rho_i_pj_i", np.zeros((3, 0)))
     frames = min(len(m["t"]), m["y_k_j"].shape[1], m["r_i_vk_i"].shape[1])
+    camera = tuple(float(m[name]) for name in ("fu", "fv", "cu", "cv", "b"))
     return StereoDrive(m["t"][:frames], m["v_vk_vk_i"].T[:frames], m["w_vk_vk_i"].T[:frames],
-                       np.moveaxis(m["y_k_j"], 0, 2)[:frames], tuple(float(m[k]) for k in ("fu", "fv", "cu", "cv", "b")),
+                       np.moveaxis(m["y_k_j"], 0, 2)[:frames], camera,
                        (m["C_c_v"], m["rho_v_c_v"]), m["r_i_vk_i"].T[:frames], m["theta_vk_i"].T[:frames],
                        np.sqrt([pixels[0], pixels[2], (pixels[1] + pixels[3]) / 4]),
                        np.sqrt(m.get("v_var", np.full(3, settings.VELOCITY ** 2))),

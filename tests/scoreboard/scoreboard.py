@@ -43,13 +43,16 @@ def row(name, kind, arguments):
     figures, beside, reckoned = {}, {}, None
     try:
         figures = runs.cairn(arguments.program, path, kind)
-        reckoned = runs.odometry_error(arguments.program, path, kind)
     except runs.Failure as failure:
         notes.append(f"{name}: {failure}")
+    try:
+        reckoned = runs.odometry_error(arguments.program, path, kind)
+    except (runs.Failure, OSError, ValueError) as failure:
+        notes.append(f"{name}: odometry alone: {failure}")
     if arguments.with_gtsam:
         try:
             beside = runs.smoothers(path, kind, figures)
-        except (RuntimeError, ValueError) as error:
+        except (RuntimeError, ValueError, OSError) as error:
             notes.append(f"{name}: GTSAM: {str(error).strip().splitlines()[0]}")
         if "isam2_reason" in beside:
             notes.append(f"{name}: iSAM2: {beside['isam2_reason']}")
@@ -57,8 +60,6 @@ def row(name, kind, arguments):
     if refused is not None and "observations" in figures:
         refused = f"{refused} of {figures['observations']}"
     spent = figures.get("filter_seconds")
-    if spent is None and "recursion_ms_mean" in figures:
-        spent = 1e-3 * figures["recursion_ms_mean"] * figures["steps"] * figures["vehicles"]
     beside_map = runs.distance_to_batch(figures, beside.get("landmarks", {}))
     times = [number(beside.get(key), "{:.2g} s") for key in ("isam2_s", "batch_s")]
     cells = [name.removesuffix("_sync_KLT.mat"), number(figures.get("steps"), "{}"), number(reckoned),
@@ -112,7 +113,7 @@ def main():
     if not arguments.with_gtsam:
         notes.append("iSAM2 and batch were not run: --with-gtsam was not given")
 
-    option = " --with-gtsam" if arguments.with_gtsam else ""
+    option = "".join(" " + word for word in (["--with-gtsam"] if arguments.with_gtsam else []) + arguments.recordings)
     print(PREFACE.format(option=option, version=version, machine=f"{platform.machine()}, {os.cpu_count()} processors"))
     print(line(COLUMNS))
     print(line(["---"] * len(COLUMNS)))

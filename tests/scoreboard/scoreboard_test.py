@@ -86,8 +86,10 @@ class ScoreboardTest(unittest.TestCase):
 
     def test_what_is_missing_is_told(self):
         self.write("starry_night.mat", "no log\n")
+        os.remove(os.path.join(self.robots("two_robots"), "Robot1_Groundtruth.dat"))
         page = self.board()
         self.assertRegex(page, r"- starry_night\.mat: cairn: .*starry_night\.mat")
+        self.assertRegex(page, r"- two_robots: odometry alone: .*Robot1_Groundtruth\.dat")
         self.assertIn("- mrclam7: skipped, it is not in the folder", page)
         self.assertIn("--with-gtsam was not given", page)
         self.assertEqual(self.table(page)["starry_night.mat"]["online"], "")

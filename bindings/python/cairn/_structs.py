@@ -83,9 +83,9 @@ def dtype(type_name):
 
 
 def constant(field, word, struct=""):
-    """The value of a constant that is given by a word: error="standard" is CAIRN_ERROR_STANDARD, and mode="joint" in an
-    options struct of a team is CAIRN_TEAM_JOINT."""
-    for prefix in (field, field.split("_")[0], *struct.split("_")[1:2]):
+    """The value of a constant that is given by a word: error="standard" is CAIRN_ERROR_STANDARD, join_loss="huber" is
+    CAIRN_LOSS_HUBER, and mode="joint" in an options struct of a team is CAIRN_TEAM_JOINT."""
+    for prefix in (field, field.split("_")[0], field.split("_")[-1], *struct.split("_")[1:2]):
         value = getattr(lib, f"CAIRN_{prefix}_{word}".upper(), None)
         if value is not None:
             return value

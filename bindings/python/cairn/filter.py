@@ -109,6 +109,11 @@ class Filter(Handle):
                        ffi.from_buffer("cairn_systematic_error *", errors, require_writable=True),
                        _structs.doubles(covariance), len(errors), ffi.new("size_t *"))
         return covariance
+    def set_loss(self, sensor, loss, width=1.5):
+        """Sets the loss of a sensor's residuals: "none", "huber" or "cauchy". An observation with a large residual gets
+        less weight. `width` is where the loss leaves the parabola, in standard deviations; "none" ignores it."""
+        kind = _structs.constant("loss", loss) if isinstance(loss, str) else loss
+        self._call(lib.cairn_filter_set_loss, sensor, kind, width)
 
     # Motion.
 

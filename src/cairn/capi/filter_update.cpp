@@ -204,6 +204,8 @@ cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_r
       out.association_seconds = r.association_seconds;
       out.deferred = static_cast<std::uint32_t>(r.deferred);
       out.removed = static_cast<std::uint32_t>(r.removed);
+      out.widened_position = r.widened_position;
+      out.widened_attitude = r.widened_attitude;
       write_report(out, report);
     });
   });

@@ -179,6 +179,7 @@ class State {
   PendingTurn pending_turn() const;
   PointSquare covariance_by(const ErrorColumns<kDim>& errors, const PointByPose& J) const;
   PointSquare relative_change(Index row, const PointByPose& J) const;
+  void restore_lost_digits(const double* scale);
   // P <- P_now - W W^T over `rank` columns of W, the pending motion's noise added in the same pass. `columns` are those
   // of the pose and the systematic errors.
   void write_covariance(Index rank, const double* columns);

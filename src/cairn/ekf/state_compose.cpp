@@ -83,12 +83,12 @@ void State<Pose>::compose(const Handover& handover) {
     const Matrix turned = columns * C.transpose();  // covariance of all states with R_S xi_RL
     const Matrix pivot = C * turned(chosen, all) + noise.block(kDim, kDim, kTurn, kTurn);
     Matrix new_turned = A * turned(chosen, all) + noise.middleCols(kDim, kTurn);
-    Matrix left = Matrix::Zero(n, kTurn), right = Matrix::Zero(n, kTurn);
+    Matrix left = Matrix::Zero(n, kTurn), right = turned;  // an attitude of a companion keeps its error: it has no U
     for (Index slot = 0; slot < size(); ++slot) {
       const typename ErrorModel<Pose>::Arm U = -model_.arm(local(slot));
       const Index row = layout_.point(slot).offset;
       left.middleRows(row, kDim) = U;
-      right.middleRows(row, kDim) = turned.middleRows(row, kDim) + 0.5 * U * pivot;
+      right.middleRows(row, kDim) += 0.5 * U * pivot;
     }
     across += new_turned * left.transpose();
     std::vector<double> workspace(update_triangle_workspace(n, 2 * kTurn));

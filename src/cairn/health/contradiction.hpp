@@ -22,10 +22,10 @@ class Contradiction {
 
  private:
   // With E[exp(t (d^2 - kHonest rows))] = 1 for t = 0.4 the sum of an honest landmark exceeds kBound with a probability
-  // of about exp(-0.4 kBound) = 1e-6 at a sighting.
-  static constexpr double kHonest = 2.0, kBound = 35.0;
-  static constexpr double kMost = 25.0;     // two sightings are the least that convict a landmark
-  static constexpr double kCeiling = 45.0;  // an honest landmark is acquitted after a few sightings
+  // of about exp(-0.4 kBound) = 1e-7 at a sighting.
+  static constexpr double kHonest = 2.0, kBound = 40.0;
+  static constexpr double kMost = 25.0;     // three sightings are the least that convict a landmark
+  static constexpr double kCeiling = 50.0;  // an honest landmark is acquitted after a few sightings
 
   double sum_ = 0.0;
 };

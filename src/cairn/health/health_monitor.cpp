@@ -19,6 +19,7 @@ HealthMonitor<Pose>::HealthMonitor(Arena& arena, const HealthOptions& options)
       places_(arena.take<Place>(static_cast<std::size_t>(options.max_sensors))),
       memory_(arena, 4 * options.max_observations),
       paired_{{arena, options.max_observations}, {arena, options.max_observations}, {arena, options.max_observations}},
+      steps_(arena.take<typename SightingMemory<Pose>::Sighting*>(static_cast<std::size_t>(options.max_observations))),
       slow_(arena, options.max_sensors, kSlowFrames),
       fast_(arena, options.max_sensors, kFastFrames),
       verdict_(options.gate_probability) {}
@@ -77,22 +78,29 @@ void HealthMonitor<Pose>::start(Index sensor, Index rows, bool relative) {
 
 // The difference to a sighting before, and its covariance (docs/trust.md, eq. 1 and 2).
 template <class Pose>
-void HealthMonitor<Pose>::pair(const Sighted<Pose>& sighted, const Left<Pose>& last, Index stride) {
+bool HealthMonitor<Pose>::pair(const Sighted<Pose>& sighted, bool refused, const Left<Pose>& last, Index stride) {
   const auto& drive = places_[now_].drives[stride];
-  if (!drive.chained || last.sensor != now_ || last.frame != drive.frame) return;
+  if (!drive.chained || last.sensor != now_ || last.frame != drive.frame) return false;
   // Where the estimate saw the landmark then, moved by the odometry: other updates between the frames drop out.
   const typename Pose::Point y = drive.T.inverse() * last.y;
-  const Vector3 difference = sighted.innovation + sighted.J_z_y * (sighted.y - y) - last.residual;
+  Vector3 innovation = sighted.innovation + sighted.J_z_y * (sighted.y - y);
+  auto J_z_y = sighted.J_z_y;
+  if (refused) {  // the estimate may be far off
+    Prediction<Pose> there;
+    if (!sighted.sensor->predict(Pose(), y, MountError<Pose>::Zero(), there)) return false;
+    innovation = sighted.sensor->residual(sighted.z, there.z);
+    J_z_y = there.J_z_landmark;
+  }
   // The error of y counts by the change of the Jacobian. The residual before has the covariance R - J P J^T, and the
   // error of y the covariance P - 0 with it: together they are those of the two terms below.
-  const typename Prediction<Pose>::ByLandmark J_now = sighted.J_z_y * drive.T.rotation().inverse().matrix();
+  const typename Prediction<Pose>::ByLandmark J_now = J_z_y * drive.T.rotation().inverse().matrix();
   const Matrix3 before = last.noise - last.J_z_y * last.P * last.J_z_y.transpose();
   const Matrix3 noise = sighted.noise + before + J_now * last.P * J_now.transpose();
   // By the motion's error in the axes of the body after it: dy = -dp - turn(y) dtheta.
   typename PairedFrame<Pose>::ByMotion J;
-  J.template leftCols<kDim>() = -sighted.J_z_y;
-  J.template rightCols<kTurn>() = -sighted.J_z_y * Pose::Rotation::turn(y);
-  paired_[stride].add(difference, noise, J);
+  J.template leftCols<kDim>() = -J_z_y;
+  J.template rightCols<kTurn>() = -J_z_y * Pose::Rotation::turn(y);
+  return paired_[stride].add(innovation - last.residual, noise, J);
 }
 
 template <class Pose>
@@ -104,8 +112,16 @@ void HealthMonitor<Pose>::compare(const Sighted<Pose>& sighted, double distance,
   evidence_.refused += refused ? 1 : 0;
   auto* last = memory_.find(sighted.landmark);
   if (last == nullptr) return;
-  for (Index stride = 0; stride < kStrides; ++stride)
-    if (due(stride)) pair(sighted, last->anchors[stride], stride);
+  const Index number = paired_[0].count();
+  for (Index stride = 0; stride < kStrides; ++stride) {
+    if (!due(stride)) continue;
+    const bool paired = pair(sighted, refused, last->anchors[stride], stride);
+    if (stride > 0) continue;
+    if (paired)
+      steps_[number] = last;
+    else
+      last->jumped = false;
+  }
   last->contradiction.add(distance, rows_);
   evidence_.contradicting += last->contradiction.found() ? 1 : 0;
   Vector3 error = Vector3::Zero();
@@ -142,6 +158,18 @@ void HealthMonitor<Pose>::judge_jump(const FrameParts& parts) {
   evidence_.jump_dof = parts.commons + parts.rest_dof;
 }
 
+// A landmark that jumps and stays has moved, or got another name. A gross error jumps back.
+template <class Pose>
+void HealthMonitor<Pose>::judge_steps() {
+  using Step = typename PairedFrame<Pose>::Step;
+  for (Index i = 0; i < paired_[0].count(); ++i) {
+    bool& jumped = steps_[i]->jumped;
+    const Step step = paired_[0].step(i);
+    if (step == Step::agrees && jumped) ++evidence_.contradicting;
+    jumped = step == Step::jumped && !jumped;
+  }
+}
+
 template <class Pose>
 void HealthMonitor<Pose>::learn() {
   slow_.fade(now_);
@@ -155,6 +183,7 @@ void HealthMonitor<Pose>::learn() {
       continue;
     }
     judge_jump(parts);
+    judge_steps();
     slow_.add(now_, parts);
     fast_.add(now_, parts);
     information_ = kKeepInformation * information_ + paired_[stride].information();

@@ -21,6 +21,8 @@ struct HealthOptions {
 template <class Pose>
 struct Sighted {
   std::uint64_t landmark;
+  const Sensor<Pose>* sensor;
+  Vector3 z;
   Vector3 innovation;
   Matrix3 noise;  // as stated, with that of the mount
   typename Prediction<Pose>::ByLandmark J_z_y;
@@ -85,10 +87,11 @@ class HealthMonitor {
   static double applied(const NoiseFactor& factor);
   void drive_all();
   bool due(Index stride) const { return places_[now_].frame % kStride[stride] == 0; }
-  void pair(const Sighted<Pose>& sighted, const Left<Pose>& last, Index stride);
+  bool pair(const Sighted<Pose>& sighted, bool refused, const Left<Pose>& last, Index stride);
   FrameParts split(Index stride);
   void learn();
   void judge_jump(const FrameParts& parts);
+  void judge_steps();
 
   bool apply_;
   Index sensors_;
@@ -96,6 +99,7 @@ class HealthMonitor {
   Increment<Pose> since_;  // the last frame of any sensor
   SightingMemory<Pose> memory_;
   PairedFrame<Pose> paired_[kStrides];
+  typename SightingMemory<Pose>::Sighting** steps_;  // landmarks of the differences to the frame before
   NoiseRegression slow_, fast_;
   DriftTest<Pose> drift_;
   Verdict verdict_;

@@ -15,6 +15,7 @@ constexpr double kSlight = 0.02;  // a direction with less says nothing about th
 // Two differences of one landmark in a row share an observation: their correlation is -1/2, and the variance of a mean
 // of squares 1 + 2 (1/2)^2 times that of independent ones.
 constexpr double kShared = 1.5;
+constexpr double kOverlap = 1.5;  // differences over several frames contain those over fewer
 
 // Weights that fade have a sum of squares that is this part of their sum: 1 at first, 1/2 once the window is full.
 double old_weights(double young) {
@@ -85,7 +86,7 @@ void NoiseRegression::solve() {
     right += sums.b - sums.ab * a / aa;
   }
   motion_ = {std::min(kMost, std::max(kLeast, right / information)),
-             std::sqrt(kShared * old_weights(young) / information)};
+             std::sqrt(kOverlap * kShared * old_weights(young) / information)};
   for (Index s = 0; s < count_; ++s) {
     Sums& sums = sensors_[s];
     if (sums.aa <= 0.0) continue;

@@ -32,16 +32,17 @@ void PairedFrame<Pose>::start(Index rows) {
 }
 
 template <class Pose>
-void PairedFrame<Pose>::add(const Vector3& difference, const Matrix3& noise, const ByMotion& J_motion) {
+bool PairedFrame<Pose>::add(const Vector3& difference, const Matrix3& noise, const ByMotion& J_motion) {
   double L[9];
   for (Index c = 0; c < rows_; ++c)
     for (Index r = c; r < rows_; ++r) L[c * 3 + r] = noise(r, c);
-  if (!cholesky(L, 3, rows_) || !difference.allFinite() || !J_motion.allFinite()) return;
+  if (!cholesky(L, 3, rows_) || !difference.allFinite() || !J_motion.allFinite()) return false;
   Block& block = blocks_[count_++];
   block.difference = difference;
   block.J = J_motion;
   solve_lower(L, 3, rows_, block.difference.data());
   for (Index c = 0; c < kDof; ++c) solve_lower(L, 3, rows_, block.J.data() + kMostRows * c);
+  return true;
 }
 
 // Of one difference by itself, from the covariance alpha + beta J N J^T (eq. 3).
@@ -64,19 +65,26 @@ double PairedFrame<Pose>::largest_distance() {
 }
 
 template <class Pose>
+typename PairedFrame<Pose>::Step PairedFrame<Pose>::step(Index difference) const {
+  constexpr double kJump = 3.0;
+  const double distance = blocks_[difference].distance;
+  return distance <= largest_ ? Step::agrees : distance > kJump * largest_ ? Step::jumped : Step::unclear;
+}
+
+template <class Pose>
 FrameParts PairedFrame<Pose>::split(const Square& motion, double alpha, double beta) {
   FrameParts parts;
   if (count_ == 0) return parts;
   const Square L = semidefinite_factor(motion);
   for (Index i = 0; i < count_; ++i) blocks_[i].distance = distance(blocks_[i], L, alpha, beta);
-  const double largest = largest_distance();
+  largest_ = largest_distance();
 
   typename Pose::Tangent g = Pose::Tangent::Zero();
   Square M = Square::Zero();
   double whole = 0.0;
   for (Index i = 0; i < count_; ++i) {
     const Block& block = blocks_[i];
-    if (!(block.distance <= largest)) continue;
+    if (!(block.distance <= largest_)) continue;
     ++parts.blocks;
     const auto J = block.J.topRows(rows_);
     const auto d = block.difference.head(rows_);

@@ -22,10 +22,13 @@ class PairedFrame {
   PairedFrame(Arena& arena, Index max_observations);
 
   void start(Index rows);  // of an observation
-  // A difference, the covariance of its noise as stated, and its Jacobian by the motion's error. A difference whose
-  // noise is not positive definite is left out.
-  void add(const Vector3& difference, const Matrix3& noise, const ByMotion& J_motion);
+  // A difference, the covariance of its noise as stated, and its Jacobian by the motion's error. Returns false, with
+  // nothing added, if a value is not finite or the noise not positive definite.
+  bool add(const Vector3& difference, const Matrix3& noise, const ByMotion& J_motion);
   Index count() const { return count_; }
+  // After split(): whether the observations of one difference agree, or a gross error or a moved landmark lies between.
+  enum class Step { agrees, unclear, jumped };
+  Step step(Index difference) const;
 
   // Splits the frame. `motion` is the stated covariance of the motion's error, alpha and beta are the present factors
   // of the stated variances; they only decide which observations are gross errors.
@@ -47,6 +50,7 @@ class PairedFrame {
   double* sorted_;  // distances
   Square information_ = Square::Zero();
   Index rows_ = 0, count_ = 0;
+  double largest_ = 0.0;  // distance that counts
 };
 
 extern template class PairedFrame<SE2>;

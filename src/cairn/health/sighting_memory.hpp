@@ -35,6 +35,7 @@ class SightingMemory {
     std::uint64_t landmark = 0;
     bool used = false;
     Anchor anchors[kStrides];
+    bool jumped = false;  // between its last two sightings
     PastErrors past;
     Contradiction contradiction;
   };

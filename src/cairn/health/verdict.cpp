@@ -14,7 +14,8 @@ constexpr double kKeep = 0.95;          // of the NIS from update to update
 constexpr double kKeepRefusals = 0.85;  // of the share of refusals
 constexpr double kSigmas = 4.5;         // of a test
 constexpr double kNisRatio = 1.3;       // less is no reason, however significant
-constexpr double kNoiseFactor = 2.25;   // of a variance: a standard deviation that is 1.5 times what is stated
+constexpr double kSensorFactor = 2.25;  // of a variance: a standard deviation that is 1.5 times what is stated
+constexpr double kMotionFactor = 3.0;   // the motion's shows less clearly
 constexpr double kJumpProbability = 1e-6;
 constexpr double kLostShare = 0.5, kLostCompared = 6.0;  // most of what is seen is refused
 
@@ -58,8 +59,8 @@ void Verdict::judge_jump(const UpdateEvidence& evidence) {
 }
 
 // The factor's logarithm, because its standard deviation grows with the factor.
-void Verdict::judge_noise(const NoiseFactor& factor, Doubt reason) {
-  if (factor.known() && factor.value > kNoiseFactor && std::log(factor.value) > kSigmas * factor.sigma / factor.value)
+void Verdict::judge_noise(const NoiseFactor& factor, double most, Doubt reason) {
+  if (factor.known() && factor.value > most && std::log(factor.value) > kSigmas * factor.sigma / factor.value)
     doubt(reason, 1);
 }
 
@@ -69,8 +70,8 @@ void Verdict::add(const UpdateEvidence& evidence) {
   if (nis_.ratio() > kNisRatio && nis_.ratio() > 1.0 + nis_.half_width(kSigmas)) doubt(kDoubtNis, 1);
   judge_refusals(evidence);
   judge_jump(evidence);
-  judge_noise(evidence.sensor, kDoubtSensorNoise);
-  judge_noise(evidence.motion, kDoubtMotionNoise);
+  judge_noise(evidence.sensor, kSensorFactor, kDoubtSensorNoise);
+  judge_noise(evidence.motion, kMotionFactor, kDoubtMotionNoise);
   if (evidence.drift > kSigmas + 0.5) doubt(kDoubtBias, 1);
   if (evidence.contradicting > 0) doubt(kDoubtLandmarks);
   if (evidence.blind > 0) doubt(kDoubtBlind, 1);

@@ -72,7 +72,7 @@ class Verdict {
   void doubt(Doubt reason, int hold = kHold);
   void judge_refusals(const UpdateEvidence& evidence);
   void judge_jump(const UpdateEvidence& evidence);
-  void judge_noise(const NoiseFactor& factor, Doubt reason);
+  void judge_noise(const NoiseFactor& factor, double most, Doubt reason);
 
   double honest_refusals_;  // share
   NisWindow nis_;

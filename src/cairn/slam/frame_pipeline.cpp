@@ -36,6 +36,7 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
   }
   updater_.finish(*update, frame, sorted_);
   restore.release();
+  trust_.commit();
   placer_.place(*update, frame, sorted_);
   report_.finish();
   witness_.after(frame);

@@ -94,15 +94,14 @@ bool FrameUpdate<Pose>::fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
 
 // What the candidates that bear witness say about the pose.
 template <class Pose>
-void FrameUpdate<Pose>::hear(const EkfUpdate<Pose>& update, const Frame<Pose>& frame,
-                             const SortedFrame<Pose>& sorted) {
+void FrameUpdate<Pose>::hear(const EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted) {
   const int rows = frame.sensor.rows();
   const Pose pose = map_.state().pose();
   trust_.hear_nobody();
   for (Index a = 0; a < sorted.candidates(); ++a) {
     const Candidate<Pose>& candidate = sorted.candidate(a);
     if (trust_.is_witness(candidate.slot))
-      trust_.hear(rows, static_cast<std::uint64_t>(candidate.slot), pose, update.batch().residual() + a * rows,
+      trust_.hear(rows, map_.table().id(candidate.slot), pose, update.batch().residual() + a * rows,
                   candidate.prediction.J_z_pose, update.covariance(a * rows), update.batch().rows());
   }
 }

@@ -36,6 +36,8 @@ void FrameWitness<Pose>::before(const Frame<Pose>& frame, const SortedFrame<Pose
     seen.observation = candidate.observation;
     Sighted<Pose>& sighted = seen.sighted;
     sighted.landmark = map_.table().id(candidate.slot);
+    sighted.sensor = &frame.sensor;
+    sighted.z = frame.z(candidate.observation);
     sighted.innovation = frame.sensor.residual(frame.z(candidate.observation), candidate.prediction.z);
     sighted.noise = stated_noise(frame, candidate.observation, candidate.prediction);
     sighted.J_z_y = candidate.prediction.J_z_landmark * R;
@@ -59,23 +61,33 @@ void FrameWitness<Pose>::after(const Frame<Pose>& frame) {
   for (Index i = 0; i < frame.landmarks; ++i) remember(frame, i);
 }
 
-// What the update left of an observation's residual, whether it was used or refused.
+// The place of an observed landmark in the body frame: as the filter estimates it after the update, or, if the
+// observation was refused, as the observation itself says.
 template <class Pose>
 void FrameWitness<Pose>::remember(const Frame<Pose>& frame, Index observation) {
   const Match& match = report_.matches()[observation];
   const std::optional<Index> slot = match.landmark == kNoId ? std::nullopt : map_.table().find(match.landmark);
   if (!slot || match.reason == Reason::ambiguous) return;
-  const Pose pose = map_.state().pose();
-  const typename Pose::Point landmark = map_.state().landmark(*slot);
+  const State<Pose>& state = map_.state();
+  const Pose pose = state.pose();
+  const typename Pose::Rotation::Matrix R = pose.rotation().matrix();
+  const bool refused = match.decision == Decision::rejected;
+  typename Pose::Point landmark = state.landmark(*slot);
+  Placement<Pose> placement;
+  if (refused) {
+    if (!frame.sensor.place(pose, frame.z(observation), MountError<Pose>::Zero(), placement)) return;
+    landmark = placement.landmark;
+  }
   Prediction<Pose> prediction;
   if (!frame.sensor.predict(pose, landmark, MountError<Pose>::Zero(), prediction)) return;
-  const typename Pose::Rotation::Matrix R = pose.rotation().matrix();
   Left<Pose> left;
   left.residual = frame.sensor.residual(frame.z(observation), prediction.z);
   left.noise = stated_noise(frame, observation, prediction);
   left.y = pose.rotation().inverse() * (landmark - pose.translation());
   left.J_z_y = prediction.J_z_landmark * R;
-  left.P = R.transpose() * map_.state().relative_covariance(*slot) * R;
+  left.P = refused ? placement.J_landmark_z * left.noise * placement.J_landmark_z.transpose()
+                   : state.relative_covariance(*slot);
+  left.P = (R.transpose() * left.P * R).eval();
   health_.remember(match.landmark, left);
 }
 

@@ -43,6 +43,7 @@ typename MotionTrust<Pose>::Record& MotionTrust<Pose>::record() {
 template <class Pose>
 void MotionTrust<Pose>::begin(std::uint64_t map_frame) {
   heard_ = 0;
+  own_ = nullptr;
   ++frame_;
   if (map_frame == map_frame_) return;
   map_frame_ = map_frame;
@@ -65,45 +66,72 @@ template <class Pose>
 bool MotionTrust<Pose>::contradicted(Index accepted, const double* J, const double* r, Index rows, Square& widening) {
   widening.setZero();
   if (heard_ == 0) return false;
-  Record& own = record();
+  own_ = &record();
+  next_ = *own_;
+  keeping_ = false;
   if (2 * accepted >= heard_) {  // agreement
-    forget(own);
+    const auto refuted = [&] {
+      // A witness that agrees with the contradicting ones as well supports nothing: a heading says nothing of a slip.
+      const MotionVote<Pose> other = vote_motion(move_kept(), next_.kept, bounds());
+      return witnesses_[0].distance(other.motion) > bound(witnesses_[0].rows);
+    };
+    if (heard_ > 1 || next_.kept == 0 || refuted()) forget(next_);
     const typename Pose::Rotation R = pose_.rotation();
     Square axes = Square::Zero();
     axes.template topLeftCorner<Pose::kDim, Pose::kDim>() = R.matrix();
     axes.template bottomRightCorner<Pose::kTurn, Pose::kTurn>() = R.adjoint();
-    return own.evidence.weigh(sums_, J, r, rows, axes, widening);
+    return next_.evidence.weigh(sums_, J, r, rows, axes, widening);
   }
-  own.judged += heard_;
-  own.refused += heard_ - accepted;
-  if (vote(own, widening)) return true;
-  keep(own);
-  return false;
+  next_.judged += heard_;
+  next_.refused += heard_ - accepted;
+  keeping_ = !vote(widening);
+  return !keeping_;
 }
 
 template <class Pose>
-void MotionTrust<Pose>::keep(Record& own) {
+void MotionTrust<Pose>::commit() {
+  if (own_ == nullptr) return;
+  *own_ = next_;
+  if (keeping_) keep();
+  own_ = nullptr;
+}
+
+template <class Pose>
+void MotionTrust<Pose>::keep() {
+  Record& own = *own_;
   const Index step = (heard_ + kKeptOfFrame - 1) / kKeptOfFrame, more = (heard_ + step - 1) / step;
   const Index drop = std::max<Index>(0, own.kept + more - kKept);  // the oldest
-  std::move(kept(own) + drop, kept(own) + own.kept, kept(own));
+  std::move(kept() + drop, kept() + own.kept, kept());
   own.kept -= drop;
-  for (Index a = 0; a < heard_; a += step) kept(own)[own.kept++] = witnesses_[a];
+  for (Index a = 0; a < heard_; a += step) kept()[own.kept++] = witnesses_[a];
+}
+
+// Copies the kept witnesses behind those of the frame, as witnesses of the pose where it is now.
+template <class Pose>
+Witness<Pose>* MotionTrust<Pose>::move_kept() {
+  for (Index k = 0; k < next_.kept; ++k) {
+    witnesses_[heard_ + k] = kept()[k];
+    witnesses_[heard_ + k].move_to(pose_.translation());
+  }
+  return witnesses_ + heard_;
 }
 
 template <class Pose>
-bool MotionTrust<Pose>::vote(Record& own, Square& widening) {
+BoundsByRows MotionTrust<Pose>::bounds() const {
+  BoundsByRows bounds = {};
+  for (int rows = 1; rows <= kMostRows; ++rows) bounds[static_cast<std::size_t>(rows)] = bound(rows);
+  return bounds;
+}
+
+template <class Pose>
+bool MotionTrust<Pose>::vote(Square& widening) {
+  Record& own = next_;
   constexpr double kChance = 1e-5;  // of so many refusals if the estimate is right
   const double refusal = 1.0 - options_.gate_probability;
   if (!(refusal > 0.0) || log_chance(own.judged, own.refused, refusal) > std::log(kChance)) return false;
-  const typename Pose::Point where = pose_.translation();
   const Index count = heard_ + own.kept;
-  for (Index k = 0; k < own.kept; ++k) {
-    witnesses_[heard_ + k] = kept(own)[k];
-    witnesses_[heard_ + k].move_to(where);
-  }
-  BoundsByRows bounds = {};
-  for (int rows = 1; rows <= kMostRows; ++rows) bounds[static_cast<std::size_t>(rows)] = bound(rows);
-  const MotionVote<Pose> best = vote_motion(witnesses_, count, bounds);
+  move_kept();
+  const MotionVote<Pose> best = vote_motion(witnesses_, count, bounds());
   if (!enough(witnesses_, count, best)) return false;
   widening = best.motion * best.motion.transpose();  // (F2): this motion is one standard deviation
   forget(own);

@@ -45,6 +45,8 @@ class MotionTrust {
   bool contradicted(bool accepted, Square& widening) {
     return contradicted(accepted ? 1 : 0, witnesses_[0].J.data(), witnesses_[0].r.data(), kMostRows, widening);
   }
+  // The update is done. A frame whose update throws leaves no trace here.
+  void commit();
 
  private:
   struct Record {
@@ -56,11 +58,13 @@ class MotionTrust {
   };
   static constexpr Index kKept = 32, kKeptOfFrame = 8;
 
-  Record& record();  // of the active vehicle
-  Witness<Pose>* kept(const Record& record) { return kept_ + (&record - records_) * kKept; }
+  Record& record();                                                          // of the active vehicle
+  Witness<Pose>* kept() const { return kept_ + (own_ - records_) * kKept; }  // of the record at hand
   static void forget(Record& record) { record.kept = record.judged = record.refused = 0; }
-  void keep(Record& record);
-  bool vote(Record& record, Square& widening);
+  void keep();
+  Witness<Pose>* move_kept();
+  BoundsByRows bounds() const;
+  bool vote(Square& widening);
   bool enough(const Witness<Pose>* witnesses, Index count, const MotionVote<Pose>& vote) const;
   double bound(int rows) const { return thresholds_.single(rows); }
 
@@ -72,6 +76,9 @@ class MotionTrust {
   Record* records_;           // one a vehicle
   Witness<Pose>* kept_;       // kKept a vehicle
   Witness<Pose>* witnesses_;  // of the frame; behind them room for those of a record
+  Record* own_ = nullptr;     // the record at hand, if contradicted() has judged the frame
+  Record next_ = {};          // what commit() makes of it
+  bool keeping_ = false;      // commit() keeps witnesses of the frame
   Index heard_ = 0;
   Pose pose_;  // of the last witness
   std::uint64_t frame_ = 0, map_frame_ = 0;

@@ -193,8 +193,8 @@ bool SubmapKeeper<Pose>::find_back(Submap<Pose>& submap, ClosingReport& report) 
     J.template topRows<kDim>() = innovation.by_base[static_cast<std::size_t>(a)];
     witness.rows = kDim;
     witness.position = map_->base().translation();
-    if (witness.whiten(innovation.residual.data() + kDim * a, J, innovation.S.data() + kDim * a * (innovation.S.rows() + 1),
-                       innovation.S.rows()))
+    if (witness.whiten(innovation.residual.data() + kDim * a, J,
+                       innovation.S.data() + kDim * a * (innovation.S.rows() + 1), innovation.S.rows()))
       witnesses.push_back(witness);
   }
   const auto count = static_cast<Index>(witnesses.size());

@@ -51,8 +51,8 @@ void WholeBatchUpdate<Pose>::finish(EkfUpdate<Pose>& update, int iterations, Fil
     match.decision = Decision::matched;
   } else {
     match.reason = Reason::gate;
-    log_.say("update: the gate refused a batch of %td rows, distance %g over %g", update.batch().rows(),
-             match.distance, match.threshold);
+    log_.say("update: the gate refused a batch of %td rows, distance %g over %g", update.batch().rows(), match.distance,
+             match.threshold);
   }
   finish_report(update.batch().rows());
 }
@@ -113,20 +113,26 @@ void WholeBatchUpdate<Pose>::fix_single(const AbsoluteFix<Pose>& fix) {
   }
   finish(*update, options_.iterations, fill);
   restore.release();
+  trust_.commit();
 }
 
-// The submap closes at the first fix. If the fix contradicts the map and several fixes agree on another pose, the motion
-// in the new submap, which is empty, is widened, and the fix is tried again.
+// The submap closes at the first fix. If the fix contradicts the map and several fixes agree on another pose, the
+// motion in the new submap, which is empty, is widened, and the fix is tried again.
 template <class Pose>
 FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
   const double threshold = report_.match(0).threshold;
   trust_in_map_.begin(0);
   const FixReport first = submaps_.fix(fix, threshold);
   const JoinReport& join = submaps_.closing().join;
-  if (join.fused > 0 && join.fused > join.refused) trust_in_map_.agree();  // the landmarks support the pose
+  const bool supported = join.fused > 0 && join.fused > join.refused;  // by the landmarks of the closing
+  if (supported) trust_in_map_.agree();
   Square widening;
-  if (!contradicted(trust_in_map_, fix, submaps_.pose(), submaps_.pose_covariance(), first.accepted, widening))
+  const bool wider =
+      contradicted(trust_in_map_, fix, submaps_.pose(), submaps_.pose_covariance(), first.accepted, widening);
+  if (!wider || first.accepted) {  // an accepted fix has been used: a second time would count it twice
+    trust_in_map_.commit();
     return first;
+  }
   const typename Pose::Rotation inverse = submaps_.map()->base().rotation().inverse();
   Square turn = Square::Zero();  // to the axes of the submap
   turn.template topLeftCorner<kDim, kDim>() = inverse.matrix();
@@ -136,6 +142,7 @@ FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
     widen(map_.state(), Square(turn * widening * turn.transpose()));
     const FixReport second = submaps_.fix(fix, threshold);
     restore.release();
+    trust_in_map_.commit();
     report_.widened<Pose>(widening);
     return second;
   } catch (const std::exception&) {  // the submap has closed already: the fix stays refused

@@ -140,7 +140,7 @@ void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closi
   finish_timing();
   measure("peak_rss_mib", peak_rss_mib());
   finish_pose(filter);
-  if (corrected_rmse) measure("pose_rmse_corrected_m", *corrected_rmse);
+  if (corrected_rmse && scored_later_) measure("pose_rmse_corrected_m", *corrected_rmse);
   finish_landmarks(landmarks);
   const int pose_dimension = drive_.planar() ? 3 : 6;
   if (nees_count_ > 0) measure("pose_anees_per_dof", nees_sum_ / static_cast<double>(nees_count_) / pose_dimension);

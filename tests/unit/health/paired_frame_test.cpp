@@ -122,6 +122,8 @@ TEST_CASE("paired frame: gross errors of a third of the observations are left ou
   const FrameParts parts = sample.paired.split(sample.N, 1.0, 1.0);
   CHECK(parts.blocks == 8);
   CHECK(parts.residual < 3.0 * static_cast<double>(parts.residual_dof));
+  using Step = PairedFrame<SE2>::Step;
+  for (Index b = 0; b < 12; ++b) CHECK((sample.paired.step(b) == (b % 3 == 0 ? Step::jumped : Step::agrees)));
 }
 
 TEST_CASE("paired frame: a jump of the whole vehicle is no gross error") {
@@ -140,9 +142,9 @@ TEST_CASE("paired frame: what is no difference is left out") {
   PairedFrame<SE2> paired(arena, 4);
   paired.start(2);
   const PairedFrame<SE2>::ByMotion J = PairedFrame<SE2>::ByMotion::Ones();
-  paired.add(Vector3(NAN, 0, 0), Matrix3::Identity(), J);
-  paired.add(Vector3::Zero(), Matrix3::Zero(), J);
-  paired.add(Vector3::Zero(), Matrix3::Identity(), INFINITY * J);
+  CHECK_FALSE(paired.add(Vector3(NAN, 0, 0), Matrix3::Identity(), J));
+  CHECK_FALSE(paired.add(Vector3::Zero(), Matrix3::Zero(), J));
+  CHECK_FALSE(paired.add(Vector3::Zero(), Matrix3::Identity(), INFINITY * J));
   CHECK(paired.count() == 0);
   CHECK(paired.split(SE2::Square::Identity(), 1.0, 1.0).blocks == 0);
 }

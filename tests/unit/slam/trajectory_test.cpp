@@ -23,6 +23,8 @@ class Bases final : public GlobalMap<Pose> {
   Pose submap_base(std::size_t submap) const override { return bases_[submap]; }
 
   std::unique_ptr<MapTransaction<Pose>> begin() override { return nullptr; }
+  Eigen::VectorXd errors() const override { return {}; }
+  Eigen::MatrixXd joint_with_errors(const std::size_t*, std::size_t) const override { return {}; }
   void remove(std::uint64_t) override {}
   typename Pose::Square base_covariance() const override { return Pose::Square::Zero(); }
   void base_joint_covariance(const std::size_t*, std::size_t, double*) const override {}

@@ -88,6 +88,9 @@ Index DenseMap<Pose>::companion(std::uint64_t id) const {
 
 template <class Pose>
 void DenseMap<Pose>::add_vehicle(std::uint64_t id, const Pose& pose, const typename Pose::Square& covariance) {
+  if (id == vehicle_ || std::find(companions_.begin(), companions_.end(), id) != companions_.end())
+    throw Error(ErrorCode::argument, "vehicle: the map has the number %llu already",
+                static_cast<unsigned long long>(id));
   if (!closed_.empty())
     throw Error(ErrorCode::state,
                 "vehicle: the map already holds %zu submaps; add all vehicles before the first submap is closed",
