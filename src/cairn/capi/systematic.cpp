@@ -102,7 +102,14 @@ cairn_status cairn_filter_calibrate_sensor(cairn_filter* filter, int32_t sensor,
       using Pose = PoseOf<decltype(f)>;
       Calibration<Pose> sigma, walk;
       read_calibration<Pose>(calibration, sigma, walk);
-      f.calibrate(sensor, sigma, walk);
+      // A filter with submaps makes its map anew, and the handle of the map follows it.
+      try {
+        f.calibrate(sensor, sigma, walk);
+      } catch (...) {
+        filter->map.landmarks = &f.landmarks();
+        throw;
+      }
+      filter->map.landmarks = &f.landmarks();
     });
   });
 }
