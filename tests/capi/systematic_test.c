@@ -139,6 +139,15 @@ static void errors_are_found(void** state) {
     assert_ok(cairn_filter_pose(filter, &pose, pose_covariance));
     assert_ok(cairn_pose_error(&truth, &pose, error));
     for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 4 * sqrt(pose_covariance[7 * i]));
+    if (way == 0) { /* the calibration made the map of the handle anew */
+      size_t landmarks = 0;
+      assert_ok(cairn_map_size(cairn_filter_map(filter), &landmarks));
+      assert_int_equal(landmarks, LANDMARKS);
+    } else {
+      size_t landmarks = 0;
+      assert_ok(cairn_map_size(cairn_filter_map(filter), &landmarks));
+      assert_true(landmarks > 0);
+    }
     cairn_filter_destroy(filter);
   }
 }
