@@ -160,10 +160,10 @@ TEST_CASE("persistence: the correlation of errors that last") {
 TEST_CASE("sighting memory: the oldest landmark makes room") {
   Arena arena(1 << 16);
   SightingMemory<SE2> memory(arena, 3);
-  for (std::uint64_t id = 10; id < 14; ++id) memory.find_or_make(id).frame = id;
+  for (std::uint64_t id = 10; id < 14; ++id) memory.find_or_make(id).anchors[0].frame = id;
   CHECK(memory.find(10) == nullptr);
   REQUIRE(memory.find(11) != nullptr);
-  CHECK(memory.find(11)->frame == 11);
-  CHECK(memory.find_or_make(13).frame == 13);
-  CHECK(memory.find_or_make(10).frame == 0);
+  CHECK(memory.find(11)->anchors[0].frame == 11);
+  CHECK(memory.find_or_make(13).anchors[0].frame == 13);
+  CHECK(memory.find_or_make(10).anchors[0].frame == 0);
 }
