@@ -75,9 +75,9 @@ static void fixes_are_counted(void** state) {
   assert_ok(cairn_filter_update_position(r.filter, pose.position, covariance, NULL, NULL));
   assert_near(health_of(r.filter).refused_share, 0.0, 0.0);
   pose.position[0] += 1000;
-  for (int i = 0; i < 8; ++i) assert_ok(cairn_filter_update_position(r.filter, pose.position, covariance, NULL, NULL));
+  for (int i = 0; i < 20; ++i) assert_ok(cairn_filter_update_position(r.filter, pose.position, covariance, NULL, NULL));
   const cairn_health health = health_of(r.filter);
-  assert_int_equal(health.updates, 9);
+  assert_int_equal(health.updates, 21);
   assert_true(health.refused_share > 0.5);
   assert_int_equal(health.verdict, CAIRN_VERDICT_LOST);
   assert_true((health.reasons & CAIRN_DOUBT_REFUSALS) != 0);
