@@ -5,7 +5,7 @@
 
 #include "team_crew.h"
 
-static void all_finite(const cairn_team* team) {
+static void assert_finite(const cairn_team* team) {
   cairn_pose pose;
   double covariance[36];
   cairn_landmark landmarks[2 * FEATURES];
@@ -144,7 +144,7 @@ static void absurd_numbers_do_no_harm(void** state) {
       }
       collect_all(&c, &p, k, &fair, &random);
       deliver_due(&c, &p, k, &fair, &random);
-      all_finite(c.teams[0]);
+      assert_finite(c.teams[0]);
     }
     assert_int_equal(report_of(c.teams[0]).failed, 0);
     post_free(&p);

@@ -32,6 +32,7 @@ TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
   options.vehicle = drive_.vehicles()[vehicle];
   options.max_vehicles = static_cast<std::uint32_t>(drive_.vehicles().size());
   options.time_tolerance = 0;
+  options.max_jump = std::numeric_limits<double>::max();  // a log may pause, and its times are sorted
   cairn_filter_options filter;
   check(cairn_filter_options_init(&filter, sizeof filter));
   filter.vehicle = CAIRN_VEHICLE_PLANAR;
