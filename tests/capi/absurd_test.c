@@ -143,6 +143,7 @@ static void landmarks_before_the_first_fix_cost_nothing_else(void** state) {
   for (int32_t vehicle = CAIRN_VEHICLE_SPATIAL; vehicle <= CAIRN_VEHICLE_PLANAR; ++vehicle)
     for (int way = 0; way < 4; ++way)
       for (double sigma = 1e4; sigma < 2e9; sigma *= 10) {
+        if (way == 2 && sigma > 2e6) break; /* a limit of dense joining (docs/update.md) */
         cairn_filter_options o = options_of(vehicle, way == 1 ? CAIRN_ERROR_STANDARD : CAIRN_ERROR_INVARIANT);
         const double fix[3] = {0.3 * sigma, -0.1 * sigma, 0};
         double noise[9], covariance[36];
