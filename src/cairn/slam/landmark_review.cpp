@@ -53,8 +53,8 @@ void LandmarkReview<Pose>::remove(Index slot) {
   ++report_.last().removed;
 }
 
-// Of a deferred landmark and a refused observation by its id, one is wrong, and nobody knows which: the next observation
-// places it again.
+// Of a deferred landmark and a refused observation by its id, one is wrong, and nobody knows which: the next
+// observation places it again.
 template <class Pose>
 void LandmarkReview<Pose>::remove_contradicted(Index observations) {
   if (options_.association != AssociationKind::known) return;
