@@ -25,11 +25,14 @@
 #define CAIRN_CAIRN_H
 
 #include <cairn/filter.h>
+#include <cairn/health.h>
 #include <cairn/map.h>
 #include <cairn/motion.h>
 #include <cairn/pose.h>
 #include <cairn/sensor.h>
 #include <cairn/status.h>
+#include <cairn/systematic.h>
 #include <cairn/team.h>
+#include <cairn/trajectory.h>
 
 #endif

@@ -57,6 +57,12 @@ enum {
                                        same d^2, the better known one is chosen. The gates still use d^2 */
 };
 
+/** What becomes of the noise that the filter learns from its innovations (docs/trust.md). */
+enum {
+  CAIRN_NOISE_REPORTED = 0, /**< \ref cairn_filter_health reports it; the default */
+  CAIRN_NOISE_APPLIED = 1   /**< from when it is known, it scales the stated noise of each sensor and of the motion */
+};
+
 /** Options of \ref cairn_filter_create. Set them by \ref cairn_filter_options_init first. */
 typedef struct cairn_filter_options {
   uint32_t struct_size;          /**< sizeof(cairn_filter_options) of the caller */
@@ -102,15 +108,30 @@ typedef struct cairn_filter_options {
   uint32_t missed_frames;        /**< a landmark is removed if it lay in a sensor's view
                                       (\ref cairn_filter_set_view), but was not seen, in this many consecutive frames
                                       of this sensor; 0, the default: never */
-  uint32_t reserved;             /**< 0 */
+  uint32_t trajectory_poses;     /**< newest poses that are kept for \ref cairn_filter_trajectory, 0 to 10000000; 0, the
+                                      default: none. The memory is taken at creation, at most 600 bytes a pose */
   double error_persistence;      /**< number of consecutive observations of a landmark whose errors are fully
                                       correlated, 1 to 1000000: an update multiplies the covariance of an
                                       observation's noise by this; association and placing use the noise unchanged;
                                       default 1 */
   int32_t join_loss;             /**< loss of the landmarks that a closed submap shares with the map: CAIRN_LOSS_NONE,
                                       CAIRN_LOSS_HUBER or CAIRN_LOSS_CAUCHY; default CAIRN_LOSS_NONE */
-  uint32_t reserved_join;        /**< 0 */
+  int32_t noise_learning;        /**< CAIRN_NOISE_REPORTED or CAIRN_NOISE_APPLIED; default CAIRN_NOISE_REPORTED */
   double join_loss_width;        /**< where `join_loss` leaves the parabola, standard deviations, > 0; default 1.5 */
+  double velocity_bias_sigma[3]; /**< a constant error of the measured body velocity (x, y, z) is a state, with this
+                                      standard deviation at the start, m/s, >= 0; 0, the default: no state. The
+                                      velocity is the measured one minus the bias (docs/systematic_errors.md). A
+                                      planar vehicle has only x and y */
+  double velocity_bias_walk[3];  /**< random walk of that error, m/s in the square root of a second, >= 0; it needs
+                                      its velocity_bias_sigma; default 0: constant */
+  double rate_bias_sigma[3];     /**< the same for the measured body rate, rad/s. A planar vehicle has only z */
+  double rate_bias_walk[3];      /**< rad/s in the square root of a second */
+  double wheel_scale_sigma[2];   /**< the same for the scales of the left and the right wheels: a wheel turns at the
+                                      measured rate times 1 + its scale */
+  double wheel_scale_walk[2];    /**< in the square root of a second */
+  uint32_t max_sensor_errors;    /**< numbers that \ref cairn_filter_calibrate_sensor makes states, over all sensors,
+                                      0 to 64; default 0 */
+  uint32_t reserved2;            /**< 0 */
 } cairn_filter_options;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
@@ -200,6 +221,13 @@ CAIRN_API cairn_status cairn_filter_set_twist_noise(cairn_filter *filter, const 
 CAIRN_API cairn_status cairn_filter_predict_wheels(cairn_filter *filter, double dt, double left_rad_per_s,
                                                    double right_rad_per_s);
 
+/** Moves the vehicle by the turning rates of its left and right wheels (rad/s) and the body rate of a gyro (rad/s)
+ *  over `dt` seconds (> 0): the velocity is that of \ref cairn_filter_predict_wheels, with its noise, and the rate has
+ *  the noise of \ref cairn_filter_set_twist_noise. A planar vehicle reads only the rate about z.
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(1). \since 0.2.0 */
+CAIRN_API cairn_status cairn_filter_predict_wheels_gyro(cairn_filter *filter, double dt, double left_rad_per_s,
+                                                        double right_rad_per_s, const double rate[3]);
+
 /** Moves the vehicle by its body velocity (m/s) and body rate (rad/s) over `dt` seconds (> 0).
  *  Mars paper, eq. 2. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(1).
  *  \since 0.1.0 */
@@ -208,7 +236,9 @@ CAIRN_API cairn_status cairn_filter_predict_twist(cairn_filter *filter, double d
 
 /** Moves the vehicle by a relative pose, `T_map_body <- T_map_body T_before_after`, with the covariance (6x6 row-major,
  *  symmetric, positive semidefinite) of its error [dp; dtheta] in the axes of the body before the motion.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(1). \since 0.1.0 */
+ *  An increment has no duration: a filter that estimates a velocity or rate bias refuses it, and no random walk goes
+ * on. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (a bias is a
+ *  state). Complexity: O(1). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_predict_increment(cairn_filter *filter, const cairn_pose *T_before_after,
                                                       const double covariance[36]);
 
@@ -218,8 +248,9 @@ CAIRN_API cairn_status cairn_filter_predict_increment(cairn_filter *filter, cons
  *  observation with an unknown id places a new landmark, with all its correlations. `matches` (room for `count`, or
  *  NULL) gets the match of each observation. `count` may be 0. Allocates nothing.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also an id twice, CAIRN_ID_NONE, noise that is not a
- *  covariance), CAIRN_ERROR_NOT_FOUND (sensor), CAIRN_ERROR_CAPACITY (more than max_observations, or the map would
- *  hold more than max_landmarks), CAIRN_ERROR_NUMERICAL. Complexity: O(n^2 m) for n states and m rows. \since 0.1.0 */
+ *  covariance), CAIRN_ERROR_NOT_FOUND (sensor), CAIRN_ERROR_CAPACITY (more than max_observations),
+ *  CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_CALLBACK (a custom sensor's function aborted). Complexity: O(n^2 m) for n states
+ *  and m rows. \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_update(cairn_filter *filter, int32_t sensor, const cairn_observation *observations,
                                            size_t count, cairn_match *matches);
 
@@ -250,8 +281,9 @@ CAIRN_API cairn_status cairn_filter_update_attitude(cairn_filter *filter, const 
                                                     const double covariance[9], cairn_match *match);
 
 /** Updates the filter by an absolute heading (sun sensor, compass): the yaw of the body's x axis in the map, rad,
- *  with its standard deviation (> 0). It is refused (CAIRN_REASON_NO_IMAGE) if the x axis is within 5 degrees of the
- *  vertical. `match` (or NULL) gets the match.
+ *  with its standard deviation (> 0). A tilted body adds noise of second order (docs/sensors.md). The heading is
+ *  refused (CAIRN_REASON_NO_IMAGE) if the x axis is within three standard deviations of the tilt of the vertical.
+ *  `match` (or NULL) gets the match.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL. Complexity: O(n^2). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_update_heading(cairn_filter *filter, double heading, double sigma,
                                                    cairn_match *match);

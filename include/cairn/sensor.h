@@ -113,8 +113,9 @@ CAIRN_API cairn_status cairn_cartesian_init(cairn_cartesian *cartesian, size_t s
  *  \param z                out, `rows` values
  *  \param jacobian_pose    out, rows x 6, row-major: dz / [dp; dtheta] (the error of \ref cairn_pose)
  *  \param jacobian_landmark out, rows x 3, row-major: dz / dlandmark
- *  \return 0; any other value if the landmark cannot be seen from this pose. Then the observation is refused. It is
- *          refused, too, if a written value is not finite. The same arguments must always give the same answer */
+ *  \return 0; a positive value if the landmark cannot be seen from this pose. Then the observation is refused. It is
+ *          refused, too, if a written value is not finite. A negative value aborts the whole call with
+ *          CAIRN_ERROR_CALLBACK, and the handle stays as before. The same arguments must always give the same answer */
 typedef int32_t (*cairn_custom_predict)(void *user, const cairn_pose *pose, const double landmark[3], double *z,
                                         double *jacobian_pose, double *jacobian_landmark);
 
@@ -126,8 +127,8 @@ typedef int32_t (*cairn_custom_predict)(void *user, const cairn_pose *pose, cons
  *  \param landmark         out, point in the map, m
  *  \param jacobian_pose    out, 3 x 6, row-major: dlandmark / [dp; dtheta]
  *  \param jacobian_z       out, 3 x rows, row-major: dlandmark / dz
- *  \return 0; any other value if `z` cannot place a landmark. Then the observation is refused. It is refused, too, if a
- *          written value is not finite */
+ *  \return 0; a positive value if `z` cannot place a landmark. Then the observation is refused. It is refused, too, if
+ *          a written value is not finite. A negative value aborts the whole call, as for \ref cairn_custom_predict */
 typedef int32_t (*cairn_custom_place)(void *user, const cairn_pose *pose, const double *z, double landmark[3],
                                       double *jacobian_pose, double *jacobian_z);
 
@@ -155,7 +156,8 @@ CAIRN_API cairn_status cairn_custom_init(cairn_custom *custom, size_t struct_siz
  *  gets the largest difference; each difference is relative to max(1, |numerical value|). A correct Jacobian gives
  *  about 1e-6 or less. If `place` is set, it is checked at the observation that `predict` gives: its Jacobians, and
  *  that it returns to the landmark. `relative` is not checked.
- *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT (also if `predict` refuses the landmark). \since 0.1.0 */
+ *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT (also if `predict` refuses the landmark), CAIRN_ERROR_CALLBACK.
+ *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_custom_check(const cairn_custom *custom, const cairn_pose *pose, const double landmark[3],
                                           double *worst);
 
@@ -192,10 +194,11 @@ enum {
                                     gate */
   CAIRN_REASON_NO_IMAGE = 3,   /**< the estimated landmark cannot give an observation: behind the lens, too near, too
                                     steep */
-  CAIRN_REASON_NO_PLACE = 4,   /**< the observation cannot place a landmark: disparity or range too small, or the
-                                    sensor never places landmarks */
-  CAIRN_REASON_AMBIGUOUS = 5   /**< unknown ids: it passed its own gate, but the best set of pairs does not contain
+  CAIRN_REASON_NO_PLACE = 4,   /**< the observation cannot place a landmark: disparity or range too small, range too
+                                    large beside its noise, or the sensor never places landmarks */
+  CAIRN_REASON_AMBIGUOUS = 5,  /**< unknown ids: it passed its own gate, but the best set of pairs does not contain
                                     it */
+  CAIRN_REASON_NO_ROOM = 6     /**< the observation could place a landmark, but the map is full */
 };
 
 /** Match of one observation: what it was paired with, and whether it was used. Layout frozen. */

@@ -142,6 +142,15 @@ typedef struct cairn_world_options {
   double stick_period;       /**< s, > 0; default 26 */
   double platform[3];        /**< d of \ref cairn_stereo_head, m; default 0 (not in the paper) */
   double stick[3];           /**< s of \ref cairn_stereo_head, m; default 0 (not in the paper) */
+  double velocity_bias[3];   /**< systematic errors of the rover, which \ref cairn_world_head and
+                                  \ref cairn_world_wheels do not tell (docs/systematic_errors.md); all 0 by default.
+                                  Added to the measured body velocity, m/s; the wheels turn faster by the first
+                                  component */
+  double rate_bias[3];       /**< added to the rate of the gyro, rad/s */
+  double wheel_scale[2];     /**< left and right: a wheel turns at its measured rate times 1 + this, > -1 */
+  double mount_turn[3];      /**< rotation vector by which the head is turned about the origin of the body, rad */
+  double mount_shift[3];     /**< by which the head is shifted after that, m */
+  double value_offset[3];    /**< added to the observed range (m), azimuth and elevation (rad) */
 } cairn_world_options;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.

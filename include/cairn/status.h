@@ -26,7 +26,8 @@ enum {
   CAIRN_ERROR_NUMERICAL = -5, /**< a covariance would lose positive definiteness, or a result is not finite */
   CAIRN_ERROR_MEMORY = -6,    /**< there is not enough memory */
   CAIRN_ERROR_STATE = -7,     /**< the handle is in a state that does not allow this call */
-  CAIRN_ERROR_INTERNAL = -8   /**< a defect of the library; please report it */
+  CAIRN_ERROR_INTERNAL = -8,  /**< a defect of the library; please report it */
+  CAIRN_ERROR_CALLBACK = -9   /**< a callback of the caller returned a negative value and so aborted the call */
 };
 
 /** Name of a status, for example "CAIRN_ERROR_ARGUMENT"; "unknown status" for any other value. Never NULL.

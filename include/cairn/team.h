@@ -12,7 +12,11 @@ extern "C" {
 #endif
 
 /** One vehicle's view of its team. Each vehicle has its own handle, on its own computer. The vehicles exchange
- *  packets by any transport. Unlike a filter, a team allocates memory in its calls. */
+ *  packets by any transport. Unlike a filter, a team allocates memory in its calls. A call that fails leaves the team
+ *  as it was, also if memory runs out; the call can be repeated. Exceptions: \ref cairn_team_observe tells what it
+ *  keeps of a step that the filter refuses and of a time that is refused. In mode CAIRN_TEAM_SUBMAPS a closing that
+ *  runs out of memory does not fail the call: the packets that have their turn after it wait, and the next call first
+ *  makes up for it (`interrupted` of \ref cairn_team_report). If there is still no memory, this next call fails. */
 typedef struct cairn_team cairn_team;
 
 /** Mode: how a vehicle uses the packets of its teammates. */
@@ -41,6 +45,8 @@ typedef struct cairn_team_options {
                               0.01 */
   uint32_t max_waiting;  /**< packets of one teammate that can wait for their turn, 1 to 1000000; default 4096 */
   uint32_t history;      /**< own packets that are kept for teammates that miss them, 1 to 1000000; default 1024 */
+  double max_jump;       /**< a step that follows the one before it by more than this, s, > 0, is refused until the
+                              next one confirms it; default 60 \since 0.2.0 */
 } cairn_team_options;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
@@ -63,14 +69,15 @@ CAIRN_API void cairn_team_destroy(cairn_team *team);
  *  covariance of the error of `start`. Both must be the values that the teammate itself starts with. `start` NULL:
  *  the start is unknown. It is solved from the first mutual sighting, at one time, between the teammate and a vehicle
  *  whose pose is known. Modes with extended observations need no start.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also a teammate that exists), CAIRN_ERROR_CAPACITY,
- *  CAIRN_ERROR_STATE (mode CAIRN_TEAM_SUBMAPS and no start). \since 0.1.0 */
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also a teammate that exists, and in mode CAIRN_TEAM_SUBMAPS one
+ *  that was removed, for its submaps are in the map), CAIRN_ERROR_CAPACITY, CAIRN_ERROR_STATE (mode CAIRN_TEAM_SUBMAPS
+ *  and no start), CAIRN_ERROR_MEMORY. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_add(cairn_team *team, uint64_t vehicle, const cairn_pose *start,
                                       const double covariance[36]);
 
 /** Removes a teammate: the team neither waits for it nor uses its packets any more. The information from its earlier
- *  packets stays. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (this vehicle), CAIRN_ERROR_NOT_FOUND.
- *  \since 0.1.0 */
+ *  packets stays. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (this vehicle), CAIRN_ERROR_NOT_FOUND,
+ *  CAIRN_ERROR_MEMORY. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_remove(cairn_team *team, uint64_t vehicle);
 
 /** Numbers of the vehicles of the team, this vehicle's number first. NULL with capacity 0 asks for how many there are.
@@ -79,14 +86,15 @@ CAIRN_API cairn_status cairn_team_members(const cairn_team *team, uint64_t *vehi
 
 /** Moves this vehicle by a relative pose, like \ref cairn_filter_predict_increment. The teammates learn of this
  *  motion by the packet of the next \ref cairn_team_observe. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT,
- *  CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_CAPACITY (65535 motions without an observation). \since 0.1.0 */
+ *  CAIRN_ERROR_NUMERICAL (more than 1e9 m, or noise of more than 1e9 m or a whole turn), CAIRN_ERROR_CAPACITY (65535
+ *  motions without an observation), CAIRN_ERROR_MEMORY. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_predict_increment(cairn_team *team, const cairn_pose *T_before_after,
                                                     const double covariance[36]);
 
 /** Moves this vehicle by its body velocity (m/s) and body rate (rad/s) over `dt` seconds (> 0). `noise` NULL: that
  *  of
  *  \ref cairn_twist_noise_init. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL,
- *  CAIRN_ERROR_CAPACITY. \since 0.1.0 */
+ *  CAIRN_ERROR_CAPACITY, CAIRN_ERROR_MEMORY. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_predict_twist(cairn_team *team, double dt, const double velocity[3],
                                                 const double rate[3], const cairn_twist_noise *noise);
 
@@ -94,10 +102,12 @@ CAIRN_API cairn_status cairn_team_predict_twist(cairn_team *team, double dt, con
  *  be later than the last one. The scan is ranges and bearings of `landmarks`, by their ids, and of `vehicles`, by
  *  their numbers; both may be empty. Motion and scan become a packet for \ref cairn_team_take_packet. The filter is
  *  updated by the step when the packets of all teammates up to this time have arrived; the order is the same at every
- *  vehicle. If the update by this vehicle's scan fails, the call fails, but the packet is sent all the same. Threads:
- *  one a handle. Errors: CAIRN_ERROR_ARGUMENT (also a time in the past, an id or a number twice, CAIRN_ID_NONE, this
- *  vehicle's number), CAIRN_ERROR_CAPACITY, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (the vehicle has left the team).
- *  Complexity: O(n^2 m) for n states and m rows of each vehicle. \since 0.1.0 */
+ *  vehicle. If the update by this vehicle's scan fails, the call fails, but the packet is sent all the same. A time
+ *  that is more than `max_jump` after the last one is refused, and the motions are kept for the next call. If the
+ *  next call has a later time, by at most `max_jump`, both were right, and it succeeds. Threads: one a handle.
+ *  Errors: CAIRN_ERROR_ARGUMENT (also a time in the past, an id or a number twice, CAIRN_ID_NONE, this vehicle's
+ *  number), CAIRN_ERROR_CAPACITY, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (the vehicle has left the team),
+ *  CAIRN_ERROR_MEMORY. Complexity: O(n^2 m) for n states and m rows of each vehicle. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_observe(cairn_team *team, double time, const cairn_observation *landmarks,
                                           size_t landmark_count, const cairn_observation *vehicles,
                                           size_t vehicle_count);
@@ -110,19 +120,22 @@ CAIRN_API cairn_status cairn_team_decisions(const cairn_team *team, cairn_match 
 
 /** Leaves the team: makes a last packet, the farewell, after which the teammates do not wait for this vehicle any
  *  more. Own steps are then refused. Packets of teammates are still used.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (the vehicle has already left).
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (the vehicle has already left),
+ *  CAIRN_ERROR_MEMORY.
  *  \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_leave(cairn_team *team);
 
 /** Takes the next packet that is to be sent to all teammates: a step of this vehicle, a repetition that a teammate
  *  asked for, or a request for missing packets. `*needed` gets its size in bytes, 0 if there is no packet. The packet
- *  leaves the queue when it was copied. NULL with capacity 0 asks for its size. Threads: one a handle. Errors:
- *  CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
+ *  leaves the queue when it was copied. Own steps wait until they are taken. A packet that was asked for waits once,
+ *  however often it was asked for, and so does the request to each teammate: beside own steps the queue holds at most
+ *  `history` repetitions and `max_vehicles` requests. NULL with capacity 0 asks for its size. Threads: one a handle.
+ *  Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_take_packet(cairn_team *team, uint8_t *packet, size_t capacity, size_t *needed);
 
 /** Asks the teammates for all missing packets. The team does so itself when it finds a gap at a step of this vehicle;
  *  call this function at the end of a mission or after a long silence. Threads: one a handle. Errors:
- *  CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+ *  CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY (mode CAIRN_TEAM_SUBMAPS). \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_ask(cairn_team *team);
 
 /** Result of a received packet. */
@@ -143,8 +156,11 @@ enum {
   CAIRN_PACKET_VERSION = 13,  /**< this library does not read its version */
   CAIRN_PACKET_CUT = 14,      /**< bytes are missing, or there are too many */
   CAIRN_PACKET_CORRUPT = 15,  /**< its checksum is wrong */
-  CAIRN_PACKET_NONSENSE = 16  /**< it is complete, but not a valid step: values that are not finite, noise that is
-                                   not a covariance, an id or a number twice */
+  CAIRN_PACKET_NONSENSE = 16, /**< it is complete, but not a valid step: values that are not finite, noise that is
+                                   not a covariance, an id or a number twice, numbers of absurd size */
+  CAIRN_PACKET_AHEAD = 17     /**< its time is more than max_jump after that of the sender's packet before it. The next
+                                   packet of the sender decides: if it agrees with this one, both are right, and this
+                                   one can be received again \since 0.2.0 */
 };
 
 /** Receives a packet of a teammate. Packets may come late, repeatedly and in any order. `result` (or NULL) gets one
@@ -215,6 +231,9 @@ typedef struct cairn_team_report {
   double claimed_improvement; /**< (||C_mono|| - ||C||) / ||C_mono||: Frobenius norms of the position's covariance,
                                    summed over all scored steps (cooperative paper, section 3); 0 without `baseline` */
   double true_improvement;    /**< 1 - MSE / MSE_mono of the position; 0 without `baseline` */
+  uint64_t ahead;             /**< received packets that were too far ahead \since 0.2.0 */
+  uint64_t interrupted;       /**< 1: memory ran out while a submap was closed. The next call closes it first. Until
+                                   then no further packet has its turn. Otherwise 0 \since 0.2.0 */
 } cairn_team_report;
 
 /** Reports on the team so far. Set `report->struct_size` first. Threads: as any const query of the handle. Errors:

@@ -138,17 +138,19 @@ World::Sample World::measure(const SE3& before, const SE3& after) {
   sample.true_wheels = wheel_rates(tau[0], tau[5], o.wheel_radius, o.track);
   Random random(o.seed, Stream::motion, static_cast<std::uint64_t>(sample_));
   const Vector3 noise = o.velocity_sigma * normal3(random);
-  sample.rate = sample.true_rate + o.rate_sigma * normal3(random);
+  sample.rate = sample.true_rate + o.rate_sigma * normal3(random) + Vector3(o.rate_bias);
+  const Vector2 turning = wheel_rates(tau[0] + o.velocity_bias[0], tau[5], o.wheel_radius, o.track);
   for (int side = 0; side < 2; ++side) {
-    const double rate = sample.true_wheels[side];
+    const double rate = turning[side] / (1.0 + o.wheel_scale[side]);
     sample.wheels[side] = rate + std::hypot(o.wheel_rate_sigma, o.wheel_slip_sigma * rate) * random.normal();
   }
   if (o.drive == CAIRN_DRIVE_WHEELS_GYRO) {
-    sample.velocity = Vector3(o.wheel_radius * sample.wheels.sum() / 2, 0, 0);  // (Mars paper, eq. 1)
+    // (Mars paper, eq. 1)
+    sample.velocity = Vector3(o.wheel_radius * sample.wheels.sum() / 2, o.velocity_bias[1], o.velocity_bias[2]);
   } else if (o.accelerometer == CAIRN_ACCELEROMETER_ACCELERATION) {
-    sample.velocity = reckon(before, after, noise, sample.rate);
+    sample.velocity = reckon(before, after, noise, sample.rate) + Vector3(o.velocity_bias);
   } else {
-    sample.velocity = sample.true_velocity + noise;
+    sample.velocity = sample.true_velocity + noise + Vector3(o.velocity_bias);
   }
   return sample;
 }
@@ -237,8 +239,9 @@ void World::look(const SE3& T_map_body) {
   const double stick = scan(o.stick_amplitude, o.stick_period, time) + (per_frame ? o.stick_sigma * frame.normal() : 0);
   // (Mars paper, eq. 4)
   const SO3 R_body_platform = SO3::exp(Vector3(0, 0, pan)), R_platform_stick = SO3::exp(Vector3(0, stick, 0));
-  const SE3 T_body_camera =
-      SE3(R_body_platform, Vector3(o.platform)) * SE3(R_platform_stick, Vector3::Zero()) * SE3(SO3(), Vector3(o.stick));
+  const SE3 mount(SO3::exp(Vector3(o.mount_turn)), Vector3(o.mount_shift));  // (docs/systematic_errors.md, eq. 10)
+  const SE3 T_body_camera = mount * SE3(R_body_platform, Vector3(o.platform)) * SE3(R_platform_stick, Vector3::Zero()) *
+                            SE3(SO3(), Vector3(o.stick));
   const SE3 T_map_camera = T_map_body * T_body_camera, T_camera_map = T_map_camera.inverse();
   const double elevation_sigma = per_frame ? o.image_sigma : o.stick_sigma;
   landmarks_.near(T_map_camera.translation().x(), T_map_camera.translation().y(), [&](std::uint32_t id) {
@@ -249,9 +252,9 @@ void World::look(const SE3& T_map_body) {
     const Vector3 noise = normal3(random);
     cairn_observation seen = {};
     seen.id = id;
-    seen.z[0] = range + o.range_sigma * noise[0];
-    seen.z[1] = wrap_angle(azimuth + o.azimuth_sigma * noise[1]);
-    seen.z[2] = std::atan2(m.z(), std::hypot(m.x(), m.y())) + elevation_sigma * noise[2];
+    seen.z[0] = range + o.range_sigma * noise[0] + o.value_offset[0];
+    seen.z[1] = wrap_angle(azimuth + o.azimuth_sigma * noise[1] + o.value_offset[1]);
+    seen.z[2] = std::atan2(m.z(), std::hypot(m.x(), m.y())) + elevation_sigma * noise[2] + o.value_offset[2];
     observations_.push_back(seen);
   });
   std::sort(observations_.begin(), observations_.end(),

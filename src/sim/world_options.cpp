@@ -94,6 +94,16 @@ void check_noise_and_head(const cairn_world_options& o) {
   capi::check_positive(o.stick_period, "options.stick_period");
   capi::check_finite(o.platform, 3, "options.platform");
   capi::check_finite(o.stick, 3, "options.stick");
+  capi::check_finite(o.velocity_bias, 3, "options.velocity_bias");
+  capi::check_finite(o.rate_bias, 3, "options.rate_bias");
+  for (const double scale : o.wheel_scale) {
+    capi::check_finite(scale, "options.wheel_scale");
+    if (!(scale > -1.0))
+      throw Error(ErrorCode::argument, "options.wheel_scale = %g must exceed -1; a wheel turns forward", scale);
+  }
+  capi::check_finite(o.mount_turn, 3, "options.mount_turn");
+  capi::check_finite(o.mount_shift, 3, "options.mount_shift");
+  capi::check_finite(o.value_offset, 3, "options.value_offset");
 }
 
 }  // namespace

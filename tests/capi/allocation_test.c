@@ -56,6 +56,7 @@ static void live(const scale* s) {
   size_t result[4] = {0}, reasons[6] = {0}, most = 0, failed = 0, widened = 0;
   cairn_update_report report;
   double covariance[36], small[9], pivot;
+  uint64_t kept;
   cairn_pose pose;
   cairn_match one;
   assert_true(o != NULL && m != NULL && residual != NULL && noise != NULL && jp != NULL && jl != NULL && ids != NULL);
@@ -63,6 +64,7 @@ static void live(const scale* s) {
   options.max_observations = s->observations;
   options.iterations = 5, options.iteration_tolerance = 1e-9, options.error = s->error,
   options.association = s->association;
+  options.trajectory_poses = 50; /* fewer than updates */
   world_init(&w, 31);
   w.truth = options.initial_pose = pose_at(0.5, 0.3, 0.2, 0.02, 0.03, 0.1);
   rig_open(&r, &options);
@@ -111,6 +113,8 @@ static void live(const scale* s) {
     failed += cairn_filter_update_linear(f, residual, 3, small, jp, NULL, 0, NULL, &one) != CAIRN_OK;
     if (step % 2 && known > 0) failed += cairn_filter_remove_landmark(f, ids[known / 2]) != CAIRN_OK;
     failed += cairn_filter_pose(f, &pose, covariance) != CAIRN_OK;
+    failed += cairn_filter_keep_pose(f, &kept) != CAIRN_OK;
+    failed += cairn_filter_trajectory(f, kept, &pose, 1, &needed) != CAIRN_OK;
     diagonal(covariance, 6, 1e-8);
     if (step % 16 == 0) failed += cairn_filter_audit(f, &pivot) != CAIRN_OK;
     failed += cairn_map_size(map, &needed) != CAIRN_OK;
@@ -163,6 +167,7 @@ static void the_required_bytes_are_told_beforehand(void** state) {
     const cairn_custom point = test_point();
     const cairn_stereo_camera camera = test_camera();
     options.max_landmarks = cases[k].landmarks, options.max_observations = cases[k].observations;
+    options.trajectory_poses = 1000 * (uint32_t)k;
     options.max_sensors = cases[k].sensors;
     options.submap_landmarks = cases[k].submap_landmarks, options.join = cases[k].join;
     assert_ok(cairn_filter_required_bytes(&options, &foretold));

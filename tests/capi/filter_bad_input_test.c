@@ -181,10 +181,7 @@ static void sensors_of_frames(void** state) {
 
 static void capacities(void** state) {
   bench* b = *state;
-  frame f = frame_of(b, CARTESIAN); /* the map is full: one new id among known ones */
-  assert_int_equal(f.count, WORLD_LANDMARKS);
-  f.observations[f.count - 1].id = 1000;
-  refuse_frame(b, &f, CAIRN_ERROR_CAPACITY, "max_landmarks");
+  frame f;
   cairn_observation many[WORLD_LANDMARKS + 1];
   cairn_match matches[WORLD_LANDMARKS + 1], kept[WORLD_LANDMARKS + 1];
   memset(matches, 0xa5, sizeof matches);
@@ -330,8 +327,20 @@ static void overflow(void** state) {
   cairn_pose far = pose_at(1e308, 0, 0, 0, 0, 0);
   assert_refused(b, CAIRN_ERROR_NUMERICAL, "", cairn_filter_predict_twist(f, 1e10, huge, still));
   assert_refused(b, CAIRN_ERROR_NUMERICAL, "", cairn_filter_predict_wheels(f, 1e200, 1e200, 1e200));
-  diagonal(covariance, 6, 1e308);
-  assert_refused(b, CAIRN_ERROR_NUMERICAL, "", cairn_filter_predict_increment(f, &far, covariance));
+  const double fast[3] = {1e10, 0, 0};
+  assert_refused(b, CAIRN_ERROR_NUMERICAL, "longer than 1e+09 m", cairn_filter_predict_twist(f, 1, fast, still));
+  diagonal(covariance, 6, 0.01);
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "T_before_after.position[0]",
+                 cairn_filter_predict_increment(f, &far, covariance));
+  far.position[0] = 0;
+  covariance[7] = 1e19;
+  assert_refused(b, CAIRN_ERROR_NUMERICAL, "position's noise", cairn_filter_predict_increment(f, &far, covariance));
+  for (int i = 0; i < 6; ++i) {
+    diagonal(covariance, 6, 0.01);
+    covariance[7 * i] = i % 2 == 0 ? 1e308 : 1e-320;
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance: the variance at",
+                   cairn_filter_predict_increment(f, &far, covariance));
+  }
 }
 
 static int32_t poisoned_predict(void* user, const cairn_pose* pose, const double landmark[3], double* z,
@@ -341,7 +350,7 @@ static int32_t poisoned_predict(void* user, const cairn_pose* pose, const double
   if (where == 0) z[1] = NAN;
   if (where == 1) jacobian_pose[7] = INFINITY;
   if (where == 2) jacobian_landmark[4] = NAN;
-  return where == 3 ? -1 : 0;
+  return where == 3 ? INT32_MAX : 0;
 }
 
 static int32_t poisoned_place(void* user, const cairn_pose* pose, const double* z, double landmark[3],
@@ -354,7 +363,7 @@ static int32_t poisoned_place(void* user, const cairn_pose* pose, const double* 
   return where == 3 ? 42 : 0;
 }
 
-/* A callback that gives no numbers refuses, like a callback that does not return 0: a match, and the state stays
+/* A callback that gives no numbers refuses, like a callback that returns a positive value: a match, and the state stays
  * unchanged. */
 static void a_custom_sensor_that_gives_no_numbers_is_refused(void** state) {
   cairn_filter_options options = test_options();

@@ -19,6 +19,7 @@ static void names_equal_the_header(void** state) {
       {CAIRN_ERROR_MEMORY, -6, "CAIRN_ERROR_MEMORY"},
       {CAIRN_ERROR_STATE, -7, "CAIRN_ERROR_STATE"},
       {CAIRN_ERROR_INTERNAL, -8, "CAIRN_ERROR_INTERNAL"},
+      {CAIRN_ERROR_CALLBACK, -9, "CAIRN_ERROR_CALLBACK"},
   };
   (void)state;
   for (size_t i = 0; i < LENGTH(all); ++i) {
@@ -28,7 +29,7 @@ static void names_equal_the_header(void** state) {
 }
 
 static void an_unknown_status_has_a_name_too(void** state) {
-  static const cairn_status none[] = {1, -9, 100, INT32_MAX, INT32_MIN};
+  static const cairn_status none[] = {1, -10, 100, INT32_MAX, INT32_MIN};
   (void)state;
   for (size_t i = 0; i < LENGTH(none); ++i) assert_string_equal(cairn_status_name(none[i]), "unknown status");
 }
@@ -46,6 +47,7 @@ static void enumerations_are_pinned(void** state) {
   assert_int_equal(CAIRN_NEW, 2);
   assert_int_equal(CAIRN_REJECTED, 3);
   assert_int_equal(CAIRN_REASON_NO_PLACE, 4);
+  assert_int_equal(CAIRN_REASON_NO_ROOM, 6);
   assert_int_equal(sizeof(cairn_landmark), 16 + 12 * 8);
   assert_int_equal(sizeof(cairn_observation), 8 + 12 * 8);
   assert_int_equal(sizeof(cairn_match), 32);

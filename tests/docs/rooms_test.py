@@ -8,7 +8,7 @@ import unittest
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 # From the top. The rooms of one floor may include each other only where the map's folders do.
 FLOORS = [{"capi"}, {"team"}, {"slam"}, {"map", "map/join/dense", "map/join/sparse", "map/merge"},
-          {"association", "ekf"}, {"motion", "sensor"}, {"linear"}, {"geometry"}, {"core"}]
+          {"association", "ekf", "health"}, {"motion", "sensor"}, {"linear"}, {"geometry"}, {"core"}]
 OPEN_FLOOR = FLOORS[3]
 FLOOR = {room: number for number, floor in enumerate(FLOORS) for room in floor}
 

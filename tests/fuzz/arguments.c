@@ -13,10 +13,11 @@ bool fuzz_bad(void) {
 }
 double fuzz_number(double scale) {
   if (!fuzz_bad()) return fuzz_uniform(-scale, scale);
-  return fuzz_garbage();
+  return fuzz_wild && fuzz_one_in(2) ? fuzz_any_size() : fuzz_garbage();
 }
 double fuzz_positive(double scale) {
-  return fuzz_bad() ? fuzz_garbage() : fuzz_uniform(1e-3, 1) * scale;
+  if (!fuzz_bad()) return fuzz_uniform(1e-3, 1) * scale;
+  return fuzz_wild && fuzz_one_in(2) ? fabs(fuzz_any_size()) : fuzz_garbage();
 }
 void fuzz_numbers(double* out, size_t count, double scale) {
   const bool all_good = !fuzz_one_in(4);
@@ -41,6 +42,13 @@ void fuzz_covariance(double* out, size_t n, double scale) {
       }
   }
   if (fuzz_one_in(20)) memset(out, 0, n * n * sizeof *out);
+  if (fuzz_wild && fuzz_one_in(12)) { /* of another size, as a whole or in one row */
+    const size_t row = fuzz_below(n), all = fuzz_below(2);
+    const double factor = sqrt(fabs(fuzz_any_size()));
+    for (size_t i = 0; i < n; ++i)
+      for (size_t j = 0; j < n; ++j)
+        out[n * i + j] *= (all != 0 || i == row ? factor : 1) * (all != 0 || j == row ? factor : 1);
+  }
   if (fuzz_bad()) out[fuzz_below(n * n)] = fuzz_garbage();
 }
 const void* fuzz_maybe(const void* pointer) {

@@ -14,14 +14,9 @@ typedef struct slot {
 } slot;
 
 extern slot* now;                                        /* the slot of the current call */
-extern bool loose;                                       /* do not check the numbers of wild filters */
 extern unsigned long long states_without_positive_pivot; /* of wild filters */
 
-#define HOLDS_OF_NUMBERS(s, condition, value)              \
-  do {                                                     \
-    if (!loose || !(s)->wild) HOLDS((condition), (value)); \
-  } while (0)
-void check_numbers(const slot* s, const double* values, size_t count);
+void check_numbers(const double* values, size_t count);
 /* Conditions that a filter must meet after any call. `whole` checks all landmarks and the covariance too. */
 void check_state(const slot* s, bool whole);
 

@@ -12,7 +12,7 @@ static uint64_t first_state, state;
 static double largest;
 
 const char *fuzz_program = "", *fuzz_operation = "";
-unsigned long long fuzz_call, fuzz_counts[9];
+unsigned long long fuzz_call, fuzz_counts[10];
 
 void fuzz_seed(uint64_t seed, double limit) {
   first_state = state = seed;
@@ -26,7 +26,8 @@ void fuzz_fail(const char* what, double value) {
 }
 
 void fuzz_check_status(cairn_status status) {
-  HOLDS(status <= 0 && status >= CAIRN_ERROR_STATE, status); /* CAIRN_ERROR_INTERNAL is a defect by its definition */
+  /* CAIRN_ERROR_INTERNAL is a defect by its definition. */
+  HOLDS((status <= 0 && status >= CAIRN_ERROR_STATE) || status == CAIRN_ERROR_CALLBACK, status);
   ++fuzz_counts[-status];
   if (status == CAIRN_OK) return;
   const char* line = cairn_last_message();
@@ -69,6 +70,11 @@ double fuzz_garbage(void) {
     const double value = garbage(fuzz_wild), size = fabs(value);
     if (!isfinite(value) || size == 0 || (size <= largest && size >= 1 / largest)) return value;
   }
+}
+
+double fuzz_any_size(void) {
+  const double most = log10(fmin(largest, DBL_MAX)), size = fuzz_uniform(fmax(-most, -323), most);
+  return (fuzz_one_in(2) ? 1 : -1) * pow(10, size);
 }
 
 uint64_t fuzz_id(void) {

@@ -18,7 +18,7 @@ extern unsigned long long fuzz_call;
 void fuzz_fail(const char* what, double value);
 /* A status must be one of the pinned set and not an internal error, and each failure must have a one-line message.
  * Statuses are counted. */
-extern unsigned long long fuzz_counts[9];
+extern unsigned long long fuzz_counts[10];
 void fuzz_check_status(cairn_status status);
 
 /* `limit`: the size and the inverse size of all numbers except 0, NaN and the infinities are below it. */
@@ -29,6 +29,8 @@ bool fuzz_one_in(uint64_t n);
 double fuzz_uniform(double lower, double upper);
 /* A number that no caller should pass. Unless fuzz_wild it is not finite, 0 or -1. */
 double fuzz_garbage(void);
+/* A finite number of any size: every power of ten between the denormals and DBL_MAX, within the limit. */
+double fuzz_any_size(void);
 extern bool fuzz_wild;
 uint64_t fuzz_id(void);
 int32_t fuzz_int(void);

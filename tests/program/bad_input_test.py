@@ -47,8 +47,9 @@ class BadTextLogs(ProgramTest):
         self.check(self.replaced(5, "Z 1.0 7 4.5 0.1 0.2"), 5, "step '1.0'")
 
     def test_order(self):
-        self.check(GOOD[1:], 1, "before any true pose")
-        self.check(GOOD[3:], 1, "before any true pose")
+        self.check(GOOD[1:], 2, "true pose of step 1, but step 0, the first one, has none")
+        self.check(["Z 0 7 5 0 0", GOOD[3], GOOD[2]], 3, "true pose of step 1, but step 0")
+        self.check(["O 0 0 0 0 0 0 0"], 1, "first step")
         self.check(self.replaced(3, "T 1 0.0 1.5 2 3 0 0 0"), 3, "time 0.0 does not increase")
         self.check(self.replaced(3, "T 1 -5 1.5 2 3 0 0 0"), 3, "does not increase")
         self.check(self.replaced(5, "Z 0 7 4.5 0.1 0.2"), 5, "step 0 comes after step 1")
@@ -68,7 +69,30 @@ class BadTextLogs(ProgramTest):
             if whole[size - 1] == "\n" and not whole[:size].endswith(GOOD[2] + "\n"):
                 continue  # whole records, whole steps: nothing tells that more should come
             path = self.write("bad.log", whole[:size])
-            self.assert_refused(call("run", path), path + ":")
+            done = call("run", path)
+            last, cut = whole[:size].splitlines()[-1], GOOD[whole[:size].count("\n")]
+            if len(last.split()) < len(cut.split()) or last.startswith("T 1"):
+                self.assert_refused(done, path + ":")
+            else:  # a last line without an end is whole if it has all its fields, and the user is told
+                self.assertEqual(done.returncode, 0, (last, done.stderr))
+                self.assertIn("note: %s: the last line has no end" % path, done.stderr)
+
+    def test_noise(self):
+        self.check(self.replaced(2, "N 1 1 1 1 1 1 1 1"), 2, "record N has 9 fields, expected 10")
+        self.check(self.replaced(2, "N 1 1 1 1 1 -1 1 1 1"), 2, "noise of an increment is negative")
+        self.check(self.replaced(2, "N 1 1 1 1 1 1 1 1 0"), 2, "noise of an observation is not positive")
+        self.check(self.replaced(2, "N 1 1 1 1 1 1 1 1 1e160"), 2, "too large")
+
+    def test_numbers_too_small_for_a_double(self):
+        self.check(self.replaced(5, "Z 1 7 1e-400 0.1 0.2"), 5, "range 1e-400 is not positive")
+        self.check(self.replaced(5, "Z 1 7 4.5 1e-400x 0.2"), 5, "azimuth '1e-400x'")
+        self.check(self.replaced(5, "Z 1 7 -1e400 0.1 0.2"), 5, "range '-1e400' is not a finite number")
+
+    def test_text_of_two_bytes_a_letter(self):
+        for encoding in ("utf-16", "utf-16-be", "utf-16-le"):
+            mark = b"" if encoding == "utf-16" else b"\xfe\xff" if encoding == "utf-16-be" else b"\xff\xfe"
+            path = self.write("bad.log", mark + "\n".join(GOOD).encode(encoding))
+            self.assert_refused(call("run", path), path + ":1: ", "UTF-16", "UTF-8")
 
     def test_foreign_files(self):
         self.check(["# a comment alone"], 1, "no steps")
@@ -160,6 +184,25 @@ class BadOptions(ProgramTest):
                 ([log, "--min-disparity", "-3"], "above 0"), ([log, "--min-disparity-sigmas=-1"], "0 or more"), ([log, "--pixel-noise", "x"], "--pixel-noise"),
                 ([log, "--velocity-noise="], "--velocity-noise"), ([log, "--rate-noise", "inf"], "--rate-noise")]:
             self.assert_refused(call("run", *arguments), word)
+
+    def test_options_that_the_log_cannot_honour(self):
+        log = self.write("good.log", "".join(line + "\n" for line in GOOD))
+        isam = self.write("isam.txt", "LANDMARK 0 7 4 1 20 6 25\n")
+        stars = self.stars_log("a.mat")
+        for option in ("--pixel-noise", "--velocity-noise", "--rate-noise", "--min-disparity", "--min-disparity-sigmas"):
+            for path in (log, isam):
+                self.assert_refused(call("run", path, option, "1"), "option %s is for STARS files" % option, path,
+                                    "text log", "leave the option out")
+            self.summary(stars, option, "1")
+
+    def test_options_that_contradict_each_other(self):
+        log = self.write("good.log", "".join(line + "\n" for line in GOOD))
+        for option in ("--submap-distance=5", "--submap-extent=5", "--submap-sigma=5", "--join=dense", "--join=sparse"):
+            words = ("contradict", option.split("=")[0], "--single-map")
+            self.assert_refused(call("run", log, "--single-map", option), *words)
+            self.assert_refused(call("run", log, option, "--submap-landmarks=0"), *words)
+            self.assert_refused(call("simulate", "mars", "--single-map", option), *words)
+        self.summary(log, "--single-map", "--submap-distance=0", "--submap-extent=0", "--submap-sigma=0", "--join=auto")
 
     def test_places_that_cannot_be_written(self):
         log = self.write("good.log", "".join(line + "\n" for line in GOOD))

@@ -16,10 +16,14 @@ SKIPPED = 77  # ctest's SKIP_RETURN_CODE
 
 ALWAYS = {"steps", "landmarks", "observations", "rejected", "submaps", "seconds", "filter_seconds", "step_ms_mean",
           "step_ms_second_half", "step_ms_p99", "step_ms_worst", "filter_landmarks_max", "filter_landmarks_mean",
-          "filter_landmarks_rms", "peak_rss_mib", "nis_per_dof"}
+          "filter_landmarks_rms", "peak_rss_mib", "nis_per_dof", "verdict", "verdict_good_share",
+          "verdict_doubtful_share", "verdict_lost_share", "widenings"}
+# Absent if the observations do not tell.
+LEARNED = {"refused_share", "error_correlation", "sensor_noise_scale", "sensor_noise_scale_sigma", "motion_noise_scale",
+           "motion_noise_scale_sigma"}
 WITH_SUBMAPS = {"closing_ms_worst"}
-WITH_TRUE_POSES = {"pose_rmse_m", "pose_final_m", "pose_max_m", "pose_axis_max_m", "attitude_rmse_deg",
-                   "attitude_final_deg", "attitude_axis_max_deg", "pose_anees_per_dof"}
+WITH_TRUE_POSES = {"pose_rmse_m", "pose_rmse_corrected_m", "pose_final_m", "pose_max_m", "pose_axis_max_m",
+                   "attitude_rmse_deg", "attitude_final_deg", "attitude_axis_max_deg", "pose_anees_per_dof"}
 WITH_TRUE_END = {"pose_end_m", "attitude_end_deg"}  # the last step has a true pose
 WITH_TRUE_LANDMARKS = {"landmark_rmse_m"}
 
@@ -61,6 +65,11 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(done.stdout.count("\n"), 1)
         return json.loads(done.stdout)
+
+    def assert_no_truth(self, figures):
+        """Without truth no figure is an error, not even one of 0."""
+        self.assertLessEqual(ALWAYS, set(figures))
+        self.assertEqual(set(figures) & (WITH_TRUE_POSES | WITH_TRUE_END | WITH_TRUE_LANDMARKS), set())
 
     def untimed(self, figures):
         """Without what the clock and the machine have a say in."""

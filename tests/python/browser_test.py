@@ -14,9 +14,11 @@ support.need("plotly", "matplotlib")
 
 import chromium  # noqa: E402
 import numpy as np  # noqa: E402
+import trust_data  # noqa: E402
 
 support.need_program("chromium", chromium.PROGRAM)
 KEPT = os.environ.get("CAIRN_SHOTS")
+EMPTY = "[...document.querySelectorAll('.plot:not(.scene)')].filter(p => !p.querySelector('.trace, .point')).map(p => p.id)"
 SHOWN = "({n: document.getElementById('scene').data.find(t => t.name.startsWith('%s')).x.length}).n"
 
 
@@ -93,7 +95,8 @@ class BrowserTest(unittest.TestCase):
     def test_one_map_step_by_step_and_narrow(self):
         self.open(self.single)
         self.picture("single")
-        self.assertEqual(self.browser.evaluate("document.querySelectorAll('.plot:not(.scene)').length"), 9)
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('section:not(.trust) .plot:not(.scene)').length"), 9)
+        self.assertEqual(self.browser.evaluate(EMPTY), [])
         self.stop_at(0.15)
         early = self.browser.evaluate(SHOWN % "landmarks")
         self.stop_at(1.0)
@@ -116,7 +119,7 @@ class BrowserTest(unittest.TestCase):
             self.browser.call("Emulation.setDeviceMetricsOverride", width=1000, **metrics)
 
     def test_teams(self):
-        for name, options, curves, mark in (("boats", [], 7, "vehicle 2"), ("modes", ["--compare", "--runs", "2"], 6, "true")):
+        for name, options, curves, mark in (("boats", [], 14, "radar 2"), ("modes", ["--compare", "--runs", "2"], 26, "true")):
             folder = os.path.join(self.room.name, name)
             subprocess.run([os.environ["CAIRN_PROGRAM"], "simulate", "usv", "--duration", "200", "--output", folder, "--quiet",
                             *options], check=True, stdout=subprocess.DEVNULL)
@@ -128,6 +131,22 @@ class BrowserTest(unittest.TestCase):
             self.assertIn(mark, self.browser.evaluate("document.getElementById('curve0').data.map(t => t.name)"))
             drawn = self.browser.evaluate("document.querySelectorAll('#curve0 .trace, #curve0 .bars .point').length")
             self.assertGreater(drawn, 3)
+            self.assertEqual(self.browser.evaluate(EMPTY), [])
+
+    def test_what_a_run_says_of_itself(self):
+        folder = os.path.join(self.room.name, "trust")
+        os.mkdir(folder)
+        trust_data.write_all(folder)
+        self.open(folder)
+        self.browser.screenshot(os.path.join(KEPT, "trust.png") if KEPT else None, whole_page=True)
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('section.trust .plot').length"), 10)
+        self.assertEqual(self.browser.evaluate(EMPTY), [])
+        # 20 s were lost, the first 80 s good, and the row of the lost ones is the upper one.
+        bar = "document.querySelectorAll('#curve0 .scatterlayer .trace')[%d].querySelector('path.js-line').getBBox()"
+        widths = [self.browser.evaluate((bar + ".width") % at) for at in range(3)]
+        self.assertAlmostEqual(widths[0] / widths[2], 20 / 80, delta=0.01)
+        heights = [self.browser.evaluate((bar + ".y") % at) for at in range(3)]
+        self.assertEqual(heights, sorted(heights))
 
     def test_the_papers_figures(self):
         for kind, begin in (("png", b"\x89PNG\r\n"), ("svg", b"<?xml")):

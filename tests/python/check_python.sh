@@ -40,7 +40,8 @@ block python >"$work/lines.py"
 (cd -- "$work/clone" && bash -euxo pipefail "$work/commands.sh") >"$work/commands.log" 2>&1 ||
   { cat "$work/commands.log"; fail "a command of docs/python.md failed"; }
 (cd -- "$work/clone" && python3 "$work/lines.py") || fail "the Python lines of docs/python.md failed"
-for file in out/report.html boats/report.html both/report.html figures/figure_05.png figures/figure_13.png; do
+for file in out/report.html boats/report.html both/report.html figures/figure_05.png figures/figure_13.png \
+  figures/usv_figure_02.png figures/usv_figure_05.png figures/usv_figure_07.png; do
   [[ -s $work/clone/$file ]] || fail "the commands of docs/python.md made no $file"
 done
 echo "ok"
@@ -49,7 +50,7 @@ say "The installed package: its tests"
 export CAIRN_PROGRAM=$work/prefix/bin/cairn CAIRN_SHOTS=$work/shots
 where=$(cd / && python3 -c 'import cairn, cairn._abi; print(cairn.__file__)')
 [[ $where == "$work/venv/"* ]] || fail "cairn was imported from $where, not from where pip installed it"
-for name in declarations filter finding_back map report team team_report; do
+for name in declarations filter finding_back map report team team_report team_time trust; do
   python3 "$root/tests/python/${name}_test.py"
 done
 

@@ -141,6 +141,24 @@ class ResultsTest(unittest.TestCase):
         one = cairn.Filter(initial_covariance=np.diag([4.0, 1, 1, 1, 1, 1]))
         self.assertAlmostEqual(one.pose_nees(([2.0, 0, 0], [1, 0, 0, 0])), 1.0)
 
+    def test_health(self):
+        made, sensor = filled()
+        with made:
+            health = made.health()
+            self.assertEqual((health["verdict"], health["reasons"], health["words"]), (cairn.VERDICT_GOOD, 0, ["good"]))
+            for _ in range(10):
+                made.update(sensor, list(support.LANDMARKS), seen() + np.array([7.0, 0.0, 0.0]))
+            health = made.health()
+            self.assertEqual(health["verdict"], cairn.VERDICT_LOST)
+            self.assertTrue(health["reasons"] & cairn.DOUBT_REFUSALS)
+            self.assertEqual(health["words"][0], "lost")
+            self.assertEqual(len(health["words"]), 1 + bin(health["reasons"]).count("1"))
+            of_sensor = made.sensor_health(sensor)
+            self.assertEqual(of_sensor["refused"], 10 * len(support.LANDMARKS))
+            self.assertEqual(of_sensor["persistence"].shape, (4,))
+            with self.assertRaises(cairn.CairnError):
+                made.sensor_health(1)
+
     def test_submaps(self):
         with cairn.Filter(submap_landmarks=100, max_landmarks=100, join="dense") as one:
             sensor = one.add_cartesian()
@@ -161,6 +179,42 @@ class ResultsTest(unittest.TestCase):
             with self.assertRaises(cairn.CairnError) as caught:
                 one.submap(1)
             self.assertEqual(caught.exception.status, cairn.ERROR_NOT_FOUND)
+
+    def test_trajectory(self):
+        with cairn.Filter(submap_landmarks=50, trajectory_poses=2) as one:
+            sensor = one.add_cartesian()
+            for step in range(4):
+                self.assertEqual(one.trajectory_range(), (max(0, step - 2), step))
+                one.predict_increment(([1, 0, 0], [1, 0, 0, 0]), np.eye(6) * 1e-6)
+                one.update(sensor, [1], [[5 - step, 0, 0]])
+            one.close_submap()
+            np.testing.assert_allclose(one.trajectory()["position"], [[3, 0, 0], [4, 0, 0]], atol=1e-9)
+            np.testing.assert_allclose(one.trajectory(3)["quaternion"], [[1, 0, 0, 0]], atol=1e-9)
+            with self.assertRaises(cairn.CairnError) as caught:
+                one.trajectory(1)
+            self.assertEqual(caught.exception.status, cairn.ERROR_CAPACITY)
+            self.assertEqual(one.keep_pose(), 4)
+        with cairn.Filter() as none, self.assertRaises(cairn.CairnError) as caught:
+            none.trajectory()
+        self.assertEqual(caught.exception.status, cairn.ERROR_STATE)
+    def test_systematic_errors(self):
+        with cairn.Filter(max_landmarks=20, velocity_bias_sigma=[0, 0.2, 0.1], max_sensor_errors=2) as one:
+            sensor = one.add_cartesian(sigma=[0.1, 0.1, 0.2])
+            one.calibrate_sensor(sensor, mount_turn_sigma=[0, 0, 0.02], offset_sigma=[0.3, 0, 0])
+            errors = one.systematic_errors()
+            self.assertEqual(list(errors["kind"]), [lib.CAIRN_SYSTEMATIC_VELOCITY_BIAS] * 2 +
+                             [lib.CAIRN_SYSTEMATIC_MOUNT_TURN, lib.CAIRN_SYSTEMATIC_OFFSET])
+            self.assertEqual(list(errors["component"]), [1, 2, 2, 0])
+            self.assertEqual(list(errors["sensor"]), [-1, -1, sensor, sensor])
+            np.testing.assert_allclose(errors["sigma"], [0.2, 0.1, 0.02, 0.3])
+            np.testing.assert_allclose(one.systematic_covariance(), np.diag(errors["sigma"] ** 2))
+            one.predict_wheels_gyro(0.5, 2, 2, [0, 0, 0.1])
+            self.assertGreater(one.pose.position[0], 0.1)
+        with cairn.Filter() as none:
+            self.assertEqual(len(none.systematic_errors()), 0)
+            self.assertEqual(none.systematic_covariance().shape, (0, 0))
+        with self.assertRaisesRegex(ValueError, "velocity_bias_walk"):
+            cairn.Filter(velocity_bias_walk=[0.1, 0, 0])
 
     def test_required_bytes(self):
         small, large = (cairn.Filter.required_bytes(max_landmarks=n) for n in (10, 1000))
@@ -202,6 +256,31 @@ class CallbackTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "jacobian_pose: shape 2 x 6"):
             one.update(wrong, [7], [[1.0, 2.0]])
         self.assertEqual(one.update(sensor, [7], seen([7]))["result"].tolist(), [cairn.MATCHED])
+
+    def test_an_exception_leaves_no_part_of_the_frame(self):
+        calls = []
+
+        def second_fails(pose, landmark):
+            calls.append(landmark)
+            if len(calls) == 2:
+                raise KeyError("no calibration for this landmark")
+            return landmark - pose.position, np.hstack([-np.eye(3), np.zeros((3, 3))]), np.eye(3)
+
+        one = cairn.Filter(initial_covariance=np.eye(6) * 0.01)
+        lidar, custom = one.add_cartesian(), one.add_custom(second_fails, sigma=[0.1] * 3)
+        one.update(lidar, [1, 2], [[3, 0, 0], [0, 3, 0]])
+        before, pose = one.map.landmark(1), one.pose()
+        for _ in range(3):
+            calls.clear()
+            with self.assertRaisesRegex(KeyError, "no calibration"):
+                one.update(custom, [1, 2], [[3.2, 0, 0], [0, 3, 0]])
+            after = one.map.landmark(1)
+            self.assertEqual(after["observations"], before["observations"])
+            np.testing.assert_array_equal(after["position"], before["position"])
+            np.testing.assert_array_equal(after["covariance"], before["covariance"])
+            np.testing.assert_array_equal(one.pose()[2], pose[2])
+        calls.extend([None, None])
+        self.assertEqual(one.update(custom, [1, 2], [[3.2, 0, 0], [0, 3, 0]])["result"].tolist(), [cairn.MATCHED] * 2)
 
     def test_a_callback_may_not_call_its_filter(self):
         one, _ = filled()
@@ -257,7 +336,7 @@ class BadInputTest(unittest.TestCase):
         self.refused(TypeError, "z: must be numbers", one.update, sensor, [1], [["a", "b", "c"]])
         self.refused(TypeError, "z is missing", one.update, sensor, [1])
         for ids, z, word in (([7, 7], seen([7, 7]), "ARGUMENT"), ([2**64 - 1], seen([7]), "ARGUMENT"),
-                             ([7], [[np.nan, 0, 0]], "ARGUMENT"), (np.arange(30), np.ones((30, 3)), "CAPACITY")):
+                             ([7], [[np.nan, 0, 0]], "ARGUMENT"), (np.arange(300), np.ones((300, 3)), "CAPACITY")):
             self.refused(cairn.CairnError, f"CAIRN_ERROR_{word}", one.update, sensor, ids, z)
         self.refused(cairn.CairnError, "CAIRN_ERROR_NOT_FOUND", one.update, sensor + 1, [7], seen([7]))
         self.refused(OverflowError, "", one.update, 2**40, [7], seen([7]))

@@ -68,6 +68,9 @@ class ReportTest(reports.FolderTest):
     @classmethod
     def make_run(cls, folder):
         support.run_program(folder, options=["--single-map"])
+        for name in ("health.csv", "systematic.csv", "trajectory_online.tum", "trajectory_corrected.tum"):  # see trust_test.py
+            with contextlib.suppress(FileNotFoundError):
+                os.remove(os.path.join(folder, name))
 
     def test_what_is_read(self):
         (one,) = run.read_folder(self.folder)
@@ -154,6 +157,17 @@ class ReportTest(reports.FolderTest):
         self.assertIsNone(one.euler_error())
         self.assertEqual(curves.errors([one]), [])
         self.assertEqual(call(self.folder)[0], 0)
+
+    def test_a_planar_vehicle_has_three_errors(self):
+        with open(self.path("trajectory.csv")) as file:
+            header, *rows = [line.rstrip("\n").split(",") for line in file]
+        for row in rows:
+            for name in ("z_m", "dtheta_x_rad", "dtheta_y_rad"):
+                for kind in ("error", "sigma3"):
+                    row[header.index(f"{kind}_{name}")] = "0"
+        self.write("trajectory.csv", "\n".join(map(",".join, [header, *rows])) + "\n")
+        (one,) = run.read_folder(self.folder)
+        self.assertEqual([figure["title"] for figure in curves.errors([one])], ["x", "y", "yaw: about the map's z"])
 
     def test_names_are_no_markup(self):
         folder = os.path.join(self.room.name, "<b>bold & 'more'")

@@ -42,11 +42,11 @@ class TeamReportTest(reports.FolderTest):
         status, out, told = call(self.folder)
         self.assertEqual((status, told), (0, ""))
         text, found = read_page(self.path("report.html"))
-        self.assertEqual(len(found["curves"]), 1 + 3 * 3)
-        self.assertEqual([curve["alone"] for curve in found["curves"]], [True] + [False] * 9)
+        self.assertEqual(len(found["curves"]), 2 + 3 * 6)  # world and map; 3 errors, norm, improvement, time of each boat
+        self.assertEqual([curve["alone"] for curve in found["curves"]], [True] * 2 + [False] * 18)
         self.assertIsNone(found["scene"])
         self.assertEqual(re.findall(r"@[A-Z]+@", text), [])
-        names = [trace["name"] for trace in found["curves"][0]["data"]]
+        names = [trace["name"] for trace in found["curves"][1]["data"]]
         for name in ("vehicle 1", "vehicle 2", "vehicle 3", "true trajectories", "landmarks", "true landmarks", "3 σ"):
             self.assertIn(name, names)
         self.assertEqual(names.count("landmarks"), 1)
@@ -78,8 +78,8 @@ class TeamReportTest(reports.FolderTest):
         for row in rows[1:]:
             row[9:12] = [""] * 3
         self.write("team_trajectories.csv", "\n".join(map(",".join, rows)) + "\n")
-        os.remove(self.path("team_landmarks.csv"))
-        os.remove(self.path("summary.json"))
+        for name in ("team_landmarks.csv", "team_steps.csv", "team_scene.csv", "summary.json"):
+            os.remove(self.path(name))
         status, _, told = call(self.folder)
         self.assertEqual((status, told), (0, ""))
         self.assertEqual(len(read_page(self.path("report.html"))[1]["curves"]), 1)
@@ -121,12 +121,19 @@ class TeamReportTest(reports.FolderTest):
             self.assertIn(word, told)
 
     def test_what_is_broken_is_told(self):
-        status, _, told = call(self.folder, "--figures", self.path("figures"))
-        self.assertEqual(status, 2)
-        self.assertIn("Mars paper", told)
         self.write("summary.json", "[1]")
         self.refused("summary.json")
         self.write("summary.json", "{}")
+        self.write("team_steps.csv", "features,mode,runs,step,time,vehicle,norm_m2\n6,mono,1,0,0,1,0\n")
+        self.refused("team_steps.csv", "recursion_ms")
+        os.remove(self.path("team_steps.csv"))
+        self.write("team_scene.csv", "kind,id,x,y\n")
+        self.refused("team_scene.csv", "radius")
+        self.write("team_scene.csv", "kind,id,x,y,radius\ncoast,1,-5,3,\ncoast,2,5,3,\nfeature,1,0,1,\nradar,1,0,0,4\n")
+        self.refused("team_scene.csv", "boat 1 has no course")
+        self.write("team_scene.csv", "kind,id,x,y,radius\nfeature,1,0,1,\n")
+        self.refused("team_scene.csv", "coast")
+        os.remove(self.path("team_scene.csv"))
         self.write("team_landmarks.csv", "vehicle,id,x\n1,2,3\n")
         self.refused("team_landmarks.csv", "column y")
         self.write("team_trajectories.csv", "step,time\n0,1\n")

@@ -26,14 +26,15 @@ class Callbacks:
             raise error
 
     def _guarded(self, answer):
-        """Returns 0 if `answer` wrote its outputs, 1 if it had none or raised an exception."""
+        """Returns 0 if `answer` wrote its outputs, 1 if it had none, -1 if it raised an exception: that aborts the C
+        call, and the filter stays as before."""
         if self._pending is not None:
-            return 1
+            return -1
         try:
             return 0 if answer() else 1
         except BaseException as error:  # KeyboardInterrupt too
             self._pending = error
-            return 1
+            return -1
 
     @staticmethod
     def _write(result, outputs):
@@ -66,7 +67,7 @@ class Callbacks:
             self._keep(struct, "place", placed)
 
     def _keep(self, struct, name, function):
-        callback = ffi.callback(f"cairn_custom_{name}", function, error=1)
+        callback = ffi.callback(f"cairn_custom_{name}", function, error=-1)
         setattr(struct, name, callback)
         self._kept.append(callback)  # a field of a C struct does not keep it alive
 

@@ -74,7 +74,7 @@ class Filter(Handle):
         predict(pose, landmark) returns (z (rows,), dz/d[dp; dtheta] (rows x 6), dz/dlandmark (rows x 3)), or None if
         the landmark cannot be seen from the pose. place(pose, z) returns (landmark (3,), its Jacobian by the pose (3 x 6),
         its Jacobian by z (3 x rows)), or None. Without `place` the sensor only observes landmarks that other
-        sensors placed. An exception in either function is raised by update().
+        sensors placed. An exception in either function is raised by update(), and no part of that frame counts.
         """
         struct = _structs.new("cairn_custom", description)
         self._callbacks.custom(struct, predict, place)
@@ -86,6 +86,29 @@ class Filter(Handle):
         """Sets the pan and stick angles of a stereo head, rad. They hold until the next call."""
         self._call(lib.cairn_filter_point_head, sensor, pan, stick)
 
+    # Systematic errors.
+
+    def calibrate_sensor(self, sensor, **calibration):
+        """Makes systematic errors of a sensor states: fields of cairn_calibration. Before the first motion."""
+        self._call(lib.cairn_filter_calibrate_sensor, sensor, _structs.new("cairn_calibration", calibration))
+
+    def systematic_errors(self):
+        """The estimates of all systematic errors that are states, as an array with the fields of
+        cairn_systematic_error."""
+        with self._use() as handle:
+            return _structs.filled("cairn_systematic_error",
+                                   lambda errors, capacity, needed: lib.cairn_filter_systematic_errors(
+                                       handle, errors, ffi.NULL, capacity, needed))
+
+    def systematic_covariance(self):
+        """The joint covariance of systematic_errors(), n x n."""
+        errors = self.systematic_errors()
+        covariance = np.zeros((len(errors), len(errors)))
+        if len(errors):
+            self._call(lib.cairn_filter_systematic_errors,
+                       ffi.from_buffer("cairn_systematic_error *", errors, require_writable=True),
+                       _structs.doubles(covariance), len(errors), ffi.new("size_t *"))
+        return covariance
     def set_loss(self, sensor, loss, width=1.5):
         """Sets the loss of a sensor's residuals: "none", "huber" or "cauchy". An observation with a large residual gets
         less weight. `width` is where the loss leaves the parabola, in standard deviations; "none" ignores it."""
@@ -105,6 +128,11 @@ class Filter(Handle):
     def predict_wheels(self, dt, left_rad_per_s, right_rad_per_s):
         """Moves the vehicle by the rates of its wheels (rad/s) over dt (s)."""
         self._call(lib.cairn_filter_predict_wheels, dt, left_rad_per_s, right_rad_per_s)
+
+    def predict_wheels_gyro(self, dt, left_rad_per_s, right_rad_per_s, rate):
+        """Moves the vehicle by the rates of its wheels (rad/s) and the body rate of a gyro (3, rad/s) over dt (s)."""
+        rate = _structs.array("rate", rate, (3,))
+        self._call(lib.cairn_filter_predict_wheels_gyro, dt, left_rad_per_s, right_rad_per_s, _structs.doubles(rate))
 
     def predict_twist(self, dt, velocity, rate):
         """Moves the vehicle by its body velocity (3, m/s) and body rate (3, rad/s) over dt (s)."""
@@ -236,10 +264,49 @@ class Filter(Handle):
         self._call(lib.cairn_filter_audit, pivot)
         return pivot[0]
 
+    def health(self):
+        """How far to trust the filter after the last update: cairn_health as a dictionary. `verdict` is cairn.VERDICT_GOOD,
+        VERDICT_DOUBTFUL or VERDICT_LOST, `reasons` has the bits cairn.DOUBT_...; `words` is the same in words: the
+        verdict, then the reasons."""
+        with self._use() as handle:
+            health = _structs.report("cairn_health", lambda report: lib.cairn_filter_health(handle, report))
+        reasons = [lib.cairn_doubt_text(1 << bit) for bit in range(32) if health["reasons"] >> bit & 1]
+        health["words"] = [ffi.string(text).decode() for text in [lib.cairn_verdict_text(health["verdict"]), *reasons]]
+        return health
+
+    def sensor_health(self, sensor):
+        """What the observations of one sensor show: cairn_sensor_health as a dictionary. `scale` is the factor of the
+        stated standard deviations that explains the observations, `scale_sigma` its standard deviation."""
+        with self._use() as handle:
+            return _structs.report("cairn_sensor_health",
+                                   lambda report: lib.cairn_filter_sensor_health(handle, sensor, report))
+
     def set_log(self, log):
         """From now on log(line) receives the filter's log lines; None switches the log off. `log` must not call this
         filter."""
         self._call(lib.cairn_filter_set_log, self._callbacks.log(log), ffi.NULL)
+
+    # Trajectory: poses that a filter with trajectory_poses > 0 keeps, numbered from 0. Every update keeps one.
+
+    def keep_pose(self):
+        """Keeps the pose of the body now, for a step in which nothing was observed. Returns the pose's number."""
+        number = ffi.new("uint64_t *")
+        self._call(lib.cairn_filter_keep_pose, number)
+        return number[0]
+
+    def trajectory_range(self):
+        """Numbers of the poses that are kept: the first one, and one behind the last one."""
+        first, end = ffi.new("uint64_t *"), ffi.new("uint64_t *")
+        self._call(lib.cairn_filter_trajectory_range, first, end)
+        return first[0], end[0]
+
+    def trajectory(self, first=None):
+        """Poses of the body in the map as they are known now, from number `first` on; None means all that are kept.
+        Returns an array with the fields position (3, m) and quaternion (4, w x y z)."""
+        if first is None:
+            first = self.trajectory_range()[0]
+        with self._use() as handle:
+            return _structs.filled("cairn_pose", lambda *buffer: lib.cairn_filter_trajectory(handle, first, *buffer))
 
     # Submaps.
 

@@ -35,6 +35,8 @@ cairn_status status_of(ErrorCode code) noexcept {
       return CAIRN_ERROR_NUMERICAL;
     case ErrorCode::state:
       return CAIRN_ERROR_STATE;
+    case ErrorCode::callback:
+      return CAIRN_ERROR_CALLBACK;
   }
   return CAIRN_ERROR_INTERNAL;
 }
@@ -87,6 +89,33 @@ void check_range(double value, double lower, double upper, const char* name) {
 void check_probability(double value, const char* name) {
   check_finite(value, name);
   if (!(value > 0.0 && value <= 1.0)) throw Error(ErrorCode::argument, "%s must lie in (0, 1], and is %g", name, value);
+}
+
+void check_position(const double* values, std::size_t count, const char* name) {
+  check_finite(values, count, name);
+  for (std::size_t i = 0; i < count; ++i)
+    if (std::abs(values[i]) > kFarthest)
+      throw Error(ErrorCode::argument, "%s[%zu] lies beyond %g m, and is %g", name, i, kFarthest, values[i]);
+}
+
+void check_sigma(double value, const char* name) {
+  check_positive(value, name);
+  check_range(value, kLeastSigma, kLargestSigma, name);
+}
+
+void check_sigma(const double* values, std::size_t count, const char* name) {
+  check_positive(values, count, name);
+  for (std::size_t i = 0; i < count; ++i) check_range(values[i], kLeastSigma, kLargestSigma, name);
+}
+
+void check_sigma_or_zero(double value, const char* name) {
+  check_not_negative(value, name);
+  if (value > 0.0) check_range(value, kLeastSigma, kLargestSigma, name);
+}
+
+void check_sigma_or_zero(const double* values, std::size_t count, const char* name) {
+  check_not_negative(values, count, name);
+  for (std::size_t i = 0; i < count; ++i) check_sigma_or_zero(values[i], name);
 }
 
 SO3 read_quaternion(const double* quaternion, const char* name) {

@@ -52,6 +52,17 @@ void check_not_negative(const double* values, std::size_t count, const char* nam
 void check_range(double value, double lower, double upper, const char* name);  // [lower, upper]
 void check_probability(double value, const char* name);                        // (0, 1]
 
+// Numbers beyond these limits are mistakes. Inside them no product of a filter's numbers overflows or underflows.
+constexpr double kFarthest = 1e12;                           // m, of a position
+constexpr double kLeastSigma = 1e-50, kLargestSigma = 1e50;  // in the units of the value
+constexpr double kLargestPositionSigma = 1e9;                // m, of a pose or a landmark
+constexpr double kLargestAttitudeSigma = 100.0;              // rad
+void check_position(const double* values, std::size_t count, const char* name);
+void check_sigma(double value, const char* name);  // > 0
+void check_sigma(const double* values, std::size_t count, const char* name);
+void check_sigma_or_zero(double value, const char* name);
+void check_sigma_or_zero(const double* values, std::size_t count, const char* name);
+
 // --- conversions --- Reading checks the values.
 SO3 read_quaternion(const double* quaternion, const char* name);
 SE3 read_pose(const cairn_pose* pose, const char* name);

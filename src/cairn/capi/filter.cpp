@@ -10,6 +10,15 @@ namespace cairn {
 namespace capi {
 namespace {
 
+// A pose whose position is not absurd.
+SE3 read_place(const cairn_pose* pose, const char* name) {
+  const SE3 T = read_pose(pose, name);
+  char part[96];
+  std::snprintf(part, sizeof part, "%s.position", name);
+  check_position(pose->position, 3, part);
+  return T;
+}
+
 // A sensor that a vehicle of this kind can carry, or a refusal.
 template <class AnyFilter, class AnySensor>
 void add_sensor(AnyFilter& filter, const AnySensor& sensor, std::int32_t* number) {
@@ -28,12 +37,12 @@ void add_sensor(AnyFilter& filter, const AnySensor& sensor, std::int32_t* number
 
 template <>
 SE3 read_pose_of<SE3>(const cairn_pose* pose, const char* name) {
-  return read_pose(pose, name);
+  return read_place(pose, name);
 }
 template <>
 SE2 read_pose_of<SE2>(const cairn_pose* pose, const char* name) {
   constexpr double kLevel = 1e-9;  // m, rad: allows for rounding in the caller's conversions
-  const SE3 T = read_pose(pose, name);
+  const SE3 T = read_place(pose, name);
   if (std::abs(T.translation().z()) > kLevel || T.rotation().quaternion().vec().head<2>().norm() > 0.5 * kLevel)
     throw Error(ErrorCode::argument, "%s lies outside of the plane: z must be 0, and the rotation must be about z only",
                 name);
@@ -145,7 +154,9 @@ cairn_status cairn_filter_split_landmark(cairn_filter* filter, uint64_t id, uint
   return guard([&] {
     with_filter(filter, [&](auto& f) {
       if (fresh == CAIRN_ID_NONE) throw Error(ErrorCode::argument, "fresh is CAIRN_ID_NONE, which no landmark has");
-      f.split_landmark(id, fresh, read_point_covariance<PoseOf<decltype(f)>>(covariance, "covariance"));
+      const auto apart = read_point_covariance<PoseOf<decltype(f)>>(covariance, "covariance");
+      check_range(apart.diagonal().maxCoeff(), 0.0, kLargestPositionSigma * kLargestPositionSigma, "covariance");
+      f.split_landmark(id, fresh, apart);
     });
   });
 }

@@ -6,6 +6,7 @@
 
 #include "capi/convert.hpp"
 #include "capi/filter_handle.hpp"
+#include "capi/read_errors.hpp"
 #include "options/bounds.hpp"
 
 using namespace cairn;
@@ -83,21 +84,50 @@ AssociationKind association_of(const cairn_filter_options& o) {
                                                     : AssociationKind::known;
 }
 
+SystematicOptions systematic_of(const cairn_filter_options& o) {
+  SystematicOptions options;
+  const bool planar = o.vehicle == CAIRN_VEHICLE_PLANAR;
+  double* const sigma = options.motion_sigma;
+  double* const walk = options.motion_walk;
+  read_errors(o.velocity_bias_sigma, o.velocity_bias_walk, 3, "options.velocity_bias", planar ? Axes::xy : Axes::all,
+              sigma, walk);
+  read_errors(o.rate_bias_sigma, o.rate_bias_walk, 3, "options.rate_bias", planar ? Axes::z : Axes::all, sigma + 3,
+              walk + 3);
+  read_errors(o.wheel_scale_sigma, o.wheel_scale_walk, 2, "options.wheel_scale", Axes::all,
+              sigma + MotionErrors::kScale, walk + MotionErrors::kScale);
+  return options;
+}
+
+// A start that is not known at all has a large covariance, but not one that no map has.
+template <class Pose>
+void check_initial_covariance(const typename Pose::Square& covariance) {
+  for (int i = 0; i < Pose::kDof; ++i) {
+    const double largest = i < Pose::kDim ? kLargestPositionSigma : kLargestAttitudeSigma;
+    if (covariance(i, i) > largest * largest)
+      throw Error(ErrorCode::argument,
+                  "options.initial_covariance: the variance of the %s is %g, and must be at most %g",
+                  i < Pose::kDim ? "position" : "attitude", covariance(i, i), largest * largest);
+  }
+}
+
 template <class Pose>
 FilterOptions<Pose> options_of(const cairn_filter_options& o) {
   FilterOptions<Pose> options;
   options.initial_pose = read_pose_of<Pose>(&o.initial_pose, "options.initial_pose");
   options.initial_covariance = read_pose_covariance<Pose>(o.initial_covariance, "options.initial_covariance");
+  check_initial_covariance<Pose>(options.initial_covariance);
   options.error = error_of(o);
   options.join = join_of(o);
   options.join_loss = join_loss_of(o);
   options.association = association_of(o);
+  options.apply_noise = o.noise_learning == CAIRN_NOISE_APPLIED;
   options.by_likelihood =
       options.association == AssociationKind::nearest && o.association_distance == CAIRN_DISTANCE_LIKELIHOOD;
   // Numbers have the same name on both sides.
 #define FILTER_WHOLE(field, initial, lower, upper, flag) options.field = static_cast<decltype(options.field)>(o.field);
 #define FILTER_REAL(field, initial, bounds, flag) options.field = o.field;
 #include "options/filter_options.def"
+  options.systematic = systematic_of(o);
   return options;
 }
 

@@ -34,6 +34,9 @@ void write_match(const Match& match, cairn_match* out) {
     case Reason::ambiguous:
       out->reason = CAIRN_REASON_AMBIGUOUS;
       break;
+    case Reason::no_room:
+      out->reason = CAIRN_REASON_NO_ROOM;
+      break;
   }
   out->distance = match.distance;
   out->threshold = match.threshold;
@@ -132,10 +135,10 @@ cairn_status cairn_filter_update_position(cairn_filter* filter, const double pos
   return guard([&] {
     with_filter(filter, [&](auto& f) {
       check_pointer(position, "position");
-      check_finite(position, 3, "position");
+      check_position(position, 3, "position");
       using Pose = PoseOf<decltype(f)>;
       const auto noise = read_point_covariance<Pose>(covariance, "covariance");
-      if (lever_arm != nullptr) check_finite(lever_arm, 3, "lever_arm");
+      if (lever_arm != nullptr) check_position(lever_arm, 3, "lever_arm");
       const Vector3 arm = lever_arm != nullptr ? Vector3(lever_arm) : Vector3(Vector3::Zero());
       f.update_position(Embedding<Pose>::down(Vector3(position)), noise, Embedding<Pose>::down(arm));
       write_matches(f, 1, match);
@@ -150,7 +153,7 @@ cairn_status cairn_filter_update_attitude(cairn_filter* filter, const double qua
       const SO3 attitude = read_quaternion(quaternion, "quaternion");
       check_pointer(covariance, "covariance");
       if constexpr (PoseOf<decltype(f)>::kDim == 2) {
-        check_positive(covariance[8], "covariance of the yaw");
+        check_covariance(covariance + 8, 1, false, "covariance of the yaw");
         if (!AbsoluteFix<SE3>::heading(0.0, 1.0).defined(SE3(attitude, Vector3::Zero())))
           throw Error(ErrorCode::argument, "quaternion: its x axis is vertical and has no heading in the plane");
         f.update_attitude(Embedding<SE2>::down(SE3(attitude, Vector3::Zero())).rotation(), Vector1(covariance[8]));
@@ -167,8 +170,7 @@ cairn_status cairn_filter_update_heading(cairn_filter* filter, double heading, d
   return guard([&] {
     with_filter(filter, [&](auto& f) {
       check_finite(heading, "heading");
-      check_positive(sigma, "sigma");
-      check_positive(sigma * sigma, "square of sigma");
+      check_sigma(sigma, "sigma");
       f.update_heading(heading, sigma);
       write_matches(f, 1, match);
     });

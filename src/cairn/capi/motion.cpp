@@ -43,12 +43,12 @@ Wheels read_wheels(const cairn_wheels* user) {
                 w.yaw_sign);
   check_positive(w.radius, "wheels.radius");
   check_positive(w.track, "wheels.track");
-  check_not_negative(w.rate_sigma, "wheels.rate_sigma");
-  check_not_negative(w.slip_sigma, "wheels.slip_sigma");
-  check_not_negative(w.lateral_sigma, "wheels.lateral_sigma");
-  check_not_negative(w.vertical_sigma, "wheels.vertical_sigma");
-  check_not_negative(w.roll_rate_sigma, "wheels.roll_rate_sigma");
-  check_not_negative(w.pitch_rate_sigma, "wheels.pitch_rate_sigma");
+  check_sigma_or_zero(w.rate_sigma, "wheels.rate_sigma");
+  check_sigma_or_zero(w.slip_sigma, "wheels.slip_sigma");
+  check_sigma_or_zero(w.lateral_sigma, "wheels.lateral_sigma");
+  check_sigma_or_zero(w.vertical_sigma, "wheels.vertical_sigma");
+  check_sigma_or_zero(w.roll_rate_sigma, "wheels.roll_rate_sigma");
+  check_sigma_or_zero(w.pitch_rate_sigma, "wheels.pitch_rate_sigma");
   return {w.yaw_sign == CAIRN_YAW_LEFT_MINUS_RIGHT,
           w.radius,
           w.track,
@@ -62,8 +62,8 @@ Wheels read_wheels(const cairn_wheels* user) {
 
 TwistNoise read_twist_noise(const cairn_twist_noise* user) {
   const cairn_twist_noise n = read_options(user, default_twist_noise(), "noise");
-  check_not_negative(n.velocity_sigma, 3, "noise.velocity_sigma");
-  check_not_negative(n.rate_sigma, 3, "noise.rate_sigma");
+  check_sigma_or_zero(n.velocity_sigma, 3, "noise.velocity_sigma");
+  check_sigma_or_zero(n.rate_sigma, 3, "noise.rate_sigma");
   return {Vector3(n.velocity_sigma), Vector3(n.rate_sigma)};
 }
 
@@ -99,6 +99,20 @@ cairn_status cairn_filter_predict_wheels(cairn_filter* filter, double dt, double
       check_finite(left_rad_per_s, "left_rad_per_s");
       check_finite(right_rad_per_s, "right_rad_per_s");
       f.predict_wheels(dt, left_rad_per_s, right_rad_per_s);
+    });
+  });
+}
+
+cairn_status cairn_filter_predict_wheels_gyro(cairn_filter* filter, double dt, double left_rad_per_s,
+                                              double right_rad_per_s, const double rate[3]) {
+  return guard([&] {
+    with_filter(filter, [&](auto& f) {
+      check_positive(dt, "dt");
+      check_finite(left_rad_per_s, "left_rad_per_s");
+      check_finite(right_rad_per_s, "right_rad_per_s");
+      check_pointer(rate, "rate");
+      check_finite(rate, 3, "rate");
+      f.predict_wheels_gyro(dt, left_rad_per_s, right_rad_per_s, Vector3(rate));
     });
   });
 }

@@ -81,13 +81,13 @@ StereoHead read_stereo_head(const cairn_stereo_head* user) {
   if (h.encoder_mode != CAIRN_ENCODER_PER_OBSERVATION && h.encoder_mode != CAIRN_ENCODER_PER_FRAME)
     throw Error(ErrorCode::argument, "head.encoder_mode = %d is none of the CAIRN_ENCODER_ constants; use one of them",
                 h.encoder_mode);
-  check_finite(h.platform, 3, "head.platform");
-  check_finite(h.stick, 3, "head.stick");
-  check_positive(h.range_sigma, "head.range_sigma");
-  check_positive(h.azimuth_sigma, "head.azimuth_sigma");
-  check_positive(h.elevation_sigma, "head.elevation_sigma");
-  check_not_negative(h.pan_sigma, "head.pan_sigma");
-  check_not_negative(h.stick_sigma, "head.stick_sigma");
+  check_position(h.platform, 3, "head.platform");
+  check_position(h.stick, 3, "head.stick");
+  check_sigma(h.range_sigma, "head.range_sigma");
+  check_sigma(h.azimuth_sigma, "head.azimuth_sigma");
+  check_sigma(h.elevation_sigma, "head.elevation_sigma");
+  check_sigma_or_zero(h.pan_sigma, "head.pan_sigma");
+  check_sigma_or_zero(h.stick_sigma, "head.stick_sigma");
   check_positive(h.near_range, "head.near_range");
   check_positive(h.max_elevation, "head.max_elevation");
   check_range(h.max_elevation, 0.0, 1.57079, "head.max_elevation");
@@ -113,7 +113,7 @@ StereoCamera read_stereo_camera(const cairn_stereo_camera* user) {
   check_finite(c.cu, "camera.cu");
   check_finite(c.cv, "camera.cv");
   check_positive(c.baseline, "camera.baseline");
-  check_positive(c.sigma, 3, "camera.sigma");
+  check_sigma(c.sigma, 3, "camera.sigma");
   check_positive(c.near_depth, "camera.near_depth");
   check_positive(c.min_disparity, "camera.min_disparity");
   check_not_negative(c.min_disparity_sigmas, "camera.min_disparity_sigmas");
@@ -123,7 +123,7 @@ StereoCamera read_stereo_camera(const cairn_stereo_camera* user) {
   parameters.cu = c.cu;
   parameters.cv = c.cv;
   parameters.baseline = c.baseline;
-  parameters.T_body_camera = read_pose(&c.T_body_camera, "camera.T_body_camera");
+  parameters.T_body_camera = read_pose_of<SE3>(&c.T_body_camera, "camera.T_body_camera");
   parameters.sigma = Vector3(c.sigma);
   parameters.near_depth = c.near_depth;
   parameters.min_disparity = c.min_disparity;
@@ -133,8 +133,8 @@ StereoCamera read_stereo_camera(const cairn_stereo_camera* user) {
 
 RangeBearingParameters read_range_bearing(const cairn_range_bearing* user) {
   const cairn_range_bearing r = read_options(user, default_range_bearing(), "radar");
-  check_positive(r.range_sigma, "radar.range_sigma");
-  check_positive(r.bearing_sigma, "radar.bearing_sigma");
+  check_sigma(r.range_sigma, "radar.range_sigma");
+  check_sigma(r.bearing_sigma, "radar.bearing_sigma");
   check_positive(r.near_range, "radar.near_range");
   return {read_pose_of<SE2>(&r.T_body_sensor, "radar.T_body_sensor"), r.range_sigma, r.bearing_sigma, r.near_range};
 }
@@ -142,7 +142,7 @@ RangeBearingParameters read_range_bearing(const cairn_range_bearing* user) {
 template <class Pose>
 Cartesian<Pose> read_cartesian(const cairn_cartesian* user) {
   const cairn_cartesian c = read_options(user, default_cartesian(), "cartesian");
-  check_positive(c.sigma, Pose::kDim, "cartesian.sigma");
+  check_sigma(c.sigma, Pose::kDim, "cartesian.sigma");
   CartesianParameters<Pose> parameters;
   parameters.T_body_sensor = read_pose_of<Pose>(&c.T_body_sensor, "cartesian.T_body_sensor");
   parameters.sigma = Embedding<Pose>::down(Vector3(c.sigma));
@@ -168,7 +168,7 @@ CustomSensor<Pose> read_custom(const cairn_custom* user) {
     throw Error(ErrorCode::argument, "custom.place is set, but %u values cannot place a landmark; leave it NULL",
                 c.rows);
   if (c.relative > 1) throw Error(ErrorCode::argument, "custom.relative must be 0 or 1, and is %u", c.relative);
-  check_positive(c.sigma, c.rows, "custom.sigma");
+  check_sigma(c.sigma, c.rows, "custom.sigma");
   CustomParameters parameters;
   parameters.rows = static_cast<int>(c.rows);
   parameters.predict = reinterpret_cast<CustomPredict>(c.predict);

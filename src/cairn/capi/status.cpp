@@ -17,6 +17,10 @@ void check_covariance(const double* matrix, std::size_t size, bool semi, const c
     if (semi ? variance < 0.0 : !(variance > 0.0))
       throw Error(ErrorCode::argument, "%s: the variance at [%zu][%zu] must be %s 0, and is %g", name, r, r,
                   semi ? ">=" : ">", variance);
+    constexpr double kLeast = kLeastSigma * kLeastSigma, kLargest = kLargestSigma * kLargestSigma;
+    if (variance > kLargest || (variance > 0.0 && variance < kLeast))
+      throw Error(ErrorCode::argument, "%s: the variance at [%zu][%zu] must lie in [%g, %g]%s, and is %g", name, r, r,
+                  kLeast, kLargest, semi ? " or be 0" : "", variance);
   }
   for (std::size_t r = 0; r < size; ++r)
     for (std::size_t c = 0; c < r; ++c) {
@@ -59,6 +63,8 @@ const char* cairn_status_name(cairn_status status) {
       return "CAIRN_ERROR_STATE";
     case CAIRN_ERROR_INTERNAL:
       return "CAIRN_ERROR_INTERNAL";
+    case CAIRN_ERROR_CALLBACK:
+      return "CAIRN_ERROR_CALLBACK";
     default:
       return "unknown status";
   }

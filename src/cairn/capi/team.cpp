@@ -62,6 +62,8 @@ std::int32_t result_of(Arrival arrival, PacketFault fault) {
       return CAIRN_PACKET_UNKNOWN;
     case Arrival::past:
       return CAIRN_PACKET_PAST;
+    case Arrival::ahead:
+      return CAIRN_PACKET_AHEAD;
     case Arrival::conflict:
       return CAIRN_PACKET_CONFLICT;
     case Arrival::ignored:
@@ -278,6 +280,8 @@ cairn_status cairn_team_last_report(const cairn_team* team, cairn_team_report* r
     out.anees_per_dof = score.anees_per_dof();
     out.claimed_improvement = score.claimed_improvement();
     out.true_improvement = score.true_improvement();
+    out.ahead = mail.ahead;
+    out.interrupted = t.interrupted() ? 1 : 0;
     write_report(out, report);
   });
 }

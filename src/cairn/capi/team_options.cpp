@@ -2,6 +2,7 @@
 // Options of teams.
 #include "capi/convert.hpp"
 #include "capi/team_handle.hpp"
+#include "slam/systematic_errors.hpp"
 
 namespace cairn {
 namespace capi {
@@ -17,6 +18,7 @@ cairn_team_options default_options() {
   options.time_tolerance = d.time_tolerance;
   options.max_waiting = static_cast<std::uint32_t>(d.max_waiting);
   options.history = static_cast<std::uint32_t>(d.history);
+  options.max_jump = d.max_jump;
   return options;
 }
 
@@ -54,17 +56,27 @@ TeamOptions team_options(const cairn_team_options& o, const cairn_filter_options
   check_not_negative(o.time_tolerance, "options.time_tolerance");
   check_range(o.max_waiting, 1, 1000000, "options.max_waiting");
   check_range(o.history, 1, 1000000, "options.history");
+  check_positive(o.max_jump, "options.max_jump");
   options.mail.vehicle = o.vehicle;
   options.mail.max_vehicles = o.max_vehicles;
   options.mail.max_lag = o.max_lag;
   options.mail.time_tolerance = o.time_tolerance;
   options.mail.max_waiting = o.max_waiting;
   options.mail.history = o.history;
+  options.mail.max_jump = o.max_jump;
   const auto filter_options = read_filter_options(filter);
   const auto* planar = std::get_if<FilterOptions<SE2>>(&filter_options);
   if (planar == nullptr)
     throw Error(ErrorCode::argument, "filter: its vehicle is spatial; a team's is CAIRN_VEHICLE_PLANAR");
+  if (planar->trajectory_poses != 0)
+    throw Error(ErrorCode::argument, "filter.trajectory_poses must be 0 for a team, and is %td",
+                planar->trajectory_poses);
   options.filter = *planar;
+  if (SystematicErrors(planar->systematic, false).any() || planar->max_sensor_errors > 0)
+    throw Error(
+        ErrorCode::argument,
+        "filter: the filters of a team estimate no systematic errors; set velocity_bias_sigma, rate_bias_sigma, "
+        "wheel_scale_sigma and max_sensor_errors to 0");
   options.filter.max_sensors = 2;
   options.radar = read_range_bearing(radar);
   const bool extended = options.mode == TeamMode::eo_diagonal || options.mode == TeamMode::eo_full;

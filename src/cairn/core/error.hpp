@@ -9,7 +9,7 @@
 
 namespace cairn {
 
-enum class ErrorCode { argument, buffer, capacity, not_found, numerical, state };
+enum class ErrorCode { argument, buffer, capacity, not_found, numerical, state, callback };
 
 class Error : public std::exception {
  public:

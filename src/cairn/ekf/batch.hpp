@@ -66,8 +66,10 @@ class Batch {
     }
   }
 
-  // Lower triangle of S = H P H^T + R, for the rows x columns matrix H P.
-  void innovation_covariance(const double* HP, Index ld, double* S, Index lds) const {
+  // Lower triangle of S = H P H^T + R, for the rows x columns matrix H P. A double cannot hold noise that is too small
+  // beside the variances that are added to it: its variance is raised to kLeastNoise of H P H^T, and to kLeastRest of
+  // the variances whose difference H P H^T is. `prior` are the variances of the window's first `count` columns.
+  void innovation_covariance(const double* HP, Index ld, double* S, Index lds, const double* prior, Index count) const {
     Index done = 0;
     for (Index b = 0; b < jacobian_count_; ++b) {
       const Block& block = jacobian_[b];
@@ -78,9 +80,12 @@ class Batch {
     }
     for (Index b = 0; b < noise_count_; ++b) {
       const Block& block = noise_[b];
-      for (Index c = 0; c < block.rows; ++c)
-        for (Index r = c; r < block.rows; ++r)
-          S[(block.row + c) * lds + block.row + r] += block.value[c * block.rows + r];
+      for (Index c = 0; c < block.rows; ++c) {
+        double* column = S + (block.row + c) * lds + block.row;
+        const double least = least_noise(block.row + c, column[c], prior, count);
+        column[c] += std::max(block.value[c * (block.rows + 1)], least);
+        for (Index r = c + 1; r < block.rows; ++r) column[r] += block.value[c * block.rows + r];
+      }
     }
   }
 
@@ -103,7 +108,18 @@ class Batch {
     return 0.0;
   }
 
+  // y += R x.
+  void add_noise_product(const double* x, double* y) const {
+    for (Index b = 0; b < noise_count_; ++b) {
+      const Block& block = noise_[b];
+      for (Index c = 0; c < block.rows; ++c)
+        for (Index r = 0; r < block.rows; ++r) y[block.row + r] += block.value[c * block.rows + r] * x[block.row + c];
+    }
+  }
+
  private:
+  static constexpr double kLeastNoise = 1e-12, kLeastRest = 1e-14;
+
   struct Block {
     Index row, rows, column, columns;
     double* value;
@@ -119,6 +135,19 @@ class Batch {
       all[kept++].row += (k - number) * rows;
     }
     all_count = kept;
+  }
+
+  double least_noise(Index row, double variance, const double* prior, Index count) const {
+    double rest = 0.0;
+    for (Index b = 0; b < jacobian_count_ && count > 0; ++b) {
+      const Block& block = jacobian_[b];
+      if (row < block.row || row >= block.row + block.rows) continue;
+      for (Index c = 0; c < block.columns && block.column + c < count; ++c) {
+        const double J = block.value[c * block.rows + row - block.row];
+        rest += J * J * prior[block.column + c];
+      }
+    }
+    return std::max(kLeastNoise * variance, kLeastRest * rest);
   }
 
   static double* add(Block* blocks, Index& count, double* pool, Index& used, Index row, Index rows, Index column,

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -14,7 +15,7 @@ template <class Pose>
 EkfUpdate<Pose>::EkfUpdate(State<Pose>& state, const typename State<Pose>::Window& window)
     : state_(state),
       workspace_(state.workspace_),
-      window_(window.mount_noise != nullptr ? kMount : 0, window.count),
+      window_(state.systematic(), window.mount_noise != nullptr ? kMount : 0, window.count),
       pose_(state.pose_) {
   for (Index a = 0; a < window.count; ++a) {
     workspace_.slots[a] = window.slots[a];
@@ -45,8 +46,9 @@ void EkfUpdate<Pose>::gather_columns() {
   const LowerTriangle& P = state_.P_;
   PendingMotion<Pose>& motion = state_.motion_;
   double* const columns = workspace_.columns;
-  motion.prepare(state_.layout_, state_.points_);
-  motion.pose_columns(P, n, columns);
+  const Index moving = window_.moving();
+  motion.prepare(state_.layout_, state_.points_, P);
+  motion.moving_columns(P, n, columns);
   // The mount's errors are states for as long as the frame lasts, independent of all others before it.
   for (Index i = 0; i < mount; ++i)
     for (Index c = 0; c < window_.columns(); ++c) columns[c * ld + n + i] = 0.0;
@@ -57,7 +59,7 @@ void EkfUpdate<Pose>::gather_columns() {
   // The entries of P to the left of a landmark's diagonal block lie along rows: each column costs a cache line. The
   // loop visits all landmarks for a few columns at a time, so that it stays within few pages, and prefetches the lines
   // of the next landmarks.
-  for (Index c = kDof; c < n; c += kAhead) {
+  for (Index c = moving; c < n; c += kAhead) {
     const double* from_columns = P.column(c);
     for (Index a = 0; a < window_.points(); ++a) {
       const Index from = state_.layout_.point(workspace_.slots[a]).offset;
@@ -76,14 +78,13 @@ void EkfUpdate<Pose>::gather_columns() {
   for (Index a = 0; a < window_.points(); ++a) {
     const Index from = state_.layout_.point(workspace_.slots[a]).offset;
     double* to = columns + window_.point(a) * ld;
-    for (Index c = 0; c < kDof; ++c)
+    for (Index c = 0; c < moving; ++c)
       for (Index d = 0; d < kDim; ++d) to[d * ld + c] = columns[c * ld + from + d];
     for (Index d = 0; d < kDim; ++d)
       for (Index r = 0; r < kDim; ++r) to[d * ld + from + r] = P.symmetric(from + r, from + d);
     for (Index d = 0; d < kDim; ++d)
       std::copy_n(P.column(from + d) + from + kDim, n - from - kDim, to + d * ld + from + kDim);
-    for (Index d = 0; d < kDim; ++d)  // + U N U_a^T
-      motion.add_noise(motion.left(), motion.right() + from + d, ld, n, to + d * ld);
+    for (Index d = 0; d < kDim; ++d) motion.add_change(from + d, n, to + d * ld);  // + U N U_a^T
   }
 }
 
@@ -102,7 +103,7 @@ void EkfUpdate<Pose>::compute_innovation() {
     for (; j < m; ++j)
       for (Index k = 0; k < count; ++k) HP[(column + k) * m + j] = W[j * ld + row + k];
   };
-  take_rows(0, kDof, 0);
+  take_rows(0, window_.moving(), 0);
   take_rows(n, window_.mount_size(), window_.mount());
   for (Index a = 0; a < window_.points(); ++a)
     take_rows(state_.layout_.point(workspace_.slots[a]).offset, kDim, window_.point(a));
@@ -114,7 +115,10 @@ template <class Pose>
 void EkfUpdate<Pose>::form_innovation() {
   require(stage_ == Stage::linearised || stage_ == Stage::factored, "form_innovation");
   const Index m = batch().rows();
-  batch().innovation_covariance(workspace_.HP, m, workspace_.S, m);
+  double prior[kDim];
+  double largest = 0.0;
+  for (Index d = 0; d < kDim; ++d) largest = std::max(largest, prior[d] = workspace_.columns[d * state_.ld_ + d]);
+  batch().innovation_covariance(workspace_.HP, m, workspace_.S, m, prior, largest > kHardlyKnown ? kDim : 0);
   std::copy_n(batch().residual(), m, workspace_.innovation);
   stage_ = Stage::linearised;
 }
@@ -125,8 +129,7 @@ double EkfUpdate<Pose>::distance(Index block, Index rows) const {
   const Index m = batch().rows();
   const double distance =
       squared_distance(batch().residual() + block * rows, workspace_.S + block * rows * (m + 1), m, rows);
-  if (distance < 0.0) throw_not_definite();
-  return distance;
+  return distance >= 0.0 ? distance : std::numeric_limits<double>::infinity();
 }
 
 template <class Pose>
@@ -217,6 +220,21 @@ void EkfUpdate<Pose>::step() {
 }
 
 template <class Pose>
+Pose EkfUpdate<Pose>::solved_pose() const {
+  Pose pose = state_.pose_;
+  if (stage_ == Stage::solved) state_.model_.retract(Eigen::Map<const Tangent>(workspace_.error_window), pose);
+  return Pose(pose.rotation(), pose.translation() + state_.origin_);
+}
+
+template <class Pose>
+MountError<Pose> EkfUpdate<Pose>::solved_mount() const {
+  MountError<Pose> mount = mount_;
+  for (Index i = 0; i < window_.mount_size() && stage_ == Stage::solved; ++i)
+    mount(i) = workspace_.error_window[window_.mount() + i];
+  return mount;
+}
+
+template <class Pose>
 double EkfUpdate<Pose>::misfit(const double* residual) const {
   require(stage_ == Stage::solved, "misfit");
   double sum = 0.0;
@@ -231,7 +249,6 @@ template <class Pose>
 bool EkfUpdate<Pose>::try_commit() {
   require(stage_ == Stage::solved, "commit");
   stage_ = Stage::open;  // W is overwritten, even if the commit is refused
-  constexpr double kLeast = 1e-14;
   const Index n = state_.states(), m = batch().rows(), ld = state_.ld_;
   // P H^T of the last linearisation becomes W = P H^T L^-T. The error xi = W L^-1 r and the decrease of the diagonal by
   // P_new = P - W W^T (Mars paper, eq. 13) are computed before anything is changed.
@@ -240,18 +257,31 @@ bool EkfUpdate<Pose>::try_commit() {
 
   const PendingMotion<Pose>& motion = state_.motion_;
   double* const diagonal = workspace_.diagonal;
-  for (Index i = 0; i < n; ++i) diagonal[i] = i < kDof ? workspace_.columns[i * ld + i] : state_.P_(i, i);
-  for (Index t = 0; t < motion.rank(); ++t)
-    for (Index i = kDof; i < n; ++i) diagonal[i] += motion.left()[t * ld + i] * motion.right()[t * ld + i];
+  const Index moving = window_.moving();
+  for (Index i = 0; i < n; ++i) diagonal[i] = i < moving ? workspace_.columns[i * ld + i] : state_.P_(i, i);
+  for (Index twice = 0; twice < (motion.turns() ? 2 : 1); ++twice)
+    for (Index t = 0; t < motion.rank(); ++t)
+      for (Index i = moving; i < n; ++i) diagonal[i] += motion.left()[t * ld + i] * motion.right()[t * ld + i];
   for (Index i = 0; i < n; ++i) {
-    if (!std::isfinite(workspace_.error_state[i])) return false;
+    if (!(std::abs(workspace_.error_state[i]) <= kFarthest)) return false;  // also refuses NaN
     // A variance after the update must exceed the rounding error of the variance before it. A zero variance stays zero.
-    if (!(diagonal[i] - workspace_.shrunk[i] >= kLeast * diagonal[i] && diagonal[i] >= 0.0)) return false;
+    if (!(diagonal[i] - workspace_.shrunk[i] >= kLeast * diagonal[i] && diagonal[i] >= 0.0) && !pose_alone())
+      return false;
+  }
+  if (pose_alone()) {
+    bool cancels = false;
+    for (Index i = 0; i < n; ++i)
+      cancels = cancels || !(diagonal[i] - workspace_.shrunk[i] >= 1e-8 * diagonal[i]) ||
+                (i < kDim && diagonal[i] > kHardlyKnown);
+    if (cancels) return commit_pose_alone();
   }
 
   if (window_.mount_size() != 0) correlate_mount();
   state_.write_covariance(m, workspace_.columns);
   state_.move(workspace_.error_state);
+  double turn = 0.0;
+  for (Index t = kDim; t < kDof; ++t) turn += diagonal[t];
+  state_.raise_variances(diagonal, turn);
   stage_ = Stage::committed;
   return true;
 }
@@ -274,11 +304,11 @@ void EkfUpdate<Pose>::correlate_mount() {
 
 template <class Pose>
 bool EkfUpdate<Pose>::place(const Point& position, const PointByPose& J_pose, const PointByMount* J_mount,
-                            const PointSquare& noise, bool relative) {
+                            const PointSquare& noise, bool relative, const ErrorColumns<kDim>* errors) {
   require(stage_ == Stage::committed || batch().rows() == 0, "place");
   stage_ = Stage::committed;  // the window's columns are those of the state before
   const typename State<Pose>::SharedMount mount{mount_covariance_, workspace_.mount_cross};
-  return state_.augment(position, J_pose, noise, relative, J_mount, &mount);
+  return state_.augment(position, J_pose, noise, relative, J_mount, &mount, errors);
 }
 
 template class EkfUpdate<SE2>;

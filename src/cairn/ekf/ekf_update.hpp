@@ -41,6 +41,9 @@ class EkfUpdate {
   Pose pose() const { return Pose(pose_.rotation(), pose_.translation() + state_.origin_); }
   Point landmark(Index number) const { return local(number) + state_.origin_; }  // by its number in the window
   MountError<Pose> mount() const { return mount_; }
+  double systematic(Index number) const {
+    return state_.systematic(number) + (iterating_ ? workspace_.error_window[kDof + number] : 0.0);
+  }
 
   // --- linearise --- `fill(nullptr)` fills the batch at the iterate; `fill(residual)` writes only its residual there.
   // Both return false if a row has no residual. Forms H P and S.
@@ -68,9 +71,12 @@ class EkfUpdate {
   void add_landmark_block(Index row, Index rows, const JLandmark& J_landmark, Index number, const PoseBlock& pose);
   template <class JMount>
   void add_mount_block(Index row, Index rows, const JMount& J_mount);
+  // By `count` systematic errors, from number `first` on.
+  template <class JErrors>
+  void add_systematic_block(Index row, Index rows, const JErrors& J_errors, Index first, Index count);
 
   // --- gates ---
-  // Squared Mahalanobis distance of one block of `rows` rows by itself. Throws if its S is not positive definite.
+  // Squared Mahalanobis distance of one block of `rows` rows by itself; infinity if its S is not positive definite.
   double distance(Index block, Index rows) const;
   // Keeps only these blocks of `rows` rows, in rising order, and their S; the window stays.
   void keep(const Index* blocks, Index count, Index rows);
@@ -112,6 +118,9 @@ class EkfUpdate {
   void solve();                                 // the iterate's error against the estimate
   void step();                                  // iterate <- estimate retracted by that error
   double misfit(const double* residual) const;  // misfit of the linear model at the iterate, sigmas
+  // The pose and the mount's error that the commit will give, up to rounding.
+  Pose solved_pose() const;
+  MountError<Pose> solved_mount() const;
 
   // --- commit --- P and every variable. Throws, with nothing changed, if a variance of P would not stay positive or
   // a value not finite. This check costs O(n m) and finds most updates after which P is not definite;
@@ -121,12 +130,16 @@ class EkfUpdate {
   }
 
   // --- place --- after the commit, or if the batch is empty: appends a new landmark that depends on the pose, on
-  // the window's mount (J_mount may be null) and on independent noise. Returns false, with nothing changed, if a result
-  // is not finite. The caller checks the capacity.
+  // the window's mount (J_mount may be null), on systematic errors (`errors` may be null) and on independent noise.
+  // Returns false, with nothing changed, if a result is not finite. The caller checks the capacity.
   bool place(const Point& position, const PointByPose& J_pose, const PointByMount* J_mount, const PointSquare& noise,
-             bool relative);
+             bool relative, const ErrorColumns<kDim>* errors = nullptr);
 
  private:
+  static constexpr double kLeast = 1e-14;      // a variance after an update, relative to the variance before it
+  static constexpr double kFarthest = 1e12;    // m by which an update may move a point
+  static constexpr double kHardlyKnown = 1e8;  // m^2, variance of a position
+
   enum class Stage { open, linearised, factored, solved, committed };
   void require(bool legal, const char* call) const;
   Point local(Index number) const { return Eigen::Map<const Point>(workspace_.iterate_points + kDim * number); }
@@ -135,6 +148,8 @@ class EkfUpdate {
   void compute_innovation();
   bool try_factor();
   bool try_commit();
+  bool pose_alone() const { return state_.size() == 0 && window_.mount_size() == 0; }
+  bool commit_pose_alone();
   void correlate_mount();
 
   State<Pose>& state_;
@@ -183,6 +198,14 @@ void EkfUpdate<Pose>::add_mount_block(Index row, Index rows, const JMount& J_mou
   double* block = batch().add_jacobian(row, rows, window_.mount(), kMount);
   for (Index c = 0; c < kMount; ++c)
     for (Index r = 0; r < rows; ++r) block[c * rows + r] = J_mount(r, c);
+}
+
+template <class Pose>
+template <class JErrors>
+void EkfUpdate<Pose>::add_systematic_block(Index row, Index rows, const JErrors& J_errors, Index first, Index count) {
+  double* block = batch().add_jacobian(row, rows, kDof + first, count);
+  for (Index c = 0; c < count; ++c)
+    for (Index r = 0; r < rows; ++r) block[c * rows + r] = J_errors(r, c);
 }
 
 extern template class EkfUpdate<SE2>;

@@ -20,7 +20,7 @@ template <class Pose>
 UpdateWorkspace<Pose>::UpdateWorkspace(Arena& arena, const StateCapacity<Pose>& capacity, Index ld)
     : slots(arena.take<Index>(capacity.observations)),
       iterate_points(arena.take<double>(Pose::kDim * capacity.observations)),
-      batch(arena, capacity.rows(), capacity.window(), 3 * capacity.observations + 1),
+      batch(arena, capacity.rows(), capacity.window(), capacity.blocks()),
       residual(arena.take<double>(capacity.rows())),
       HP(arena.take<double>(capacity.window() * capacity.rows())),
       S(arena.take<double>(capacity.rows() * capacity.rows())),
@@ -38,7 +38,8 @@ UpdateWorkspace<Pose>::UpdateWorkspace(Arena& arena, const StateCapacity<Pose>& 
       scratch(arena.take<double>(
           std::max({solve_workspace(capacity.rows()),
                     static_cast<std::size_t>(capacity.rows() * capacity.rows()) + cholesky_workspace(capacity.rows()),
-                    update_triangle_workspace(capacity.states(), capacity.rows() + Pose::kTurn)}))),
+                    update_triangle_workspace(capacity.states(),
+                                              capacity.rows() + (capacity.systematic > 0 ? 2 : 1) * Pose::kTurn)}))),
       kept(arena.take<Index>(capacity.rows())),
       refused(arena.take<bool>(capacity.rows())) {}
 
@@ -48,26 +49,37 @@ State<Pose>::State(Arena& arena, ErrorKind error, const Capacity& capacity)
       ld_(leading_dimension(capacity.states() + kMount)),
       points_(arena.take<double>(kDim * capacity.landmarks)),
       attitudes_(arena.take<Rotation>(capacity.companions)),
+      systematic_(arena.take<double>(capacity.systematic)),
+      walk_(arena.take<double>(capacity.systematic)),
       P_(arena.take<double>(ld_ * capacity.states()), ld_),
-      motion_(arena, model_, ld_),
+      motion_(arena, model_, ld_, capacity.systematic),
       workspace_(arena, capacity, ld_) {}
 
 template <class Pose>
-void State<Pose>::start(const Pose& pose, const Square& ordinary_covariance) {
+void State<Pose>::start(const Pose& pose, const Square& ordinary_covariance, const SystematicStart& systematic) {
   origin_ = pose.translation();
   pose_ = Pose(pose.rotation(), Point::Zero());
-  layout_.clear();
+  const Index count = systematic.count;
+  layout_.clear(count);
   const Square& covariance = ordinary_covariance;  // xi_p = e_p - G(p) e_R, and p is zero
   for (Index c = 0; c < kDof; ++c)
     for (Index r = c; r < kDof; ++r) P_(r, c) = covariance(r, c);
+  for (Index c = 0; c < kDof; ++c) std::fill_n(P_.column(c) + kDof, count, 0.0);
+  for (Index i = 0; i < count; ++i) {
+    systematic_[i] = systematic.values[i];
+    walk_[i] = systematic.walk[i];
+    for (Index r = i; r < count; ++r) P_(kDof + r, kDof + i) = systematic.covariance[i * count + r];
+  }
+  motion_.set_systematic(count, systematic.motion, walk_);
   motion_.clear();
 }
 
 template <class Pose>
-bool State<Pose>::propagate(const Increment<Pose>& increment) {
+bool State<Pose>::propagate(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling) {
   const Pose next = pose_ * increment.T_before_after;
-  if (!motion_.add(pose_, next, increment)) return false;
+  if (!motion_.add(pose_, next, increment, coupling)) return false;
   pose_ = next;
+  if (far_from_origin()) move_origin();
   return true;
 }
 
@@ -77,19 +89,22 @@ bool State<Pose>::widen(const Square& ordinary_covariance) {
 }
 
 template <class Pose>
-void State<Pose>::write_covariance(Index rank, const double* pose_columns) {
+void State<Pose>::write_covariance(Index rank, const double* columns) {
   const Index n = states();
-  for (Index c = 0; c < kDof; ++c) std::copy(pose_columns + c * ld_ + c, pose_columns + c * ld_ + n, P_.column(c) + c);
-  const TriangleTerm terms[] = {{workspace_.W, ld_, workspace_.W, ld_, rank, -1.0}, motion_.term()};
-  if (rank + motion_.rank() > 0) update_triangle(P_.column(0), ld_, n, terms, 2, workspace_.scratch);
+  for (Index c = 0; c < layout_.moving(); ++c)
+    std::copy(columns + c * ld_ + c, columns + c * ld_ + n, P_.column(c) + c);
+  const TriangleTerm terms[] = {
+      {workspace_.W, ld_, workspace_.W, ld_, rank, -1.0}, motion_.term(), motion_.second_term()};
+  if (rank + motion_.rank() > 0)
+    update_triangle(P_.column(0), ld_, n, terms, motion_.turns() ? 3 : 2, workspace_.scratch);
   motion_.clear();
 }
 
 template <class Pose>
 void State<Pose>::apply_pending() {
   if (!motion_.any()) return;
-  motion_.prepare(layout_, points_);
-  motion_.pose_columns(P_, states(), workspace_.columns);
+  motion_.prepare(layout_, points_, P_);
+  motion_.moving_columns(P_, states(), workspace_.columns);
   write_covariance(0, workspace_.columns);
 }
 
@@ -104,6 +119,9 @@ void State<Pose>::move(const double* error) {
       case Retraction::pose:
         model_.retract(pose_error, pose_);
         break;
+      case Retraction::number:
+        for (Index i = 0; i < block.size; ++i) systematic_[i] += e[i];
+        break;
       case Retraction::attitude: {
         const typename Rotation::Tangent turn = Eigen::Map<const typename Rotation::Tangent>(e);
         attitudes_[block.number] = Rotation::exp(turn) * attitudes_[block.number];
@@ -116,9 +134,26 @@ void State<Pose>::move(const double* error) {
   }
 }
 
+// The part of a new landmark's covariance that systematic errors have.
+template <class Pose>
+typename State<Pose>::PointSquare State<Pose>::covariance_by(const ErrorColumns<kDim>& errors,
+                                                             const PointByPose& J) const {
+  PointSquare sum = PointSquare::Zero();
+  for (Index i = 0; i < errors.count; ++i) {
+    const Index at = kDof + errors.first + i;
+    Point with_pose = Point::Zero();  // covariance of J e_pose with the error
+    for (Index k = 0; k < kDof; ++k) with_pose += J.col(k) * P_(at, k);
+    const PointSquare mixed = with_pose * errors.J.col(i).transpose();
+    sum += mixed + mixed.transpose();
+    for (Index j = 0; j < errors.count; ++j)
+      sum += P_.symmetric(at, kDof + errors.first + j) * errors.J.col(i) * errors.J.col(j).transpose();
+  }
+  return sum;
+}
+
 template <class Pose>
 bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, const PointSquare& noise, bool relative,
-                          const PointByMount* J_mount, const SharedMount* mount) {
+                          const PointByMount* J_mount, const SharedMount* mount, const ErrorColumns<kDim>* errors) {
   const Point landmark = position - origin_;
   // Jacobians by the state's own errors: xi_l = e_l - G(l) xi_R, and e_p = xi_p + G(p) xi_R.
   PointByPose J = J_pose;
@@ -133,6 +168,7 @@ bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, cons
   const bool shares = J_mount != nullptr;
   const PointByMount M = shares ? *J_mount : PointByMount(PointByMount::Zero());
   const MountSquare<Pose> mount_covariance = shares ? mount->covariance : MountSquare<Pose>(MountSquare<Pose>::Zero());
+  if (errors != nullptr) apply_pending();  // so that the covariances below are those of P
   const Square pose = pose_block();
   PointByMount cross;  // covariance of the new landmark with the mount
   Eigen::Matrix<double, kDof, kMount> pose_mount = Eigen::Matrix<double, kDof, kMount>::Zero();
@@ -141,9 +177,27 @@ bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, cons
       for (Index r = 0; r < kDof; ++r) pose_mount(r, c) = mount->cross[c * ld_ + r];
   cross = J * pose_mount + M * mount_covariance;
   const PointSquare mixed = J * pose_mount * M.transpose();
-  const PointSquare block =
+  PointSquare block =
       J * pose * J.transpose() + mixed + mixed.transpose() + M * mount_covariance * M.transpose() + noise;
+  if (errors != nullptr) {
+    const PointSquare by_errors = covariance_by(*errors, J);
+    block += by_errors;
+    for (Index i = 0; shares && i < errors->count; ++i) {
+      PointSquare with_mount = PointSquare::Zero();
+      for (Index c = 0; c < kMount; ++c) {
+        const double covariance = mount->cross[c * ld_ + kDof + errors->first + i];
+        cross.col(c) += errors->J.col(i) * covariance;
+        with_mount += errors->J.col(i) * covariance * M.col(c).transpose();
+      }
+      block += with_mount + with_mount.transpose();
+    }
+  }
   if (!landmark.allFinite() || !J.allFinite() || !block.allFinite()) return false;
+  // Beside a pose that is hardly known, the landmark's own noise would be lost to rounding: it is raised.
+  for (Index d = 0; d < kDim; ++d) {
+    const double rest = 1e-14 * block(d, d);
+    if (rest > 1e-6 * noise(d, d)) block(d, d) += rest;
+  }
   apply_pending();
 
   const Index n = states();
@@ -153,6 +207,8 @@ bool State<Pose>::augment(const Point& position, const PointByPose& J_pose, cons
       for (Index k = 0; k < kDof; ++k) value += J(r, k) * P_.symmetric(c, k);
       if (shares)
         for (Index k = 0; k < kMount; ++k) value += M(r, k) * mount->cross[k * ld_ + c];
+      for (Index i = 0; errors != nullptr && i < errors->count; ++i)
+        value += errors->J(r, i) * P_.symmetric(c, kDof + errors->first + i);
       P_(n + r, c) = value;
     }
   for (Index c = 0; c < kDim; ++c)
@@ -208,8 +264,13 @@ void State<Pose>::remove(Index slot) {
 template <class Pose>
 typename State<Pose>::Backup State<Pose>::backup() const {
   const Index n = states();
-  Backup backup{
-      pose_, {points_, points_ + kDim * size()}, {}, {attitudes_, attitudes_ + companions()}, motion_.snapshot()};
+  Backup backup{pose_,
+                origin_,
+                {points_, points_ + kDim * size()},
+                {},
+                {systematic_, systematic_ + systematic()},
+                {attitudes_, attitudes_ + companions()},
+                motion_.snapshot()};
   backup.triangle.reserve(n * (n + 1) / 2);
   for (Index c = 0; c < n; ++c) backup.triangle.insert(backup.triangle.end(), P_.column(c) + c, P_.column(c) + n);
   return backup;
@@ -218,9 +279,11 @@ typename State<Pose>::Backup State<Pose>::backup() const {
 template <class Pose>
 void State<Pose>::restore(const Backup& backup) {
   pose_ = backup.pose;
+  origin_ = backup.origin;
   const Index points = static_cast<Index>(backup.points.size()) / kDim;
   layout_.add_points(points - size());
   std::copy(backup.points.begin(), backup.points.end(), points_);
+  std::copy(backup.systematic.begin(), backup.systematic.end(), systematic_);
   std::copy(backup.attitudes.begin(), backup.attitudes.end(), attitudes_);
   const double* from = backup.triangle.data();
   const Index n = states();

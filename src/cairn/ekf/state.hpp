@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state of a filter: one pose, many points (landmarks and companions), and their covariance, of which this class is
-// the only owner. ErrorModel defines which error the covariance describes. StateLayout defines the offset of each
-// variable.
+// The state of a filter: one pose, systematic errors, many points (landmarks and companions), and their covariance, of
+// which this class is the only owner. ErrorModel defines which error the covariance describes. StateLayout defines the
+// offset of each variable.
 //
 // Only the lower triangle of P is kept. Motion between two updates costs O(1): PendingMotion holds it back until the
 // next update. begin() makes an update (ekf_update.hpp).
@@ -42,8 +42,15 @@ class State {
 
   State(Arena& arena, ErrorKind error, const Capacity& capacity);
 
+  // The systematic errors at a start: numbers that are independent of the pose. Motion depends on the first ones.
+  struct SystematicStart {
+    Index count = 0, motion = 0;
+    const double* values = nullptr;
+    const double* walk = nullptr;        // variance by which each walks in one second
+    const double* covariance = nullptr;  // count x count, symmetric
+  };
   // Forgets everything. `covariance` is the covariance of the ordinary error [dp; dtheta].
-  void start(const Pose& pose, const Square& ordinary_covariance);
+  void start(const Pose& pose, const Square& ordinary_covariance, const SystematicStart& systematic = {});
 
   // --- estimates ---
   const ErrorModel<Pose>& model() const { return model_; }
@@ -51,9 +58,12 @@ class State {
   Index size() const { return layout_.points(); }  // slots: companions, then landmarks
   Index states() const { return layout_.states(); }
   Point landmark(Index slot) const { return local(slot) + origin_; }
+  Index systematic() const { return layout_.systematic(); }
+  double systematic(Index number) const { return systematic_[number]; }
 
-  // --- propagate --- O(1). Returns false, with nothing changed, if a result is not finite.
-  bool propagate(const Increment<Pose>& increment);
+  // --- propagate --- O(1), and O(n^2) where the origin moves. Returns false, with nothing changed, if a result is not
+  // finite.
+  bool propagate(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
   // Adds an independent error of the pose, with this covariance of the ordinary error, to the motion that is held back.
   bool widen(const Square& ordinary_covariance);
   typename PendingMotion<Pose>::Snapshot pending() const { return motion_.snapshot(); }
@@ -71,7 +81,12 @@ class State {
   // --- marginals ---
   // Joint covariance of the pose and `count` points, both triangles, in the state's own error coordinates.
   void gather(const Index* slots, Index count, double* out, Index ld) const;
-  // The same in ordinary errors.
+  // The same with the systematic errors behind the pose: [pose; systematic errors; points]. `ordinary`: of the ordinary
+  // errors of pose and points. Allocates.
+  void gather_systematic(const Index* slots, Index count, double* out, Index ld, bool ordinary = false) const;
+  // Covariance of the systematic errors, both triangles.
+  void systematic_covariance(double* out) const;
+  // The same as gather() in ordinary errors.
   void gather_ordinary(const Index* slots, Index count, double* out, Index ld) const;
   // Covariance of e_l - e_p - turn(l - p) e_R, the only error that affects a sensor of R^T (l - p). With the invariant
   // error it is the covariance of xi_l - xi_p.
@@ -93,10 +108,11 @@ class State {
     double* cross;  // of every state with it; gets the new point's rows
   };
   // Appends a landmark that depends on the pose (ordinary Jacobian), on a shared mount (J_mount and `mount` may be
-  // null), and on independent noise. Returns false, with nothing changed, if a result is not finite. The caller checks
-  // the capacity.
+  // null), on systematic errors (`errors` may be null), and on independent noise. Returns false, with nothing changed,
+  // if a result is not finite. The caller checks the capacity.
   bool augment(const Point& position, const PointByPose& J_pose, const PointSquare& noise, bool relative,
-               const PointByMount* J_mount = nullptr, const SharedMount* mount = nullptr);
+               const PointByMount* J_mount = nullptr, const SharedMount* mount = nullptr,
+               const ErrorColumns<kDim>* errors = nullptr);
   // Removes a landmark; the last one moves into its slot.
   void remove(Index slot);
   // Two landmarks change slots.
@@ -127,9 +143,12 @@ class State {
     Index fused_count;
     const Point* fresh;  // landmarks not known here, in the submap's frame
     Index fresh_count;
-    // Error (of the error model) of [end pose; fresh landmarks] in the submap: K y + w. w has covariance W, and y is
-    // the ordinary error of the fused landmarks.
+    // Error (of the error model) of [end pose; what walked; fresh landmarks] in the submap: K y + w. w has covariance
+    // W, and y is the ordinary error of [systematic errors; fused landmarks].
     Eigen::MatrixXd K, W;
+    const Index* walking = nullptr;  // systematic errors that walked in the submap
+    Index walking_count = 0;
+    Eigen::VectorXd walked;  // how far
   };
   // The end pose becomes the state's pose, and the fresh landmarks are appended. The caller checks the capacity.
   // Allocates.
@@ -138,7 +157,8 @@ class State {
   // A copy of everything that an update and a composition change. Allocates.
   struct Backup {
     Pose pose;
-    std::vector<double> points, triangle;
+    Point origin;
+    std::vector<double> points, triangle, systematic;
     std::vector<Rotation> attitudes;
     typename PendingMotion<Pose>::Snapshot motion;
   };
@@ -152,19 +172,38 @@ class State {
   Eigen::Map<Point> place_of(Index slot) { return Eigen::Map<Point>(points_ + kDim * slot); }
   Square pose_block() const { return motion_.pose_block(P_); }  // with the motion held back
   void apply_pending();
-  // P <- P_now - W W^T over `rank` columns of W, the pending motion's noise added in the same pass.
-  void write_covariance(Index rank, const double* pose_columns);
+  using PointByMotion = Eigen::Matrix<double, kDim, kMotionStates>;
+  struct PendingTurn {
+    Eigen::Matrix<double, kTurn, kDof> with_pose;
+    Eigen::Matrix<double, kTurn, kTurn> own;
+  };
+  PointByMotion with_motion_states(Index row) const;  // covariance of a point with the motion's systematic errors
+  PendingTurn pending_turn() const;
+  PointSquare covariance_by(const ErrorColumns<kDim>& errors, const PointByPose& J) const;
+  PointSquare relative_change(Index row, const PointByPose& J) const;
+  void restore_lost_digits(const double* scale);
+  // P <- P_now - W W^T over `rank` columns of W, the pending motion's noise added in the same pass. `columns` are those
+  // of the pose and the systematic errors.
+  void write_covariance(Index rank, const double* columns);
   void move(const double* error);  // every variable by its retraction
+  bool far_from_origin() const;
+  void move_origin();  // to the vehicle
+  // Raises ordinary variances that a double cannot hold. `before`: the variances of P, state by state, before it
+  // changed; `turn`: the sum of those of the attitude.
+  void raise_variances(const double* before, double turn);
 
   ErrorModel<Pose> model_;
   StateLayout<Pose> layout_;
   Index ld_;  // of P and of every array with one row for each state
-  // All positions below are relative to the start position. The arms G(x) of the invariant error reach from the origin
-  // to x. With an origin far away, the arms would be long and the covariance would lose its digits to rounding.
+  // All positions below are relative to the origin: the start position, until the vehicle is far from it. The arms G(x)
+  // of the invariant error reach from the origin to x. With an origin far away, the arms would be long and the
+  // covariance would lose its digits to rounding.
   Point origin_ = Point::Zero();
   Pose pose_;
   double* points_;
   Rotation* attitudes_;  // of the companions
+  double* systematic_;
+  double* walk_;  // of the systematic errors, variance in one second
   LowerTriangle P_;
   PendingMotion<Pose> motion_;
   UpdateWorkspace<Pose> workspace_;

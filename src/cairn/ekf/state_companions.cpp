@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Companions: the poses of other vehicles in the state.
+#include <algorithm>
+
 #include "ekf/ekf_update.hpp"
 #include "ekf/state.hpp"
 #include "linear/triangle.hpp"
@@ -95,6 +97,37 @@ void State<Pose>::remove_companion(Index k) {
   P_.move_tail(before, n - before, -kTurn);
 }
 
+// After a difference of variances. A vehicle that is known exactly stays so: its attitude has no variance, and what is
+// left of its position's is rounding error. For any other variance the rounding error is added, so that it stays
+// positive.
+template <class Pose>
+void State<Pose>::restore_lost_digits(const double* scale) {
+  constexpr double kLost = 1e-13;
+  const Index n = states();
+  const auto lost = [&](Index i) { return P_(i, i) <= kLost * scale[i]; };
+  const auto exact = [&](Index attitude, Index position) {
+    for (Index t = 0; t < kTurn; ++t)
+      if (P_(attitude + t, attitude + t) != 0.0) return false;
+    for (Index d = 0; d < kDim; ++d)
+      if (!lost(position + d)) return false;
+    return true;
+  };
+  const auto restore = [&](Index position, bool known) {
+    for (Index d = 0; d < kDim; ++d) {
+      const Index i = position + d;
+      if (known)
+        for (Index k = 0; k < n; ++k) P_.entry(k, i) = 0.0;
+      else if (lost(i))
+        P_(i, i) = std::max(P_(i, i), 0.0) + kLost * scale[i];
+    }
+  };
+  restore(0, exact(kDim, 0));
+  for (Index slot = 0; slot < size(); ++slot) {
+    const Index at = layout_.point(slot).offset;
+    restore(at, slot < companions() && exact(layout_.attitude(slot).offset, at));
+  }
+}
+
 // With x_a the error of the active vehicle's attitude and x_b that of the companion's: xi_x = e_x - G(x) x_a becomes
 // e_x - G(x) x_b = xi_x + G(x) (x_a - x_b), for every point x. Then the two vehicles' states change places.
 template <class Pose>
@@ -121,15 +154,18 @@ void State<Pose>::activate(Index k) {
     };
     add_point(0, pose_.translation());
     for (Index slot = 0; slot < size(); ++slot) add_point(layout_.point(slot).offset, local(slot));
+    // The variances from whose difference the new ones follow: what is left below their rounding error is not known.
+    double* const scale = workspace_.diagonal;
+    double turns = 0.0;  // of both attitudes
+    for (Index t = 0; t < kTurn; ++t) turns += P_(kDim + t, kDim + t) + P_(heading + t, heading + t);
+    for (Index i = 0; i < n; ++i) {
+      double arm = 0.0;
+      for (Index t = 0; t < kTurn; ++t) arm += left[t * ld_ + i] * left[t * ld_ + i];
+      scale[i] = P_(i, i) + arm * turns;
+    }
     const TriangleTerm terms[] = {{left, ld_, right, ld_, kTurn, 1.0}, {right, ld_, left, ld_, kTurn, 1.0}};
-    Point before, rest;
-    for (Index d = 0; d < kDim; ++d) before[d] = P_(position + d, position + d);
     update_triangle(P_.column(0), ld_, n, terms, 2, workspace_.scratch);
-    // If a vehicle's pose was given exactly, the difference is only rounding error.
-    for (Index d = 0; d < kDim; ++d) rest[d] = P_(position + d, position + d);
-    if (rest.cwiseAbs().maxCoeff() <= 1e-13 * before.maxCoeff())
-      for (Index d = 0; d < kDim; ++d)
-        for (Index i = 0; i < n; ++i) P_.entry(i, position + d) = 0.0;
+    restore_lost_digits(scale);
   }
   for (Index d = 0; d < kDim; ++d) P_.exchange(d, position + d, n);
   for (Index t = 0; t < kTurn; ++t) P_.exchange(kDim + t, heading + t, n);
@@ -142,11 +178,13 @@ void State<Pose>::activate(Index k) {
 template SE2::Square State<SE2>::companion_covariance(Index) const;
 template bool State<SE2>::add_companion(const SE2&, const Square&, const Square&);
 template void State<SE2>::remove_companion(Index);
+template void State<SE2>::restore_lost_digits(const double*);
 template void State<SE2>::activate(Index);
 
 template SE3::Square State<SE3>::companion_covariance(Index) const;
 template bool State<SE3>::add_companion(const SE3&, const Square&, const Square&);
 template void State<SE3>::remove_companion(Index);
+template void State<SE3>::restore_lost_digits(const double*);
 template void State<SE3>::activate(Index);
 
 }  // namespace cairn

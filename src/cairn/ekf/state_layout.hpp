@@ -2,10 +2,14 @@
 // The layout of a filter's state. A variable is a block: its offset, its size, and its retraction (how an error moves
 // it). This is the only file that computes offsets.
 //
-// The order is [pose; attitudes of companions; points], that is [xi_p; xi_R; theta_1; theta_2; ...; xi_1; xi_2; ...].
-// A point is the position of a companion (the first slots) or a landmark (all later slots). A new kind of variable
-// (a bias, a clone, a calibration) goes between the pose and the points: it adds to lead() and gets a Retraction.
+// The order is [pose; systematic errors; attitudes of companions; points], that is
+// [xi_p; xi_R; s; theta_1; theta_2; ...; xi_1; xi_2; ...]. A systematic error is a number, and a point is the position
+// of a companion (the first slots) or a landmark (all later slots). Pose and systematic errors are the states that
+// motion changes: their columns of P are always written completely. A new kind of variable (a clone) goes between them
+// and the points: it adds to lead() and gets a Retraction.
 #pragma once
+
+#include <Eigen/Core>
 
 #include "linear/small_algebra.hpp"
 
@@ -13,6 +17,7 @@ namespace cairn {
 
 enum class Retraction {
   pose,      // ErrorModel::retract
+  number,    // s <- s + e, with either error model
   attitude,  // R <- Exp(theta) R, theta the ordinary error, with either error model
   point      // ErrorModel::PointRetraction
 };
@@ -20,7 +25,7 @@ enum class Retraction {
 struct Block {
   Index offset, size;
   Retraction retraction;
-  Index number;  // of the companion or the slot; 0 for the pose
+  Index number;  // of the companion or the slot; 0 for the others
 };
 
 template <class Pose>
@@ -30,46 +35,65 @@ class StateLayout {
 
   Index companions() const { return companions_; }
   Index points() const { return points_; }
-  Index blocks() const { return 1 + companions_ + points_; }
+  Index systematic() const { return systematic_; }
+  Index blocks() const { return 1 + (systematic_ > 0 ? 1 : 0) + companions_ + points_; }
   Index states() const { return lead() + kDim * points_; }
-  static Index states(Index companions, Index points) { return kDof + kTurn * companions + kDim * points; }
-  Index lead() const { return kDof + kTurn * companions_; }  // states before the first point
+  static Index states(Index companions, Index points, Index systematic = 0) {
+    return kDof + systematic + kTurn * companions + kDim * points;
+  }
+  Index moving() const { return kDof + systematic_; }            // states of the pose and the systematic errors
+  Index lead() const { return moving() + kTurn * companions_; }  // states before the first point
 
   static Block pose() { return {0, kDof, Retraction::pose, 0}; }
-  static Block attitude(Index companion) { return {kDof + kTurn * companion, kTurn, Retraction::attitude, companion}; }
+  Block numbers() const { return {kDof, systematic_, Retraction::number, 0}; }  // the systematic errors
+  Block attitude(Index companion) const {
+    return {moving() + kTurn * companion, kTurn, Retraction::attitude, companion};
+  }
   Block point(Index slot) const { return {lead() + kDim * slot, kDim, Retraction::point, slot}; }
   Block block(Index number) const {
     if (number == 0) return pose();
+    if (systematic_ > 0 && --number == 0) return numbers();
     return number <= companions_ ? attitude(number - 1) : point(number - 1 - companions_);
   }
 
-  void clear() { companions_ = points_ = 0; }
+  void clear(Index systematic = 0) { companions_ = points_ = 0, systematic_ = systematic; }
   void add_points(Index count) { points_ += count; }
   void remove_last_point() { --points_; }
   void add_companion() { ++companions_; }
   void remove_last_companion() { --companions_; }
 
  private:
-  Index companions_ = 0, points_ = 0;
+  Index systematic_ = 0, companions_ = 0, points_ = 0;
 };
 
-// The layout of an update's window: [pose; mount; chosen points].
+// Columns of a Jacobian by systematic errors that follow each other: at most two states for each number of a sensor's
+// calibration.
+template <int kRows>
+struct ErrorColumns {
+  static constexpr Index kMost = 18;
+  Eigen::Matrix<double, kRows, kMost> J = Eigen::Matrix<double, kRows, kMost>::Zero();
+  Index first = 0, count = 0;
+};
+
+// The layout of an update's window: [pose; systematic errors; mount; chosen points].
 template <class Pose>
 class WindowLayout {
  public:
   static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
 
   WindowLayout() = default;
-  WindowLayout(Index mount, Index points) : mount_(mount), points_(points) {}
+  WindowLayout(Index systematic, Index mount, Index points)
+      : moving_(kDof + systematic), mount_(mount), points_(points) {}
 
   Index mount_size() const { return mount_; }
   Index points() const { return points_; }
   Index columns() const { return point(points_); }
-  static Index mount() { return kDof; }
-  Index point(Index number) const { return kDof + mount_ + kDim * number; }
+  Index moving() const { return moving_; }
+  Index mount() const { return moving_; }
+  Index point(Index number) const { return moving_ + mount_ + kDim * number; }
 
  private:
-  Index mount_ = 0, points_ = 0;
+  Index moving_ = kDof, mount_ = 0, points_ = 0;
 };
 
 }  // namespace cairn

@@ -15,9 +15,11 @@ struct StateCapacity {
   Index landmarks;     // companions among them
   Index observations;  // points that one batch may touch
   Index companions = 0;
-  Index rows() const { return std::max<Index>(kDim * observations, kDof); }
-  Index window() const { return kDof + kMount + kDim * observations; }
-  Index states() const { return kDof + kTurn * companions + kDim * landmarks; }
+  Index systematic = 0;
+  Index rows() const { return std::max<Index>({kDim * observations, kDof, systematic}); }
+  Index window() const { return kDof + systematic + kMount + kDim * observations; }
+  Index states() const { return kDof + systematic + kTurn * companions + kDim * landmarks; }
+  Index blocks() const { return (systematic > 0 ? 4 : 3) * observations + 1; }  // of a batch's Jacobian
 };
 
 // m rows of the batch, n states, w columns of the window; `ld` rows lie between columns that have a row a state.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "linear/small_algebra.hpp"
@@ -59,6 +60,9 @@ Index gate_by_inverse(double* inverse, Index count, Index rows, double* u, doubl
 
 enum class Gate { single, joint };
 
+// A block that is so many standard deviations away is refused even if the gates are open: no estimate survives it.
+constexpr double kAbsurdDistance = 1e24;  // squared
+
 // The inverse innovation of a batch, which the joint gate needs if the batch is inconsistent.
 struct InverseInnovation {
   double* inverse;  // full S^-1
@@ -69,7 +73,7 @@ struct InverseInnovation {
 
 // Both gates. `Batch` has
 //   Index count() const                        blocks
-//   double distance(Index block)               of one block by itself; negative or NaN is refused
+//   double distance(Index block)               of one block by itself; negative, NaN or absurd is refused
 //   void keep(const Index* blocks, Index n)    removes all other blocks
 //   bool consistent(bound)                     whether the joint distance is within bound(rows); called once
 //   InverseInnovation invert()                 after consistent() was false
@@ -83,7 +87,7 @@ void gate_blocks(Batch& batch, Index rows, double single, Bound&& bound, Refuse&
   Index left = 0;
   for (Index a = 0; a < batch.count(); ++a) {
     const double distance = batch.distance(a);
-    if (distance >= 0.0 && distance <= single)
+    if (distance >= 0.0 && distance <= std::min(single, kAbsurdDistance))
       kept[left++] = a;
     else
       refuse(Gate::single, a, distance, single);

@@ -43,6 +43,7 @@ struct MapOptions {
   std::size_t max_companions = 0;       // dense: other vehicles whose submaps join the map, too
   Pose initial_pose;
   typename Pose::Square initial_covariance = Pose::Square::Zero();  // ordinary
+  SharedErrorOptions errors;                                        // that the submaps share
 };
 
 // One change of a map, all or nothing: a transaction that is destroyed without commit() leaves the map as it was. After
@@ -85,6 +86,10 @@ class GlobalMap : public Landmarks {
   virtual typename Pose::Square base_covariance() const = 0;  // of [dp; dtheta]
   // Of [base; landmarks], ordinary errors, kDof + kDim count on a side, both triangles.
   virtual void base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const = 0;
+  // The systematic errors that the submaps share, where the next submap begins; and the joint covariance of
+  // [base; errors; landmarks], ordinary errors.
+  virtual Eigen::VectorXd errors() const = 0;
+  virtual Eigen::MatrixXd joint_with_errors(const std::size_t* indices, std::size_t count) const = 0;
 
   virtual std::size_t submap_count() const = 0;
   virtual Pose submap_base(std::size_t submap) const = 0;

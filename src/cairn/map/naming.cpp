@@ -206,6 +206,7 @@ NamingReport name_landmarks(const GlobalMap<Pose>& map, const NamingOptions& opt
   submap.counts.resize(kept);
   submap.landmarks.resize(kept);
   submap.covariance = submap.covariance(states, states).eval();
+  if (submap.errors.count() > 0) submap.errors.cross = submap.errors.cross(states, Eigen::all).eval();
   return report;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A closed submap: the estimates of the vehicle's end pose and of the landmarks, in the frame of the submap's base,
 // which is the pose at which the submap began. The base is the origin and is known exactly, so a submap is independent
-// of all other submaps.
+// of all other submaps, given the systematic errors that they share.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ekf/error_model.hpp"
+#include "map/shared_errors.hpp"
 
 namespace cairn {
 
@@ -20,13 +21,17 @@ struct Submap {
   std::vector<std::uint64_t> counts;
   std::vector<typename Pose::Point> landmarks;
   Eigen::MatrixXd covariance;  // of [end pose; landmarks], in the filter's own error coordinates
+  SubmapErrors errors;         // none if the filter estimates no systematic errors
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(ids.size()); }
 };
 
 // Converts the errors of these landmarks of a submap to ordinary errors, e_l = xi_l + G(l) xi_R: changes their rows and
-// columns of the covariance. All other rows and columns stay in the filter's error coordinates.
+// columns of the covariance. All other rows and columns stay in the filter's error coordinates. The second function
+// converts the rows of a matrix whose columns are no errors of poses or landmarks.
 template <class Pose>
 void to_ordinary(const Submap<Pose>& submap, const std::vector<Eigen::Index>& landmarks, Eigen::MatrixXd& covariance);
+template <class Pose>
+void rows_to_ordinary(const Submap<Pose>& submap, const std::vector<Eigen::Index>& landmarks, Eigen::MatrixXd& rows);
 
 }  // namespace cairn

@@ -39,9 +39,30 @@ AbsoluteFix<Pose> AbsoluteFix<Pose>::heading(double heading, double sigma) {
 
 template <class Pose>
 bool AbsoluteFix<Pose>::defined(const Pose& T_map_body) const {
-  constexpr double kMinimumLevel = 0.0871557427476582;  // sin of 5 degrees
+  constexpr double kMinimumLevel = 1e-3;  // sine of the angle to the vertical
   const Point x = T_map_body.rotation() * Point::UnitX();
   return kind_ != Kind::heading || x.template head<2>().norm() >= kMinimumLevel;
+}
+
+// A tilt by (t_x, t_y) turns the heading of an axis a with the level part c = |(a_x, a_y)| by a_z t_x / c, and by a_z^2
+// t_x t_y / c^2 in second order (docs/sensors.md). The second order is noise for the update, which is linear. Within
+// three standard deviations of the vertical the heading says nothing.
+template <class Pose>
+std::optional<AbsoluteFix<Pose>> AbsoluteFix<Pose>::usable(const Pose& T_map_body,
+                                                           const typename Pose::Square& covariance) const {
+  if (!defined(T_map_body)) return std::nullopt;
+  AbsoluteFix fix = *this;
+  if constexpr (Pose::kDim == 3) {
+    if (kind_ != Kind::heading) return fix;
+    constexpr double kSigmas = 3.0;
+    const Point a = T_map_body.rotation() * Point::UnitX();
+    const double xx = covariance(3, 3), yy = covariance(4, 4), xy = covariance(4, 3);
+    const double largest = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);  // eigenvalue of the tilt's covariance
+    const double ratio = a.z() * a.z() * largest / a.template head<2>().squaredNorm();
+    if (!(kSigmas * kSigmas * ratio <= 1.0)) return std::nullopt;
+    fix.covariance_(0, 0) += ratio * ratio;
+  }
+  return fix;
 }
 
 template <class Pose>

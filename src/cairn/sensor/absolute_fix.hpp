@@ -2,6 +2,8 @@
 // Absolute measurements of the body's pose in the map: position (GNSS), attitude (star tracker), heading (compass).
 #pragma once
 
+#include <optional>
+
 #include "geometry/se2.hpp"
 #include "geometry/se3.hpp"
 #include "geometry/types.hpp"
@@ -26,9 +28,11 @@ class AbsoluteFix {
   int rows() const { return kind_ == Kind::heading ? 1 : kind_ == Kind::attitude ? Pose::kTurn : Pose::kDim; }
   // Only the upper left rows() x rows() block is used.
   const Matrix3& covariance() const { return covariance_; }
-  // False if the measured value is not defined at this pose: a heading if the x axis of the body is within 5 degrees of
-  // the vertical.
+  // False if the measured value is not defined at this pose: a heading if the x axis of the body is vertical.
   bool defined(const Pose& T_map_body) const;
+  // The measurement as a pose with this covariance of [dp; dtheta] may use it. A heading of a tilted body gets
+  // additional noise, and there is none if the body's x axis may be vertical.
+  std::optional<AbsoluteFix> usable(const Pose& T_map_body, const typename Pose::Square& covariance) const;
   // z - h and dh/d[dp; dtheta]. Only the first rows() rows are used.
   Vector3 residual(const Pose& T_map_body) const;
   ByPose jacobian(const Pose& T_map_body) const;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.hpp"
 #include "geometry/angle.hpp"
 #include "geometry/embedding.hpp"
 
@@ -17,6 +18,13 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 using Packed = Eigen::Map<const RowMajor>;  // views memory, allocates none
 
 constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
+
+// Whether a callback gave an answer. A negative value aborts the whole call.
+bool answered(std::int32_t result, const char* name) {
+  if (result < 0)
+    throw Error(ErrorCode::callback, "custom.%s returned %d, which aborts the call; nothing was changed", name, result);
+  return result == 0;
+}
 
 std::array<double, 7> pack(const SE3& T) {
   const Vector3& p = T.translation();
@@ -39,7 +47,8 @@ bool CustomSensor<Pose>::predict(const Pose& T_map_body, const Point& p_map, con
   // The callback must set every value of z (an unset value is NaN and is refused). It may leave out zeros of a
   // Jacobian.
   double z[3] = {kUnset, kUnset, kUnset}, J_pose[18] = {}, J_landmark[9] = {};
-  if (parameters_.predict(parameters_.user, pose.data(), landmark.data(), z, J_pose, J_landmark) != 0) return false;
+  if (!answered(parameters_.predict(parameters_.user, pose.data(), landmark.data(), z, J_pose, J_landmark), "predict"))
+    return false;
   out = Prediction<Pose>();
   std::copy_n(z, n, out.z.data());
   Matrix36 by_pose = Matrix36::Zero();
@@ -57,7 +66,8 @@ bool CustomSensor<Pose>::place(const Pose& T_map_body, const Vector3& z, const M
   const int n = rows();
   const std::array<double, 7> pose = pack(Embedding<Pose>::up(T_map_body));
   double landmark[3] = {kUnset, kUnset, kUnset}, J_pose[18] = {}, J_z[9] = {};
-  if (parameters_.place(parameters_.user, pose.data(), z.data(), landmark, J_pose, J_z) != 0) return false;
+  if (!answered(parameters_.place(parameters_.user, pose.data(), z.data(), landmark, J_pose, J_z), "place"))
+    return false;
   out = Placement<Pose>();
   out.landmark = Embedding<Pose>::down(Vector3(landmark));
   out.J_landmark_pose = Embedding<Pose>::by_pose(Packed(J_pose, 3, 6)).template topRows<Pose::kDim>();

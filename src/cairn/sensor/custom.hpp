@@ -10,7 +10,7 @@ namespace cairn {
 
 // The functions of the caller. `pose` is seven doubles: position (m), then the quaternion w x y z. Jacobians are packed
 // and row-major: rows x 6 and rows x 3 for a prediction, 3 x 6 and 3 x rows for a placement. A function returns 0 on
-// success and any other value if it refuses.
+// success and a positive value if it refuses. A negative value aborts the call of the library: an Error is thrown.
 using CustomPredict = std::int32_t (*)(void* user, const double* pose, const double* landmark, double* z,
                                        double* jacobian_pose, double* jacobian_landmark);
 using CustomPlace = std::int32_t (*)(void* user, const double* pose, const double* z, double* landmark,
@@ -39,6 +39,7 @@ class CustomSensor final : public Sensor<Pose> {
   int rows() const override { return parameters_.rows; }
   bool relative() const override { return parameters_.relative; }
   int plain_row() const override;
+  bool may_abort() const override { return true; }
   bool places() const { return parameters_.place != nullptr; }
   const Matrix3& noise() const override { return noise_; }
   bool predict(const Pose& T_map_body, const Point& p_map, const Mount& mount, Prediction<Pose>& out) const override;

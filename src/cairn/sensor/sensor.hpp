@@ -65,6 +65,8 @@ class Sensor {
   // Number of a value whose residual() is a plain difference, not a wrapped angle; negative if there is none.
   // Association sorts observations by this value.
   virtual int plain_row() const { return 0; }
+  // Whether predict() and place() may throw. Then a frame calls them only before it changes the state.
+  virtual bool may_abort() const { return false; }
   // Default noise of an observation. Only the upper left rows() x rows() block is used.
   virtual const Matrix3& noise() const = 0;
   virtual MountNoise mount_noise_mode() const { return MountNoise::none; }

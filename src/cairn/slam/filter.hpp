@@ -37,30 +37,34 @@ class Filter {
     return sensors_.add(typename SensorRack<Pose>::Any(sensor));
   }
   int sensor_rows(int sensor) { return sensors_.at(sensor).rows(); }
+  void check_sensor(int sensor) const { sensors_.check(sensor); }
   void point_head(int sensor, double pan, double stick) { sensors_.point_head(sensor, pan, stick); }
   // Sets the region in which the sensor detects every landmark: bounds on the predicted observation.
   void set_view(int sensor, const Vector3& lower, const Vector3& upper) { sensors_.set_view(sensor, {lower, upper}); }
   void set_loss(int sensor, const RobustLoss& loss) { sensors_.set_loss(sensor, loss); }
   void set_sighting(int sensor, const MutualSighting& sighting) { sensors_.set_sighting(sensor, sighting); }
 
+  // Systematic errors of a sensor become states: a standard deviation (0: none) and a random walk for each number of
+  // its calibration. Before the first motion and the first observation.
+  void calibrate(int sensor, const Calibration<Pose>& sigma, const Calibration<Pose>& walk);
+
   // --- motion --- throws if the result is not finite, with nothing changed
   void set_wheels(const Wheels& wheels) { wheels_ = wheels; }
   void set_twist_noise(const TwistNoise& noise) { twist_noise_ = noise; }
-  void predict_wheels(double dt, double left, double right) { propagate(drive_wheels<Pose>(wheels_, left, right, dt)); }
-  void predict_twist(double dt, const Vector3& v, const Vector3& w) {
-    propagate(integrate_twist<Pose>(v, w, dt, twist_noise_));
-  }
-  void propagate(const Increment<Pose>& increment);
+  void predict_wheels(double dt, double left, double right);
+  void predict_wheels_gyro(double dt, double left, double right, const Vector3& w);
+  void predict_twist(double dt, const Vector3& v, const Vector3& w);
+  void propagate(const Increment<Pose>& increment);  // refused if a bias of the twist is a state
 
   // --- observations --- each call throws with nothing changed; matches() holds one match an observation after it
   // First the observations of landmarks, then those of companions, which bring ids whatever the association is.
   void update(int sensor, const Observation* observations, Index landmarks, Index companions = 0);
   void update_linear(const LinearRows& rows) {
+    started_ = true;
     log_.watch([&] { batches_.rows(rows); });
+    submaps_.keep_pose();
   }
-  void update_fix(const AbsoluteFix<Pose>& fix) {
-    log_.watch([&] { batches_.fix(fix); });
-  }
+  void update_fix(const AbsoluteFix<Pose>& fix);
   void update_position(const Point& position, const PointSquare& covariance, const Point& lever_arm) {
     update_fix(AbsoluteFix<Pose>::position(position, covariance, lever_arm));
   }
@@ -72,6 +76,7 @@ class Filter {
   double* workspace() { return local_.state().scratch(); }
   const Match* matches() const { return report_.matches(); }
   const UpdateReport& report() const { return report_.last(); }
+  const HealthMonitor<Pose>& health() const { return health_; }
 
   // --- landmarks ---
   void remove_landmark(std::uint64_t id) { submaps_.remove_landmark(id); }
@@ -92,18 +97,26 @@ class Filter {
   // The companion's error is J_pose times the error of the active vehicle, plus noise.
   void add_vehicle(std::uint64_t id, const Pose& pose, const Square& J_pose, const Square& noise);
   void remove_vehicle(std::uint64_t id) { local_.remove_vehicle(id); }  // not the active one
-  void look_from(std::uint64_t id) { local_.look_from(id); }
+  void look_from(std::uint64_t id);
   bool has_vehicle(std::uint64_t id) const { return local_.has_vehicle(id); }
   Pose vehicle_pose(std::uint64_t id) const;
   Square vehicle_covariance(std::uint64_t id) const;
 
   // --- submaps --- throws with nothing changed
-  void close_submap() { submaps_.close(); }
+  void close_submap();
   const ClosingReport& closing() const { return submaps_.closing(); }
+
+  // --- trajectory --- every update adds its pose
+  void keep_pose() { submaps_.keep_pose(); }  // adds the present pose
+  const Trajectory<Pose>& trajectory() const { return trajectory_; }
+  Pose trajectory_pose(std::uint64_t number) const { return trajectory_.pose(number, submaps_.map()); }
 
   // --- queries ---
   Pose pose() const { return submaps_.pose(); }
   Square pose_covariance() const { return submaps_.pose_covariance(); }
+  // Systematic errors that are states, in the order of SystematicErrors; the covariance has both triangles.
+  const SystematicErrors& systematic() const { return local_.systematic(); }
+  void systematic_errors(double* values, double* covariance) const { submaps_.systematic(values, covariance); }
   Pose local_pose() const { return local_.state().pose(); }
   Square local_pose_covariance() const { return local_.state().pose_covariance(); }
   double pose_nees(const Pose& truth) const { return submaps_.pose_nees(truth); }
@@ -117,6 +130,10 @@ class Filter {
   }
 
  private:
+  void begin();
+  void move(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
+  void note_closing();
+
   FilterOptions<Pose> options_;
   Log log_;
   Wheels wheels_;
@@ -125,10 +142,14 @@ class Filter {
   LocalMap<Pose> local_;
   Thresholds thresholds_;
   FrameReport report_;
+  Trajectory<Pose> trajectory_;
   SubmapKeeper<Pose> submaps_;
   MotionTrust<Pose> trust_;
+  HealthMonitor<Pose> health_;
+  std::size_t closings_ = 0;  // that the health monitor knows of
   FramePipeline<Pose> frames_;
   WholeBatchUpdate<Pose> batches_;
+  bool started_ = false;  // something was estimated: no systematic error can be added any more
 };
 
 extern template class Filter<SE2>;

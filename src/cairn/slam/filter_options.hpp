@@ -6,6 +6,7 @@
 
 #include "ekf/error_model.hpp"
 #include "linear/robust_loss.hpp"
+#include "motion/motion.hpp"
 
 namespace cairn {
 
@@ -23,7 +24,9 @@ struct CapacityOptions {
   Index max_landmarks = FilterDefaults::max_landmarks;
   Index max_observations = FilterDefaults::max_observations;
   Index max_sensors = FilterDefaults::max_sensors;
-  Index max_companions = 0;  // poses of other vehicles in the state of a single map
+  Index trajectory_poses = FilterDefaults::trajectory_poses;
+  Index max_sensor_errors = FilterDefaults::max_sensor_errors;  // numbers of the calibrations of all sensors
+  Index max_companions = 0;                                     // poses of other vehicles in the state of a single map
 };
 
 // An update: linearisations, chi-square gates, and the number of consecutive observations of a landmark whose errors
@@ -64,9 +67,27 @@ struct LandmarkOptions {
   Index missed_frames = FilterDefaults::missed_frames;  // it is removed if in view and not seen this often; 0: never
 };
 
+// Systematic errors of the motion that are states: by their numbers in MotionErrors, standard deviation at the start
+// (0: no state) and random walk in the square root of a second.
+struct SystematicOptions {
+  double motion_sigma[MotionErrors::kCount] = {};
+  double motion_walk[MotionErrors::kCount] = {};
+};
+
+// What becomes of the noise that is learned (docs/trust.md).
+struct NoiseOptions {
+  bool apply_noise = false;  // scales the stated noise; otherwise it is only reported
+};
+
 template <class Pose>
-struct FilterOptions : CapacityOptions, UpdateOptions, SubmapOptions, AssociationOptions, LandmarkOptions {
+struct FilterOptions : CapacityOptions,
+                       UpdateOptions,
+                       SubmapOptions,
+                       AssociationOptions,
+                       LandmarkOptions,
+                       NoiseOptions {
   using PoseType = Pose;
+  SystematicOptions systematic;
   ErrorKind error = ErrorKind::invariant;
   Pose initial_pose;
   typename Pose::Square initial_covariance = Pose::Square::Zero();

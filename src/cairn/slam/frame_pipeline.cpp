@@ -2,14 +2,12 @@
 // One frame, from its observations to the reviewed map.
 #include "slam/frame_pipeline.hpp"
 
-#include "core/error.hpp"
-
 namespace cairn {
 
 template <class Pose>
 FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
                                    Thresholds& thresholds, MotionTrust<Pose>& trust, FrameReport& report,
-                                   const Log& log)
+                                   HealthMonitor<Pose>& health, const Log& log)
     : options_(options),
       map_(map),
       trust_(trust),
@@ -18,7 +16,8 @@ FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& opti
       sorter_(arena, options, map, report),
       associator_(arena, options, map, thresholds, report, log),
       updater_(arena, options, map, thresholds, trust, report, log),
-      placer_(options, map, report),
+      placer_(arena, options, map, report, log),
+      witness_(arena, options, map, report, health),
       review_(options, map, report) {}
 
 template <class Pose>
@@ -27,25 +26,32 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
   std::optional<EkfUpdate<Pose>> update;
   typename Pose::Square widening = Pose::Square::Zero();
   trust_.begin(map_.starts());
-  attempt(frame, update);
+  attempt(frame, update, false);
   if (updater_.contradicted(*update, frame, sorted_, widening)) {
     widen(map_.state(), widening);
-    attempt(frame, update);
+    attempt(frame, update, true);
     report_.widened<Pose>(widening);
   }
   updater_.finish(*update, frame, sorted_);
+  if (frame.sensor.may_abort()) {
+    placer_.prepare(*update, frame, sorted_);
+    review_.prepare(frame);
+  }
+  updater_.commit(*update, sorted_);
   restore.release();
   trust_.commit();
   placer_.place(*update, frame, sorted_);
   report_.finish();
+  witness_.after(frame);
   review_.run(frame);
 }
 
 // Everything before the first change of the state.
 template <class Pose>
-void FramePipeline<Pose>::attempt(const Frame<Pose>& frame, std::optional<EkfUpdate<Pose>>& update) {
+void FramePipeline<Pose>::attempt(const Frame<Pose>& frame, std::optional<EkfUpdate<Pose>>& update, bool again) {
   report_.start(frame.count());
   sort(frame);
+  if (!again) witness_.before(frame, sorted_);
   updater_.begin(update, frame, sorted_);
 }
 
@@ -57,20 +63,6 @@ void FramePipeline<Pose>::sort(const Frame<Pose>& frame) {
   else
     associator_.sort_landmarks(frame, sorted_);
   sorter_.sort_companions(frame, sorted_);
-  check_room();
-}
-
-template <class Pose>
-void FramePipeline<Pose>::check_room() const {
-  const Index room = options_.local_landmarks(), held = map_.table().landmarks(), fresh = sorted_.new_ones();
-  if (held + fresh <= room) return;
-  if (!options_.single_map())
-    throw Error(ErrorCode::capacity,
-                "observations: %td new landmarks, and the open submap, which could not be closed, "
-                "holds %td of %td",
-                fresh, held, room);
-  throw Error(ErrorCode::capacity, "observations: %td new landmarks, and the map holds %td of max_landmarks = %td",
-              fresh, held, room);
 }
 
 template class FramePipeline<SE2>;

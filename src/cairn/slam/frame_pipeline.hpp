@@ -8,6 +8,7 @@
 #include "slam/frame_placer.hpp"
 #include "slam/frame_sorter.hpp"
 #include "slam/frame_update.hpp"
+#include "slam/frame_witness.hpp"
 #include "slam/landmark_review.hpp"
 
 namespace cairn {
@@ -16,16 +17,15 @@ template <class Pose>
 class FramePipeline {
  public:
   FramePipeline(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map, Thresholds& thresholds,
-                MotionTrust<Pose>& trust, FrameReport& report, const Log& log);
+                MotionTrust<Pose>& trust, FrameReport& report, HealthMonitor<Pose>& health, const Log& log);
 
   // Throws with nothing changed.
   void run(const Frame<Pose>& frame);
   void reserve_id(std::uint64_t id) { placer_.reserve_id(id); }
 
  private:
-  void attempt(const Frame<Pose>& frame, std::optional<EkfUpdate<Pose>>& update);
+  void attempt(const Frame<Pose>& frame, std::optional<EkfUpdate<Pose>>& update, bool again);
   void sort(const Frame<Pose>& frame);
-  void check_room() const;
 
   const FilterOptions<Pose>& options_;
   LocalMap<Pose>& map_;
@@ -36,6 +36,7 @@ class FramePipeline {
   FrameAssociator<Pose> associator_;
   FrameUpdate<Pose> updater_;
   FramePlacer<Pose> placer_;
+  FrameWitness<Pose> witness_;
   LandmarkReview<Pose> review_;
 };
 

@@ -2,13 +2,55 @@
 // New landmarks of a frame.
 #include "slam/frame_placer.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 namespace cairn {
+namespace {
+
+// Whether a double can hold a landmark at this distance beside its noise. Its arm turns by the error of the attitude;
+// with an arm that is longer than this many standard deviations of the place, rounding would outweigh the place.
+template <class Square>
+bool holds(double distance, const Square& noise) {
+  constexpr double kNear = 1e5, kFarthest = 1e9;  // m
+  constexpr double kMostSigmas = 2e7;
+  if (!(distance <= kFarthest && noise.trace() <= kFarthest * kFarthest)) return false;  // also refuses NaN
+  if (distance <= kNear) return true;
+  Eigen::SelfAdjointEigenSolver<Square> solver;
+  solver.computeDirect(noise, Eigen::EigenvaluesOnly);
+  return distance * distance <= kMostSigmas * kMostSigmas * solver.eigenvalues().minCoeff();
+}
+
+}  // namespace
 
 template <class Pose>
-FramePlacer<Pose>::FramePlacer(const FilterOptions<Pose>& options, LocalMap<Pose>& map, FrameReport& report)
-    : options_(options), map_(map), report_(report) {}
+FramePlacer<Pose>::FramePlacer(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
+                               FrameReport& report, const Log& log)
+    : options_(options),
+      map_(map),
+      report_(report),
+      log_(log),
+      prepared_(arena.take<Prepared>(static_cast<std::size_t>(options.max_observations))) {}
+
+template <class Pose>
+void FramePlacer<Pose>::prepare(const EkfUpdate<Pose>& update, const Frame<Pose>& frame,
+                                const SortedFrame<Pose>& sorted) {
+  for (Index k = 0; k < sorted.new_ones(); ++k) {
+    const Index observation = sorted.new_one(k);
+    Prepared& prepared = prepared_[observation];
+    prepared.placed =
+        frame.sensor.place(update.solved_pose(), frame.z(observation), update.solved_mount(), prepared.placement);
+  }
+}
+
+template <class Pose>
+bool FramePlacer<Pose>::find_place(const EkfUpdate<Pose>& update, const Frame<Pose>& frame, Index observation,
+                                   Placement<Pose>& placement) const {
+  if (!frame.sensor.may_abort())
+    return frame.sensor.place(map_.state().pose(), frame.z(observation), update.mount(), placement);
+  placement = prepared_[observation].placement;
+  return prepared_[observation].placed;
+}
 
 template <class Pose>
 void FramePlacer<Pose>::reserve_id(std::uint64_t id) {
@@ -34,8 +76,12 @@ bool FramePlacer<Pose>::place_one(EkfUpdate<Pose>& update, const Frame<Pose>& fr
   using PointSquare = typename LocalMap<Pose>::PointSquare;
   const Sensor<Pose>& sensor = frame.sensor;
   const MountNoise mode = sensor.mount_noise_mode();
+  const State<Pose>& state = map_.state();
+  const SystematicErrors& errors = map_.systematic();
+  if (frame.calibrated != nullptr)
+    frame.calibrated->set(errors.calibration<Pose>(frame.number, [&](Index i) { return state.systematic(i); }));
   Placement<Pose> placement;
-  if (!sensor.place(map_.state().pose(), frame.z(observation), update.mount(), placement)) return false;
+  if (!find_place(update, frame, observation, placement)) return false;
   const int rows = sensor.rows();
   const auto J_z = placement.J_landmark_z.leftCols(rows);
   PointSquare noise = PointSquare::Zero();
@@ -43,23 +89,37 @@ bool FramePlacer<Pose>::place_one(EkfUpdate<Pose>& update, const Frame<Pose>& fr
       J_z.lazyProduct(frame.noise(observation).topLeftCorner(rows, rows).eval().lazyProduct(J_z.transpose()));
   if (mode == MountNoise::per_observation)
     noise += placement.J_landmark_mount * sensor.mount_noise() * placement.J_landmark_mount.transpose();
+  if (!holds((placement.landmark - state.pose().translation()).norm(), noise)) return false;
+  ErrorColumns<Pose::kDim> by_errors;
+  if (frame.calibrated != nullptr)
+    by_errors = errors.columns(frame.number, frame.calibrated->by_calibration(state.pose(), placement));
   return update.place(placement.landmark, placement.J_landmark_pose,
-                      mode == MountNoise::per_frame ? &placement.J_landmark_mount : nullptr, noise, sensor.relative());
+                      mode == MountNoise::per_frame ? &placement.J_landmark_mount : nullptr, noise, sensor.relative(),
+                      frame.calibrated != nullptr ? &by_errors : nullptr);
 }
 
 template <class Pose>
 void FramePlacer<Pose>::place(EkfUpdate<Pose>& update, const Frame<Pose>& frame, SortedFrame<Pose>& sorted) {
   drop_unsupported(sorted);
+  Index no_room = 0;
   for (Index k = 0; k < sorted.new_ones(); ++k) {
     const Index observation = sorted.new_one(k);
     Match& match = report_.match(observation);
     match = {kNoId, Decision::rejected, Reason::no_place, 0.0, 0.0};
+    if (map_.table().landmarks() >= options_.local_landmarks()) {
+      match.reason = Reason::no_room;
+      ++no_room;
+      continue;
+    }
     if (!place_one(update, frame, observation)) continue;
     const std::uint64_t id =
         options_.association == AssociationKind::known ? frame.observations[observation].id : next_id_++;
     map_.name_placed(id);
     match = {id, Decision::placed, Reason::none, 0.0, 0.0};
   }
+  if (no_room > 0)
+    log_.say("update: %td new landmarks were refused, because the %s holds %td landmarks and is full", no_room,
+             options_.single_map() ? "map" : "open submap, which could not be closed,", map_.table().landmarks());
 }
 
 template class FramePlacer<SE2>;

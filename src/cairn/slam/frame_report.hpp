@@ -12,7 +12,7 @@
 namespace cairn {
 
 enum class Decision { matched, placed, rejected };
-enum class Reason { none, gate, batch_gate, no_image, no_place, ambiguous };
+enum class Reason { none, gate, batch_gate, no_image, no_place, ambiguous, no_room };
 
 // The landmark that an observation was paired with, and whether the observation was used.
 struct Match {
@@ -34,6 +34,7 @@ struct UpdateReport {
   Index deferred = 0;  // landmarks that do not count yet after the update
   Index removed = 0;   // removed landmarks: missed, or deferred for too long
   double widened_position = 0.0, widened_attitude = 0.0;  // standard deviations by which the motion was widened
+  bool widened() const { return widened_position > 0.0 || widened_attitude > 0.0; }
 };
 
 class FrameReport {

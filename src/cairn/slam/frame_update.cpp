@@ -52,6 +52,9 @@ bool FrameUpdate<Pose>::fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
                              double* residual_only) {
   const Sensor<Pose>& sensor = frame.sensor;
   const Index rows = sensor.rows();
+  const SystematicErrors& errors = map_.systematic();
+  if (frame.calibrated != nullptr)
+    frame.calibrated->set(errors.calibration<Pose>(frame.number, [&](Index i) { return update.systematic(i); }));
   if (residual_only == nullptr) update.batch().clear();
   if (residual_only == nullptr) settled_ = true;
   for (Index a = 0; a < sorted.candidates(); ++a) {
@@ -67,6 +70,10 @@ bool FrameUpdate<Pose>::fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
 
     const Index row = update.batch().add_rows(rows);
     const auto pose = update.add_pose_block(row, rows, prediction.J_z_pose, sensor.relative());
+    if (frame.calibrated != nullptr) {
+      const auto by_errors = errors.columns(frame.number, frame.calibrated->by_calibration(update.pose(), prediction));
+      update.add_systematic_block(row, rows, by_errors.J, by_errors.first, by_errors.count);
+    }
     if (sensor.mount_noise_mode() == MountNoise::per_frame) update.add_mount_block(row, rows, prediction.J_z_mount);
     update.add_landmark_block(row, rows, prediction.J_z_landmark, candidate.number, pose);
     const Matrix3 noise = this->noise(frame, candidate, prediction);
@@ -197,9 +204,13 @@ void FrameUpdate<Pose>::finish(EkfUpdate<Pose>& update, const Frame<Pose>& frame
     }
     report_.update().iterations =
         update.iterate(end, [&](double* residual_only) { return fill(update, frame, sorted, residual_only); });
-    update.commit();
     report_.update().rows = update.batch().rows();
   }
+}
+
+template <class Pose>
+void FrameUpdate<Pose>::commit(EkfUpdate<Pose>& update, const SortedFrame<Pose>& sorted) {
+  if (sorted.candidates() > 0) update.commit();
   for (const Candidate<Pose>& candidate : sorted) {
     report_.match(candidate.observation).decision = Decision::matched;
     map_.table().add_observations(candidate.slot, 1);

@@ -25,8 +25,9 @@ class FrameUpdate {
   // Whether the motion has to be widened before the frame is used; then by which covariance of [dp; dtheta].
   bool contradicted(const EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted,
                     typename Pose::Square& widening);
-  // Weighs, iterates and commits.
+  // Weighs and iterates.
   void finish(EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted);
+  void commit(EkfUpdate<Pose>& update, const SortedFrame<Pose>& sorted);
 
  private:
   class Gates;

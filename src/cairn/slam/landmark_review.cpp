@@ -13,6 +13,14 @@ LandmarkReview<Pose>::LandmarkReview(const FilterOptions<Pose>& options, LocalMa
     : options_(options), map_(map), report_(report) {}
 
 template <class Pose>
+void LandmarkReview<Pose>::prepare(const Frame<Pose>& frame) {
+  LandmarkTable& table = map_.table();
+  if (options_.missed_frames == 0 || frame.view == nullptr) return;
+  for (Index slot = table.companions(); slot < table.size(); ++slot)
+    table.sightings(slot).in_view = in_view(frame, slot);
+}
+
+template <class Pose>
 void LandmarkReview<Pose>::run(const Frame<Pose>& frame) {
   const bool defers = options_.deferred_sightings > 1, misses = options_.missed_frames > 0;
   map_.table().next_frame();
@@ -79,7 +87,7 @@ void LandmarkReview<Pose>::remove_missed(const Frame<Pose>& frame) {
   LandmarkTable& table = map_.table();
   for (Index slot = table.size(); slot-- > table.companions();) {
     LandmarkTable::Sightings& own = table.sightings(slot);
-    if (own.seen == table.frame() || !in_view(frame, slot)) continue;
+    if (own.seen == table.frame() || !(frame.sensor.may_abort() ? own.in_view : in_view(frame, slot))) continue;
     if (++own.missed >= options_.missed_frames) remove(slot);
   }
 }

@@ -14,6 +14,8 @@ class LandmarkReview {
  public:
   LandmarkReview(const FilterOptions<Pose>& options, LocalMap<Pose>& map, FrameReport& report);
 
+  // Before the commit, for a sensor that may abort: asks it which landmarks are in its view.
+  void prepare(const Frame<Pose>& frame);
   // Reads the matches of the finished frame, and adds to its report.
   void run(const Frame<Pose>& frame);
 

@@ -20,6 +20,7 @@ class LandmarkTable {
   struct Sightings {             // of a landmark, by frames
     std::uint64_t placed, seen;  // numbers of frames
     Index missed;                // frames in a row
+    bool in_view;                // LandmarkReview::prepare() has found it in the view
   };
 
   LandmarkTable(Arena& arena, Index slots, Index landmarks);

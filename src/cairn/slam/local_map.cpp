@@ -9,12 +9,20 @@ namespace cairn {
 template <class Pose>
 LocalMap<Pose>::LocalMap(Arena& arena, const FilterOptions<Pose>& options)
     : options_(options),
-      state_(arena, options.error, {options.slots(), options.max_observations, options.max_companions}),
+      systematic_(options.systematic, !options.single_map()),
+      state_(arena, options.error,
+             {options.slots(), options.max_observations, options.max_companions,
+              systematic_.states() + (options.single_map() ? 1 : 2) * options.max_sensor_errors}),
       table_(arena, options.slots(), options.local_landmarks()) {}
 
 template <class Pose>
 void LocalMap<Pose>::start(const Pose& pose, const Square& covariance) {
-  state_.start(pose, covariance);
+  start(pose, covariance, systematic_.initial_values().data(), systematic_.initial_covariance().data());
+}
+
+template <class Pose>
+void LocalMap<Pose>::start(const Pose& pose, const Square& covariance, const double* values, const double* errors) {
+  systematic_.start(state_, pose, covariance, values, errors);
   table_.clear();
   ++starts_;
 }

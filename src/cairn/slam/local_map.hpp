@@ -10,6 +10,7 @@
 #include "map/landmarks.hpp"
 #include "slam/filter_options.hpp"
 #include "slam/landmark_table.hpp"
+#include "slam/systematic_errors.hpp"
 
 namespace cairn {
 
@@ -22,11 +23,17 @@ class LocalMap final : public Landmarks {
   using PointSquare = typename State<Pose>::PointSquare;
 
   LocalMap(Arena& arena, const FilterOptions<Pose>& options);
-  void start(const Pose& pose, const Square& covariance);  // forgets all landmarks and companions
   std::uint64_t starts() const { return starts_; }         // how often it has started
+  void start(const Pose& pose, const Square& covariance);  // forgets all landmarks, companions and systematic errors
+  // The same, with these values and this covariance of the systematic errors. Allocates nothing.
+  void start(const Pose& pose, const Square& covariance, const double* values, const double* errors);
 
   State<Pose>& state() { return state_; }
   const State<Pose>& state() const { return state_; }
+  const SystematicErrors& systematic() const { return systematic_; }
+  // Adds an error of a sensor before anything was estimated; start() has to follow.
+  void use_errors(const SystematicErrors& errors) { systematic_ = errors; }
+  void add_error(int sensor, int number, double sigma, double walk) { systematic_.add(sensor, number, sigma, walk); }
   LandmarkTable& table() { return table_; }
   const LandmarkTable& table() const { return table_; }
 
@@ -66,6 +73,7 @@ class LocalMap final : public Landmarks {
   void exchange(Index a, Index b);
 
   const FilterOptions<Pose>& options_;
+  SystematicErrors systematic_;
   State<Pose> state_;
   LandmarkTable table_;
   std::uint64_t starts_ = 0;

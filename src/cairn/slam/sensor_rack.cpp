@@ -28,10 +28,15 @@ int SensorRack<Pose>::add(const Any& sensor) {
 }
 
 template <class Pose>
-typename SensorRack<Pose>::Any& SensorRack<Pose>::any(int number) {
+void SensorRack<Pose>::check(int number) const {
   if (number < 0 || number >= count_)
     throw Error(ErrorCode::not_found, "sensor: there is no number %d; %d have been added, counted from 0", number,
                 count_);
+}
+
+template <class Pose>
+typename SensorRack<Pose>::Any& SensorRack<Pose>::any(int number) {
+  check(number);
   return *std::launder(reinterpret_cast<Any*>(places_[number].sensor));
 }
 

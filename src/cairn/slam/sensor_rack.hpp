@@ -44,6 +44,7 @@ class SensorRack {
 
   int add(const Any& sensor);  // its number
   const Sensor<Pose>& at(int number);
+  void check(int number) const;        // throws if there is no sensor of this number
   const View* view(int number) const;  // null: none was set
   void set_view(int number, const View& view);
   const RobustLoss& loss(int number) const { return places_[number].loss; }

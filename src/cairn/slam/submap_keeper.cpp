@@ -37,6 +37,11 @@ NamingOptions naming_options(const FilterOptions<Pose>& options) {
 
 template <class Pose>
 MapOptions<Pose> map_options(const FilterOptions<Pose>& options) {
+  return map_options(options, SystematicErrors(options.systematic, true));
+}
+
+template <class Pose>
+MapOptions<Pose> map_options(const FilterOptions<Pose>& options, const SystematicErrors& errors) {
   MapOptions<Pose> map;
   map.error = options.error;
   map.max_landmarks = static_cast<std::size_t>(options.max_landmarks);
@@ -48,6 +53,10 @@ MapOptions<Pose> map_options(const FilterOptions<Pose>& options) {
   map.step_tolerance = options.step_tolerance;
   map.initial_pose = options.initial_pose;
   map.initial_covariance = options.initial_covariance;
+  for (Index i = 0; i < errors.count(); ++i) {
+    map.errors.sigma.push_back(errors.sigma(i));
+    if (errors.numbers(i).walked != SystematicErrors::kNone) map.errors.walking.push_back(i);
+  }
   return map;
 }
 
@@ -58,22 +67,32 @@ bool FilterOptions<Pose>::sparse() const {
 }
 
 template <class Pose>
-SubmapKeeper<Pose>::SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, const Log& log)
-    : options_(options), local_(local), log_(log), policy_(options, local) {}
+SubmapKeeper<Pose>::SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local,
+                                 Trajectory<Pose>& trajectory, const Log& log)
+    : options_(options), local_(local), trajectory_(trajectory), log_(log), policy_(options, local) {}
 
 template <class Pose>
 void SubmapKeeper<Pose>::make_map() {
   if (options_.single_map()) return;
   if (options_.sparse())
-    map_ = std::make_unique<SparseMap<Pose>>(map_options(options_));
+    map_ = std::make_unique<SparseMap<Pose>>(map_options(options_, local_.systematic()));
   else
-    map_ = std::make_unique<DenseMap<Pose>>(map_options(options_));
+    map_ = std::make_unique<DenseMap<Pose>>(map_options(options_, local_.systematic()));
+  if (!shares_errors()) return;
+  const Index g = local_.systematic().count();
+  next_prior_ = Eigen::VectorXd::Map(local_.systematic().initial_values().data(), g);
+  next_covariance_ = Eigen::MatrixXd::Map(local_.systematic().initial_covariance().data(), g, g);
+  prior_ = next_prior_;
+  prior_covariance_ = next_covariance_;
+  open();
 }
 
 template <class Pose>
 std::size_t SubmapKeeper<Pose>::required_bytes(const FilterOptions<Pose>& options) {
   if (options.single_map() || options.sparse()) return 0;
-  return DenseMap<Pose>::required_bytes(map_options(options));
+  SystematicErrors errors(options.systematic, true);
+  for (Index i = 0; i < options.max_sensor_errors; ++i) errors.add(0, 0, 1.0, 1.0);
+  return DenseMap<Pose>::required_bytes(map_options(options, errors));
 }
 
 template <class Pose>
@@ -113,6 +132,7 @@ Submap<Pose> SubmapKeeper<Pose>::take_submap() const {
   }
   submap.covariance.resize(n, n);
   state.gather(slots.data(), count, submap.covariance.data(), n);
+  if (shares_errors()) submap.errors = take_errors(slots);
   return submap;
 }
 
@@ -215,6 +235,7 @@ FixReport SubmapKeeper<Pose>::join(ClosedBy reason, const AbsoluteFix<Pose>* fix
   next.reason = reason;
   next.landmarks = local_.table().counting();
   Submap<Pose> submap = take_submap();
+  if (shares_errors()) systematic(next_prior_.data(), next_covariance_.data());
   if (options_.association != AssociationKind::known) {
     next.naming = name_landmarks(*map_, naming_options(options_), submap);
     if (next.naming.exhausted)
@@ -228,7 +249,8 @@ FixReport SubmapKeeper<Pose>::join(ClosedBy reason, const AbsoluteFix<Pose>* fix
     if (fix != nullptr) fixed = transaction->fix(*fix, threshold);
     next.join = transaction->commit();
   }
-  local_.start(Pose(), Square::Zero());  // deferred landmarks have to be found again
+  trajectory_.end_submap(map_->submap_count() - 1, submap.T_base_end, local_.state().pose_covariance());
+  open();
   policy_.restart();
   next.submaps = map_->submap_count();
   next.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -285,9 +307,16 @@ FixReport SubmapKeeper<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold
 }
 
 template <class Pose>
+Pose SubmapKeeper<Pose>::pose() const {
+  if (shares_errors()) return place(nullptr, 0).pose;
+  return map_ != nullptr ? map_->base() * local_.state().pose() : local_.state().pose();
+}
+
+template <class Pose>
 typename SubmapKeeper<Pose>::Square SubmapKeeper<Pose>::pose_covariance() const {
   const State<Pose>& state = local_.state();
   if (map_ == nullptr) return state.pose_covariance();
+  if (shares_errors()) return place(nullptr, 0).joint;
   return ProductJacobians(map_->base(), state.pose()).covariance(map_->base_covariance(), state.pose_covariance());
 }
 
@@ -298,6 +327,8 @@ void SubmapKeeper<Pose>::pose_joint_covariance(const std::size_t* indices, std::
   Eigen::MatrixXd joint(n, n);
   if (map_ == nullptr) {
     local_.pose_joint_covariance(indices, count, joint.data());
+  } else if (shares_errors()) {
+    joint = place(indices, count).joint;
   } else {
     const State<Pose>& state = local_.state();
     map_->base_joint_covariance(indices, count, joint.data());
@@ -316,8 +347,17 @@ double SubmapKeeper<Pose>::pose_nees(const Pose& truth) const {
   return State<Pose>::nees(options_.error, options_.initial_pose.translation(), truth, pose(), pose_covariance());
 }
 
+template <class Pose>
+void SubmapKeeper<Pose>::keep_pose() {
+  if (trajectory_.capacity() == 0) return;
+  const std::size_t submap = map_ != nullptr ? map_->submap_count() : 0;
+  trajectory_.add(submap, local_.state().pose(), local_.state().pose_covariance());
+}
+
 template MapOptions<SE2> map_options(const FilterOptions<SE2>&);
 template MapOptions<SE3> map_options(const FilterOptions<SE3>&);
+template MapOptions<SE2> map_options(const FilterOptions<SE2>&, const SystematicErrors&);
+template MapOptions<SE3> map_options(const FilterOptions<SE3>&, const SystematicErrors&);
 template bool FilterOptions<SE2>::sparse() const;
 template bool FilterOptions<SE3>::sparse() const;
 template class SubmapKeeper<SE2>;

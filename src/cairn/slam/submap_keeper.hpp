@@ -9,6 +9,7 @@
 #include "map/naming.hpp"
 #include "slam/log.hpp"
 #include "slam/submap_policy.hpp"
+#include "slam/trajectory.hpp"
 
 namespace cairn {
 
@@ -29,14 +30,17 @@ struct ClosingReport {
 // The options of the map that a filter's submaps join.
 template <class Pose>
 MapOptions<Pose> map_options(const FilterOptions<Pose>& options);
+// The same, with these systematic errors.
+template <class Pose>
+MapOptions<Pose> map_options(const FilterOptions<Pose>& options, const SystematicErrors& errors);
 
 template <class Pose>
 class SubmapKeeper {
  public:
-  static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
   using Square = typename Pose::Square;
 
-  SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, const Log& log);
+  SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local, Trajectory<Pose>& trajectory, const Log& log);
   static std::size_t required_bytes(const FilterOptions<Pose>& options);  // of the map, if it is known beforehand
 
   const GlobalMap<Pose>* map() const { return map_.get(); }  // null: a single map
@@ -54,14 +58,28 @@ class SubmapKeeper {
   FixReport fix(const AbsoluteFix<Pose>& fix, double threshold);
   const ClosingReport& closing() const { return closing_; }
 
-  // --- the vehicle in the map that the caller sees --- errors of base and open submap are independent
-  Pose pose() const { return map_ != nullptr ? map_->base() * local_.state().pose() : local_.state().pose(); }
+  // --- the vehicle in the map that the caller sees --- errors of base and open submap are independent, given the
+  // systematic errors
+  Pose pose() const;
   Square pose_covariance() const;
   double pose_nees(const Pose& truth) const;
+  void keep_pose();  // adds the pose to the trajectory
+  // Values and covariance (both triangles) of the systematic errors.
+  void systematic(double* values, double* covariance) const;
   // Covariance of [pose; landmarks of landmarks()], in space: 6 + 3 count on a side.
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 
  private:
+  // The vehicle in the map, and the joint covariance of [pose; landmarks] in ordinary errors. The systematic errors are
+  // those that map and open submap tell together.
+  struct Place {
+    Pose pose;
+    Eigen::MatrixXd joint;
+  };
+  Place place(const std::size_t* indices, std::size_t count) const;
+  bool shares_errors() const { return map_ != nullptr && local_.systematic().any(); }
+  SubmapErrors take_errors(const std::vector<Index>& slots) const;
+  void open();  // a new submap; after a closing it does not fail
   Submap<Pose> take_submap() const;
   FixReport join(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
   std::unique_ptr<MapTransaction<Pose>> join(Submap<Pose>& submap, ClosingReport& report);
@@ -71,9 +89,14 @@ class SubmapKeeper {
 
   const FilterOptions<Pose>& options_;
   LocalMap<Pose>& local_;
+  Trajectory<Pose>& trajectory_;
   const Log& log_;
   std::unique_ptr<GlobalMap<Pose>> map_;
   SubmapPolicy<Pose> policy_;
+  Eigen::VectorXd prior_;             // of the systematic errors, with which the open submap began
+  Eigen::MatrixXd prior_covariance_;  // of the same
+  Eigen::VectorXd next_prior_;        // of the next submap
+  Eigen::MatrixXd next_covariance_;
   ClosingReport closing_;
 };
 

@@ -14,7 +14,8 @@ namespace cairn {
 template <class Pose>
 WholeBatchUpdate<Pose>::WholeBatchUpdate(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
                                          SubmapKeeper<Pose>& submaps, const Thresholds& thresholds,
-                                         MotionTrust<Pose>& trust, FrameReport& report, const Log& log)
+                                         MotionTrust<Pose>& trust, FrameReport& report, HealthMonitor<Pose>& health,
+                                         const Log& log)
     : options_(options),
       map_(map),
       submaps_(submaps),
@@ -22,6 +23,7 @@ WholeBatchUpdate<Pose>::WholeBatchUpdate(Arena& arena, const FilterOptions<Pose>
       trust_(trust),
       trust_in_map_(arena, options, map, thresholds, log),
       report_(report),
+      health_(health),
       log_(log),
       ids_(arena, static_cast<std::size_t>(options.max_observations)),
       window_(arena.take<Index>(static_cast<std::size_t>(options.max_observations))) {}
@@ -52,7 +54,17 @@ void WholeBatchUpdate<Pose>::finish(EkfUpdate<Pose>& update, int iterations, Fil
     log_.say("update: the gate refused a batch of %td rows, distance %g over %g", update.batch().rows(), match.distance,
              match.threshold);
   }
+  finish_report(update.batch().rows());
+}
+
+template <class Pose>
+void WholeBatchUpdate<Pose>::finish_report(Index rows) {
+  const Match& match = report_.match(0);
+  const double distance = match.distance;
+  const bool refused = match.decision != Decision::matched;
   report_.finish();
+  if (report_.last().widened()) health_.widened(report_.last().widened_position);
+  health_.fixed(rows, distance, refused);
 }
 
 // Whether the motion has to be widened because of this fix, of a vehicle at `pose`.
@@ -70,15 +82,16 @@ bool WholeBatchUpdate<Pose>::contradicted(MotionTrust<Pose>& trust, const Absolu
 }
 
 template <class Pose>
-void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& fix) {
+void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& given) {
   report_.start(1);
-  if (!fix.defined(submaps_.pose())) {
+  const std::optional<AbsoluteFix<Pose>> fix = given.usable(submaps_.pose(), submaps_.pose_covariance());
+  if (!fix) {
     report_.match(0).reason = Reason::no_image;
-    log_.say("update: no heading, because the body's x axis is too close to the vertical");
+    log_.say("update: no heading, because the body's x axis may be vertical");
     return report_.finish();
   }
-  if (submaps_.map() != nullptr) return fix_map(fix);
-  return fix_single(fix);
+  if (submaps_.map() != nullptr) return fix_map(*fix);
+  return fix_single(*fix);
 }
 
 template <class Pose>
@@ -154,7 +167,7 @@ void WholeBatchUpdate<Pose>::fix_map(const AbsoluteFix<Pose>& fix) {
     match.reason = Reason::gate;
     log_.say("update: the gate refused a fix, distance %g over %g", match.distance, match.threshold);
   }
-  report_.finish();
+  finish_report(fix.rows());
 }
 
 template <class Pose>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/id_table.hpp"
+#include "health/health_monitor.hpp"
 #include "sensor/absolute_fix.hpp"
 #include "slam/frame_report.hpp"
 #include "slam/motion_trust.hpp"
@@ -20,9 +21,10 @@ class WholeBatchUpdate {
   using Square = typename Pose::Square;
 
   WholeBatchUpdate(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map, SubmapKeeper<Pose>& submaps,
-                   const Thresholds& thresholds, MotionTrust<Pose>& trust, FrameReport& report, const Log& log);
+                   const Thresholds& thresholds, MotionTrust<Pose>& trust, FrameReport& report,
+                   HealthMonitor<Pose>& health, const Log& log);
 
-  void fix(const AbsoluteFix<Pose>& fix);
+  void fix(const AbsoluteFix<Pose>& given);
   void rows(const LinearRows& rows);
   // If the gate accepts that two landmarks are one, `other` is removed.
   void merge(std::uint64_t id, std::uint64_t other);
@@ -33,9 +35,12 @@ class WholeBatchUpdate {
   void test(EkfUpdate<Pose>& update, Index rows, std::uint64_t landmark, Fill&& fill);
   template <class Fill>
   void finish(EkfUpdate<Pose>& update, int iterations, Fill&& fill);
-  bool accepted() { return report_.match(0).distance <= report_.match(0).threshold; }
+  bool accepted() {
+    return report_.match(0).distance <= std::min(report_.match(0).threshold, kAbsurdDistance);
+  }
   void fix_single(const AbsoluteFix<Pose>& fix);
   void fix_map(const AbsoluteFix<Pose>& fix);
+  void finish_report(Index rows);
   FixReport try_fix(const AbsoluteFix<Pose>& fix);
   bool contradicted(MotionTrust<Pose>& trust, const AbsoluteFix<Pose>& fix, const Pose& pose, const Square& covariance,
                     bool accepted, Square& widening);
@@ -49,6 +54,7 @@ class WholeBatchUpdate {
   MotionTrust<Pose>& trust_;
   MotionTrust<Pose> trust_in_map_;  // of fixes, beside submaps
   FrameReport& report_;
+  HealthMonitor<Pose>& health_;
   const Log& log_;
   IdTable ids_;    // of the landmarks that the caller's rows depend on
   Index* window_;  // slots

@@ -34,11 +34,15 @@ class Cooperation {
   virtual void add(std::uint64_t /*vehicle*/) {}  // its start pose is unknown
   virtual void add(std::uint64_t /*vehicle*/, const SE2& /*start*/, const Matrix3& /*covariance*/) {}
   // A teammate's motion was missed, or the teammate left: its pose is unknown.
-  virtual void lose_sight(std::uint64_t /*vehicle*/) {}
+  virtual void lose_sight(std::uint64_t /*vehicle*/) noexcept {}
 
   // --- packets --- Takes the packets of one time, ordered by the vehicles' numbers. Refusals by a filter are counted;
-  // own_error() returns the refusal of this vehicle's own packet.
-  void take(std::vector<Packet>& packets);
+  // own_error() returns the refusal of this vehicle's own packet. Allocates nothing, except for the closing of a
+  // submap: returns false if memory ran out in one. Then resume() goes on there, with the same packets.
+  bool take(std::vector<Packet>& packets) noexcept;
+  bool resume(std::vector<Packet>& packets) noexcept { return take_turn(packets); }
+  // How many of the packets were taken, while a turn is not finished.
+  virtual std::size_t taken() const { return 0; }
   void forget_own_error() { own_error_.reset(); }
   const std::optional<Error>& own_error() const { return own_error_; }
 
@@ -50,9 +54,9 @@ class Cooperation {
   const ScanCounts& counts() const { return counts_; }
 
  protected:
-  explicit Cooperation(const TeamOptions& options) : options_(options) {}
+  explicit Cooperation(const TeamOptions& options);
 
-  virtual void take_turn(std::vector<Packet>& packets) = 0;
+  virtual bool take_turn(std::vector<Packet>& packets) noexcept = 0;
 
   const TeamOptions& options() const { return options_; }
   bool is_own(const Packet& packet) const { return packet.vehicle == options_.mail.vehicle; }
@@ -60,15 +64,14 @@ class Cooperation {
   // Moves the filter's vehicle by the motions of the packet.
   void move(Filter<SE2>& filter, const Packet& packet);
   // Updates the filter by a scan; the matches of an own scan are kept.
-  void scan(VehicleFilter& filter, int sensor, const std::vector<Observation>& landmarks,
-            const std::vector<Observation>& vehicles, bool own);
+  void scan(VehicleFilter& filter, int sensor, const Scan& scan, bool own);
   // Moves and scans with this vehicle's radar.
   void move_and_scan(VehicleFilter& filter, const Packet& packet);
   ScanCounts& tally() { return counts_; }
 
   // A refusal of this vehicle's packet is reported to the caller; a refusal of a teammate's packet is only counted.
   template <class Function>
-  bool attempt(bool own, Function&& function) {
+  bool attempt(bool own, Function&& function) noexcept {
     try {
       function();
       return true;

@@ -11,12 +11,13 @@ ExtendedMode::ExtendedMode(const TeamOptions& options)
       own_(options.filter, options.mail.vehicle, options.radar),
       extended_sensor_(own_.filter().add(ExtendedObservation(options.radar, {}, full_))) {}
 
-void ExtendedMode::take_turn(std::vector<Packet>& packets) {
+bool ExtendedMode::take_turn(std::vector<Packet>& packets) noexcept {
   const Packet* own = own_packet(packets);
-  if (own == nullptr) return;
+  if (own == nullptr) return true;
   move_and_scan(own_, *own);
   for (const Packet& packet : packets)
     if (!is_own(packet) && !packet.landmarks.empty()) take_teammate(*own, packet);
+  return true;
 }
 
 void ExtendedMode::take_teammate(const Packet& own, const Packet& teammate) {
@@ -31,7 +32,7 @@ void ExtendedMode::take_teammate(const Packet& own, const Packet& teammate) {
       mutual_sighting(*there, sighting_noise(*there, radar), *back, sighting_noise(*back, radar), full_);
   seen.covariance *= options().filter.error_persistence;
   own_.filter().set_sighting(extended_sensor_, seen);
-  scan(own_, extended_sensor_, teammate.landmarks, {}, false);
+  scan(own_, extended_sensor_, Scan(teammate.landmarks), false);
   tally().sightings_used += 2;
 }
 

@@ -14,7 +14,7 @@ class ExtendedMode final : public Cooperation {
   const Filter<SE2>& filter() const override { return own_.filter(); }
 
  private:
-  void take_turn(std::vector<Packet>& packets) override;
+  bool take_turn(std::vector<Packet>& packets) noexcept override;
   void take_teammate(const Packet& own, const Packet& teammate);
 
   bool full_;  // with the noise that all observations of a scan share through the sighting

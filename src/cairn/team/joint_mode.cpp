@@ -2,7 +2,7 @@
 #include "team/joint_mode.hpp"
 
 #include <algorithm>
-#include <unordered_map>
+#include <limits>
 
 #include "team/sighting.hpp"
 
@@ -19,58 +19,59 @@ FilterOptions<SE2> with_companions(const TeamOptions& options) {
 // with the range, and with it the error of the first linearisation.
 class NearestObservers {
  public:
-  NearestObservers(const Filter<SE2>& filter, const std::vector<Packet>& packets) : filter_(filter) {
-    if (packets.size() < 2 || filter.options().association != AssociationKind::known) return;
-    std::size_t unused = 0;
-    for (const Packet& packet : packets)
-      for (const Observation& o : packet.landmarks)
-        if (!filter.local_landmarks().find(o.id, unused)) {
-          const auto entry = nearest_.emplace(o.id, Observer{o.z[0], packet.vehicle}).first;
-          if (o.z[0] < entry->second.range) entry->second = {o.z[0], packet.vehicle};
-        }
-  }
+  NearestObservers(const Filter<SE2>& filter, const std::vector<Packet>& packets)
+      : filter_(filter),
+        packets_(packets),
+        used_(packets.size() >= 2 && filter.options().association == AssociationKind::known) {}
 
-  // Moves observations out of the packet if they have to wait until the nearest vehicle has placed the landmark.
-  std::vector<Observation> defer(Packet& packet) const {
-    std::vector<Observation> deferred;
-    if (nearest_.empty()) return deferred;
-    std::size_t unused = 0;
-    const auto waits = [&](const Observation& o) {
-      const auto entry = nearest_.find(o.id);
-      return entry != nearest_.end() && entry->second.vehicle != packet.vehicle &&
-             !filter_.local_landmarks().find(o.id, unused);
-    };
-    std::copy_if(packet.landmarks.begin(), packet.landmarks.end(), std::back_inserter(deferred), waits);
-    packet.landmarks.erase(std::remove_if(packet.landmarks.begin(), packet.landmarks.end(), waits),
-                           packet.landmarks.end());
-    return deferred;
+  // Moves observations to the end of the packet's landmarks if they have to wait until the nearest vehicle has placed
+  // the landmark, and returns the number of the others. Turns allocate nothing: each observation searches the packets.
+  std::size_t defer(Packet& packet) const {
+    std::vector<Observation>& landmarks = packet.landmarks;
+    if (!used_) return landmarks.size();
+    const auto stays = [&](const Observation& o) { return !waits(o, packet.vehicle); };
+    return static_cast<std::size_t>(std::stable_partition(landmarks.begin(), landmarks.end(), stays) -
+                                    landmarks.begin());
   }
 
  private:
-  struct Observer {
-    double range;
-    std::uint64_t vehicle;
-  };
+  bool waits(const Observation& o, std::uint64_t vehicle) const {
+    std::size_t unused = 0;
+    if (filter_.local_landmarks().find(o.id, unused)) return false;
+    double range = std::numeric_limits<double>::infinity();
+    std::uint64_t nearest = vehicle;
+    for (const Packet& packet : packets_)
+      for (const Observation& other : packet.landmarks)
+        if (other.id == o.id && other.z[0] < range) {
+          range = other.z[0];
+          nearest = packet.vehicle;
+        }
+    return nearest != vehicle;
+  }
+
   const Filter<SE2>& filter_;
-  std::unordered_map<std::uint64_t, Observer> nearest_;  // by landmark; new ones only
+  const std::vector<Packet>& packets_;
+  bool used_;
 };
 
 }  // namespace
 
 JointMode::JointMode(const TeamOptions& options)
-    : Cooperation(options), team_(with_companions(options), options.mail.vehicle, options.radar) {}
+    : Cooperation(options),
+      team_(with_companions(options), options.mail.vehicle, options.radar),
+      at_once_(options.mail.max_vehicles) {}
 
 void JointMode::add(std::uint64_t vehicle, const SE2& start, const Matrix3& covariance) {
   team_.filter().add_vehicle(vehicle, start, covariance);
 }
 
-void JointMode::lose_sight(std::uint64_t vehicle) {
+void JointMode::lose_sight(std::uint64_t vehicle) noexcept {
   if (!team_.filter().has_vehicle(vehicle)) return;
   team_.filter().look_from(options().mail.vehicle);
   team_.filter().remove_vehicle(vehicle);
 }
 
-void JointMode::take_turn(std::vector<Packet>& packets) {
+bool JointMode::take_turn(std::vector<Packet>& packets) noexcept {
   Filter<SE2>& filter = team_.filter();
   move_all(packets);
   find_teammates(packets);
@@ -79,20 +80,24 @@ void JointMode::take_turn(std::vector<Packet>& packets) {
                 packets.end());
 
   const NearestObservers observers(filter, packets);
-  std::vector<std::vector<Observation>> deferred(packets.size());
+  const auto most = static_cast<std::size_t>(options().filter.max_observations);  // the filter refuses larger scans
   for (std::size_t t = packets.size(); t-- > 0;) {  // the last vehicle is already the active one
     Packet& packet = packets[t];
-    const std::vector<Observation> vehicles = usable_sightings(packet, packets);
-    deferred[t] = observers.defer(packet);
-    if (packet.landmarks.empty() && vehicles.empty()) continue;
+    drop_unusable_sightings(packet, packets);
+    const std::size_t now = most >= packet.landmarks.size() ? observers.defer(packet) : packet.landmarks.size();
+    at_once_[t] = now;
+    if (now == 0 && packet.vehicles.empty()) continue;
     filter.look_from(packet.vehicle);
-    scan(team_, kRadarSensor, packet.landmarks, vehicles, is_own(packet));
+    scan(team_, kRadarSensor, Scan(packet.landmarks.data(), now, packet.vehicles), is_own(packet));
   }
   for (std::size_t t = 0; t < packets.size(); ++t) {
-    if (deferred[t].empty()) continue;
+    const std::vector<Observation>& landmarks = packets[t].landmarks;
+    if (at_once_[t] == landmarks.size()) continue;
     filter.look_from(packets[t].vehicle);
-    scan(team_, kRadarSensor, deferred[t], {}, is_own(packets[t]));
+    scan(team_, kRadarSensor, Scan(landmarks.data() + at_once_[t], landmarks.size() - at_once_[t], {}),
+         is_own(packets[t]));
   }
+  return true;
 }
 
 void JointMode::move_all(const std::vector<Packet>& packets) {
@@ -106,17 +111,13 @@ void JointMode::move_all(const std::vector<Packet>& packets) {
 
 // Sightings of vehicles that have no packet of this time are refused: the poses of these vehicles at this time are
 // unknown.
-std::vector<Observation> JointMode::usable_sightings(const Packet& packet, const std::vector<Packet>& packets) {
-  std::vector<Observation> usable;
-  for (const Observation& o : packet.vehicles) {
-    const bool here =
-        std::any_of(packets.begin(), packets.end(), [&](const Packet& other) { return other.vehicle == o.id; });
-    if (here)
-      usable.push_back(o);
-    else
-      ++tally().sightings_refused;
-  }
-  return usable;
+void JointMode::drop_unusable_sightings(Packet& packet, const std::vector<Packet>& packets) {
+  const auto absent = [&](const Observation& o) {
+    return std::none_of(packets.begin(), packets.end(), [&](const Packet& other) { return other.vehicle == o.id; });
+  };
+  const auto unusable = std::remove_if(packet.vehicles.begin(), packet.vehicles.end(), absent);
+  tally().sightings_refused += static_cast<std::uint64_t>(packet.vehicles.end() - unusable);
+  packet.vehicles.erase(unusable, packet.vehicles.end());
 }
 
 // Teammates whose pose is not known are placed by mutual sightings with vehicles whose pose is known.

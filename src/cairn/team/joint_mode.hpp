@@ -13,17 +13,18 @@ class JointMode final : public Cooperation {
 
   using Cooperation::add;  // a teammate without a start is placed by a mutual sighting
   void add(std::uint64_t vehicle, const SE2& start, const Matrix3& covariance) override;
-  void lose_sight(std::uint64_t vehicle) override;
+  void lose_sight(std::uint64_t vehicle) noexcept override;
   const Filter<SE2>& filter() const override { return team_.filter(); }
 
  private:
-  void take_turn(std::vector<Packet>& packets) override;
+  bool take_turn(std::vector<Packet>& packets) noexcept override;
   void move_all(const std::vector<Packet>& packets);
   void find_teammates(std::vector<Packet>& packets);
   bool find_teammate(Packet& lost, Packet& from);
-  std::vector<Observation> usable_sightings(const Packet& packet, const std::vector<Packet>& packets);
+  void drop_unusable_sightings(Packet& packet, const std::vector<Packet>& packets);
 
   VehicleFilter team_;
+  std::vector<std::size_t> at_once_;  // by packet of the turn: landmarks that do not wait; the others follow them
 };
 
 }  // namespace cairn

@@ -2,6 +2,7 @@
 #include "team/mailbox.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/error.hpp"
@@ -18,7 +19,9 @@ void check_names(const std::vector<Observation>& observations, const char* what)
 
 }  // namespace
 
-Mailbox::Mailbox(const MailboxOptions& options) : options_(options), history_(options.history) {
+Mailbox::Mailbox(const MailboxOptions& options)
+    : options_(options), history_(options.history), outbox_(options.max_vehicles) {
+  turns_.reserve(options.max_vehicles);
   add(options.vehicle);
 }
 
@@ -37,8 +40,8 @@ void Mailbox::add(std::uint64_t vehicle) {
     throw Error(ErrorCode::argument, "vehicle: %llu is already in the team", static_cast<unsigned long long>(vehicle));
   if (members_.size() == options_.max_vehicles)
     throw Error(ErrorCode::capacity, "vehicle: the team has max_vehicles = %zu already", options_.max_vehicles);
-  const auto former = former_.find(vehicle);
-  members_.emplace_back(former != former_.end() ? former->second : Member(vehicle));
+  const auto former = std::find_if(former_.begin(), former_.end(), [&](const Member& m) { return m.id() == vehicle; });
+  members_.push_back(former != former_.end() ? *former : Member(vehicle));
   members_.back().rejoin();
 }
 
@@ -51,8 +54,8 @@ void Mailbox::remove(std::uint64_t vehicle) {
     throw Error(ErrorCode::argument,
                 "vehicle: %llu is this vehicle itself, which cannot be removed; use cairn_team_leave to leave the team",
                 static_cast<unsigned long long>(vehicle));
+  member->forget_waiting();
   drop(member);
-  former_.at(vehicle).forget_waiting();
 }
 
 std::vector<std::uint64_t> Mailbox::members() const {
@@ -61,17 +64,22 @@ std::vector<std::uint64_t> Mailbox::members() const {
   return ids;
 }
 
-void Mailbox::drop(std::deque<Member>::iterator member) {
-  former_.insert_or_assign(member->id(), std::move(*member));
-  members_.erase(member);
+void Mailbox::drop(std::list<Member>::iterator member) noexcept {
+  const std::uint64_t id = member->id();
+  former_.remove_if([&](const Member& former) { return former.id() == id; });
+  former_.splice(former_.end(), members_, member);
+  outbox_.forget_request(id);
 }
 
 // --- this vehicle ---
 
 void Mailbox::move(const Increment<SE2>& increment) {
-  const SE2& T = increment.T_before_after;
-  if (!T.translation().allFinite() || !increment.covariance.allFinite())
-    throw Error(ErrorCode::numerical, "prediction: the motion is not finite; nothing was changed");
+  constexpr double kTurnSquared = 39.478417604357432;  // (2 pi)^2
+  if (!is_motion(increment) || increment.covariance(2, 2) > kTurnSquared)
+    throw Error(ErrorCode::numerical,
+                "prediction: a motion or its noise is not finite, longer than %g m or more than a whole turn; nothing "
+                "was changed",
+                kFarthest);
   if (pending_.size() == kMostOfPacket)
     throw Error(ErrorCode::capacity,
                 "prediction: %zu motions since the last observation are too many; call cairn_team_observe in between",
@@ -79,29 +87,56 @@ void Mailbox::move(const Increment<SE2>& increment) {
   pending_.push_back(increment);
 }
 
+// A clock that is wrong once must not lock all later steps out: a step far ahead is refused, unless a later call
+// confirms it.
+void Mailbox::check_time(double time) {
+  double known = -std::numeric_limits<double>::infinity();
+  if (looked()) {
+    if (!(time > newest_))
+      throw Error(ErrorCode::argument, "time: %g is in the past; the last scan was at %g", time, newest_);
+    known = newest_;
+  } else {
+    for (const Member& member : members_)
+      if (!member.empty()) known = std::max(known, member.waiting().rbegin()->second.time);
+  }
+  const bool far = std::isfinite(known) && time - known > options_.max_jump;
+  const bool confirmed = refused_time_ && time > *refused_time_ && time - *refused_time_ <= options_.max_jump;
+  if (!far || confirmed) return;
+  refused_time_ = time;
+  throw Error(ErrorCode::argument,
+              "time: %g is %g s after the last scan, and max_jump is %g s; if the clock is right, the next step will "
+              "be taken",
+              time, time - known, options_.max_jump);
+}
+
 void Mailbox::observe(double time, std::vector<Observation> landmarks, std::vector<Observation> vehicles) {
   if (left_) throw Error(ErrorCode::state, "team: the vehicle has left it; create another one to come back");
-  const bool first = !own().started() && own().empty();
-  if (!first && !(time > newest_))
-    throw Error(ErrorCode::argument, "time: %g is in the past; the last scan was at %g", time, newest_);
   check_names(landmarks, "observations");
   check_names(vehicles, "vehicles");
   for (const Observation& o : vehicles)
     if (o.id == options_.vehicle)
       throw Error(ErrorCode::argument, "vehicles: number %llu is this vehicle itself, which it cannot see",
                   static_cast<unsigned long long>(o.id));
+  check_time(time);
   Packet packet;
   packet.vehicle = options_.vehicle;
   packet.number = own().end();
   packet.time = time;
-  packet.motions = pending_;  // which are kept if sending fails
+  packet.motions = pending_;
   packet.landmarks = std::move(landmarks);
   packet.vehicles = std::move(vehicles);
-  send(packet);
+  const Bytes bytes = std::make_shared<const std::vector<std::uint8_t>>(encode(packet));
+  History::Entry sent(packet.number, bytes);
+  Member::Entry step(std::move(packet));
+  outbox_.make_room(1);
+
+  outbox_.push(step.packet().number, bytes);
+  history_.keep(std::move(sent));
+  own().append(std::move(step));
   ++counts_.sent;
   pending_.clear();
+  refused_time_.reset();
   newest_ = time;
-  own().append(std::move(packet));
 }
 
 void Mailbox::leave() {
@@ -111,20 +146,19 @@ void Mailbox::leave() {
   packet.vehicle = options_.vehicle;
   packet.number = own().end();
   packet.time = newest_;
-  send(packet);
+  const Bytes bytes = std::make_shared<const std::vector<std::uint8_t>>(encode(packet));
+  History::Entry sent(packet.number, bytes);
+  outbox_.make_room(1);
+
+  outbox_.push(packet.number, bytes);
+  history_.keep(std::move(sent));
   left_ = true;
 }
 
 // --- packets to be sent ---
 
-void Mailbox::send(const Packet& packet) {
-  std::vector<std::uint8_t> bytes = encode(packet);
-  if (packet.kind != PacketKind::request) history_.keep(packet.number, bytes);
-  outgoing_.push_back(std::move(bytes));
-}
-
 // Requests the packets of a gap, and those that a silent teammate may have sent since its last one.
-void Mailbox::ask() {
+void Mailbox::ask() noexcept {
   if (!options_.listens) return;
   for (const Member& member : members_) {
     if (is_own(member) || member.ready()) continue;
@@ -136,12 +170,11 @@ void Mailbox::ask() {
     request.subject = member.id();
     request.first = member.next();
     request.count = gap ? member.gap() : 0;
-    send(request);
-    ++counts_.requested;
+    counts_.requested += outbox_.request(request);
   }
 }
 
-void Mailbox::ask_if_missing() {
+void Mailbox::ask_if_missing() noexcept {
   const bool gap = std::any_of(members_.begin(), members_.end(),
                                [&](const Member& member) { return !is_own(member) && member.has_gap(); });
   if (gap || own().size() > 1) ask();
@@ -149,7 +182,7 @@ void Mailbox::ask_if_missing() {
 
 // --- packets that arrive ---
 
-Arrival Mailbox::count(Arrival arrival) {
+Arrival Mailbox::count(Arrival arrival) noexcept {
   switch (arrival) {
     case Arrival::repeated:
       ++counts_.repeated;
@@ -162,6 +195,9 @@ Arrival Mailbox::count(Arrival arrival) {
       break;
     case Arrival::past:
       ++counts_.past;
+      break;
+    case Arrival::ahead:
+      ++counts_.ahead;
       break;
     case Arrival::conflict:
       ++counts_.conflict;
@@ -183,41 +219,45 @@ Arrival Mailbox::count(Arrival arrival) {
 }
 
 Arrival Mailbox::receive(const std::uint8_t* bytes, std::size_t size, PacketFault& fault, PacketName& name) {
-  ++counts_.received;
   Packet packet;
   fault = decode(bytes, size, packet);
   const auto nameless = [](const Observation& o) { return o.id == kNoId; };
   if (fault == PacketFault::none && options_.named &&
       std::any_of(packet.landmarks.begin(), packet.landmarks.end(), nameless))
     fault = PacketFault::content;
+  if (fault == PacketFault::none && packet.kind == PacketKind::request) {
+    if (packet.subject == options_.vehicle) outbox_.make_room(History::kMostResent);
+    ++counts_.received;
+    return count(answer(packet));
+  }
+  name = {packet.vehicle, packet.number, packet.kind};
+  Member::Entry arrived(std::move(packet));
+
+  ++counts_.received;
   if (fault != PacketFault::none) {
     ++counts_.faulty[static_cast<int>(fault)];
     return Arrival::refused;
   }
-  if (packet.kind == PacketKind::request) return count(answer(packet));
-  if (packet.vehicle == options_.vehicle)  // a transport's echo, or another vehicle with this vehicle's number
-    return count(history_.holds(packet.number, bytes, size) ? Arrival::own : Arrival::conflict);
-  if (find(packet.vehicle) == nullptr) return count(Arrival::unknown);
+  if (name.vehicle == options_.vehicle)  // a transport's echo, or another vehicle with this vehicle's number
+    return count(history_.holds(name.number, bytes, size) ? Arrival::own : Arrival::conflict);
+  Member* const member = find(name.vehicle);
+  if (member == nullptr) return count(Arrival::unknown);
   if (!options_.listens) return count(Arrival::ignored);
-  name = {packet.vehicle, packet.number, packet.kind};
-  return count(store(std::move(packet)));
-}
-
-Arrival Mailbox::answer(const Packet& request) {
-  if (request.subject != options_.vehicle || find(request.vehicle) == nullptr) return Arrival::ignored;
-  for (const std::vector<std::uint8_t>* bytes : history_.range(request.first, request.count)) {
-    outgoing_.push_back(*bytes);
-    ++counts_.resent;
-  }
-  return Arrival::request;
-}
-
-Arrival Mailbox::store(Packet&& packet) {
   bool late = false;
-  Member& member = *find(packet.vehicle);
-  const Arrival arrival = member.insert(std::move(packet), options_.max_waiting, late);
+  const WaitingLimits limits = {options_.max_waiting, options_.max_jump, looked() ? &newest_ : nullptr};
+  const Arrival arrival = member->insert(std::move(arrived), limits, late);
   if (late) ++counts_.reordered;
-  return arrival;
+  return count(arrival);
+}
+
+Arrival Mailbox::answer(const Packet& request) noexcept {
+  if (request.subject != options_.vehicle || find(request.vehicle) == nullptr) return Arrival::ignored;
+  history_.for_each_absent(request.first, request.count, [&](std::uint64_t number, History::Sent& sent) {
+    outbox_.push(number, sent.bytes);
+    sent.waits = true;
+    ++counts_.resent;
+  });
+  return Arrival::request;
 }
 
 Arrival Mailbox::outcome(const PacketName& name) {
@@ -229,7 +269,7 @@ Arrival Mailbox::outcome(const PacketName& name) {
 
 // --- turns ---
 
-Mailbox::Readiness Mailbox::readiness(Member& member) {
+Mailbox::Readiness Mailbox::readiness(Member& member) noexcept {
   if (!is_own(member) && !options_.listens) return Readiness::idle;
   if (member.ready()) return Readiness::ready;
   if (is_own(member)) return Readiness::idle;
@@ -241,7 +281,7 @@ Mailbox::Readiness Mailbox::readiness(Member& member) {
   return newest_ - since > options_.max_lag ? Readiness::idle : Readiness::awaited;
 }
 
-std::optional<std::uint64_t> Mailbox::skip_overdue_gap() {
+std::optional<std::uint64_t> Mailbox::skip_overdue_gap() noexcept {
   for (Member& member : members_) {
     const Readiness state = readiness(member);
     if (state == Readiness::awaited) return std::nullopt;
@@ -253,7 +293,7 @@ std::optional<std::uint64_t> Mailbox::skip_overdue_gap() {
   return std::nullopt;
 }
 
-bool Mailbox::next_turn(std::vector<Packet>& packets) {
+bool Mailbox::next_turn(std::vector<Packet>& packets) noexcept {
   packets.clear();
   double earliest = std::numeric_limits<double>::infinity();
   for (Member& member : members_) {
@@ -264,15 +304,13 @@ bool Mailbox::next_turn(std::vector<Packet>& packets) {
   if (earliest == std::numeric_limits<double>::infinity()) return false;
   // A teammate that is ahead waits for this vehicle's step, just as this vehicle's step waits for the teammate at every
   // other vehicle: otherwise the vehicles would take the packets in different orders.
-  const bool looked = own().started() || !own().empty();
-  if (options_.listens && !left_ && !(looked && earliest <= newest_ + options_.time_tolerance)) return false;
+  if (options_.listens && !left_ && !(looked() && earliest <= newest_ + options_.time_tolerance)) return false;
 
-  std::vector<Member*> turns;
+  turns_.clear();
   for (Member& member : members_)
-    if (member.ready() && !(member.first().time > earliest + options_.time_tolerance)) turns.push_back(&member);
-  std::sort(turns.begin(), turns.end(), [](const Member* a, const Member* b) { return a->id() < b->id(); });
-  packets.reserve(turns.size());
-  for (Member* member : turns) {  // consumed, even if the packet is refused
+    if (member.ready() && !(member.first().time > earliest + options_.time_tolerance)) turns_.push_back(&member);
+  std::sort(turns_.begin(), turns_.end(), [](const Member* a, const Member* b) { return a->id() < b->id(); });
+  for (Member* member : turns_) {  // consumed, even if the packet is refused
     Packet packet = member->consume();
     if (!is_own(*member)) ++counts_.taken;
     if (packet.kind != PacketKind::leave) packets.push_back(std::move(packet));
@@ -280,7 +318,7 @@ bool Mailbox::next_turn(std::vector<Packet>& packets) {
   return true;
 }
 
-std::optional<std::uint64_t> Mailbox::remove_departed() {
+std::optional<std::uint64_t> Mailbox::remove_departed() noexcept {
   const auto member = std::find_if(members_.begin(), members_.end(), [](const Member& m) { return m.left(); });
   if (member == members_.end()) return std::nullopt;
   const std::uint64_t id = member->id();

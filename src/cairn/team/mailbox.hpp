@@ -4,14 +4,14 @@
 // filters.
 #pragma once
 
-#include <deque>
-#include <map>
+#include <list>
 #include <optional>
 #include <vector>
 
 #include "team/history.hpp"
 #include "team/mailbox_options.hpp"
 #include "team/member.hpp"
+#include "team/outbox.hpp"
 #include "team/packet.hpp"
 
 namespace cairn {
@@ -19,8 +19,8 @@ namespace cairn {
 struct MailCounts {
   std::uint64_t sent = 0, resent = 0, requested = 0;
   // Packets that arrived, by what became of them; `faulty` by PacketFault.
-  std::uint64_t received = 0, taken = 0, reordered = 0, repeated = 0, own = 0, unknown = 0, past = 0, conflict = 0,
-                ignored = 0, full = 0, faulty[6] = {};
+  std::uint64_t received = 0, taken = 0, reordered = 0, repeated = 0, own = 0, unknown = 0, past = 0, ahead = 0,
+                conflict = 0, ignored = 0, full = 0, faulty[6] = {};
   std::uint64_t lost = 0;  // packets that were given up after max_lag
 };
 
@@ -34,9 +34,11 @@ class Mailbox {
  public:
   explicit Mailbox(const MailboxOptions& options);
 
+  // Everything that allocates comes before the first change of a call. Turns and requests allocate nothing.
+
   // --- members --- each throws with nothing changed
   void add(std::uint64_t vehicle);
-  void undo_add() { members_.pop_back(); }  // of the member that was added last, before anything else happened
+  void undo_add() noexcept { members_.pop_back(); }  // of the member that was added last, before anything else happened
   void remove(std::uint64_t vehicle);
   std::vector<std::uint64_t> members() const;  // this vehicle first
 
@@ -56,27 +58,27 @@ class Mailbox {
 
   // --- packets to be sent ---
   // The next one; null if there is none.
-  const std::vector<std::uint8_t>* next_packet() const { return outgoing_.empty() ? nullptr : &outgoing_.front(); }
-  void drop_packet() { outgoing_.pop_front(); }
-  void ask();             // for all packets that are missing
-  void ask_if_missing();  // the same, but only if a gap or a waiting own step shows that something is missing
+  const std::vector<std::uint8_t>* next_packet() const { return outbox_.next(); }
+  void drop_packet() noexcept { outbox_.drop(history_); }
+  void ask() noexcept;             // for all packets that are missing
+  void ask_if_missing() noexcept;  // the same, but only if a gap or a waiting own step shows that something is missing
 
   // --- packets that arrive ---
   // `waiting` if the packet was stored under `name`: then turns may be due, and outcome() returns the packet's
-  // outcome.
+  // outcome. Throws with nothing changed.
   Arrival receive(const std::uint8_t* bytes, std::size_t size, PacketFault& fault, PacketName& name);
   Arrival outcome(const PacketName& name);
 
   // --- turns ---
   // Gives up the packets of one teammate for which the mailbox waited in vain. Returns the teammate's number, or
   // nothing if no gap is overdue. To be called until it returns nothing, before next_turn().
-  std::optional<std::uint64_t> skip_overdue_gap();
+  std::optional<std::uint64_t> skip_overdue_gap() noexcept;
   // Moves the packets of the earliest time into `packets`, ordered by the vehicles' numbers, without farewells. Returns
-  // false if the mailbox has to wait for a teammate, or if no packet waits.
-  bool next_turn(std::vector<Packet>& packets);
+  // false if the mailbox has to wait for a teammate, or if no packet waits. `packets` has the capacity max_vehicles.
+  bool next_turn(std::vector<Packet>& packets) noexcept;
   // Removes one vehicle whose farewell was consumed. Returns its number, or nothing if there is none. To be called
   // until it returns nothing, after each turn.
-  std::optional<std::uint64_t> remove_departed();
+  std::optional<std::uint64_t> remove_departed() noexcept;
 
   const MailCounts& counts() const { return counts_; }
 
@@ -89,21 +91,23 @@ class Mailbox {
   Member& own() { return members_.front(); }
   const Member& own() const { return members_.front(); }
   bool is_own(const Member& member) const { return &member == &members_.front(); }
-  void drop(std::deque<Member>::iterator member);
-  Readiness readiness(Member& member);
-  void send(const Packet& packet);
-  Arrival count(Arrival arrival);
-  Arrival answer(const Packet& request);
-  Arrival store(Packet&& packet);
+  void drop(std::list<Member>::iterator member) noexcept;
+  Readiness readiness(Member& member) noexcept;
+  bool looked() const { return own().started() || !own().empty(); }  // this vehicle made a step
+  void check_time(double time);
+  Arrival count(Arrival arrival) noexcept;
+  Arrival answer(const Packet& request) noexcept;
 
   MailboxOptions options_;
-  std::deque<Member> members_;              // this vehicle first
-  std::map<std::uint64_t, Member> former_;  // removed or left: packets that were consumed once are not taken again
-  std::vector<Increment<SE2>> pending_;     // own motions since the last packet
-  double newest_ = 0.0;                     // time of the newest own step
-  bool left_ = false;                       // this vehicle sent its farewell
-  History history_;                         // own packets
-  std::deque<std::vector<std::uint8_t>> outgoing_;  // packets to be sent
+  std::list<Member> members_;            // this vehicle first
+  std::list<Member> former_;             // removed or left: packets that were consumed once are not taken again
+  std::vector<Member*> turns_;           // scratch
+  std::vector<Increment<SE2>> pending_;  // own motions since the last packet
+  double newest_ = 0.0;                  // time of the newest own step
+  std::optional<double> refused_time_;   // of an own step that came too far ahead
+  bool left_ = false;                    // this vehicle sent its farewell
+  History history_;                      // own packets
+  Outbox outbox_;
   MailCounts counts_;
 };
 

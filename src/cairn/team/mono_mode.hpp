@@ -14,8 +14,9 @@ class MonoMode final : public Cooperation {
   const Filter<SE2>& filter() const override { return own_.filter(); }
 
  private:
-  void take_turn(std::vector<Packet>& packets) override {
+  bool take_turn(std::vector<Packet>& packets) noexcept override {
     if (const Packet* own = own_packet(packets)) move_and_scan(own_, *own);
+    return true;
   }
 
   VehicleFilter own_;

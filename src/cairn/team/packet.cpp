@@ -16,7 +16,11 @@ constexpr std::size_t kHeader = 4 + 2 + 2 + 4, kChecksum = 4;
 
 class Writer {
  public:
-  void bytes(const std::uint8_t* from, std::size_t count) { out_.insert(out_.end(), from, from + count); }
+  explicit Writer(std::vector<std::uint8_t>& out) : out_(out) { out_.clear(); }
+
+  void bytes(const std::uint8_t* from, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) out_.push_back(from[i]);
+  }
   template <class Number>
   void number(Number value) {
     for (std::size_t i = 0; i < sizeof value; ++i)
@@ -30,7 +34,7 @@ class Writer {
   std::vector<std::uint8_t>& out() { return out_; }
 
  private:
-  std::vector<std::uint8_t> out_;
+  std::vector<std::uint8_t>& out_;
 };
 
 class Reader {
@@ -115,27 +119,40 @@ bool is_covariance(const Eigen::Matrix<double, n, n>& C, bool semi) {
   return positive_definite(C.data(), n, semi ? kDefiniteSlack : 0.0, L);
 }
 
+bool is_noise(const Matrix2& C) {
+  for (int k = 0; k < 2; ++k)
+    if (!(C(k, k) >= kLeastVariance && C(k, k) <= kLargestVariance)) return false;
+  return is_covariance<2>(C, false);
+}
+
 bool is_sensible(const std::vector<Observation>& sights) {
   for (const Observation& o : sights) {
     if (!(o.z[0] >= 0.0)) return false;
     const Matrix2 C = Eigen::Map<const Matrix2>(o.covariance);
-    if (!C.isZero(0.0) && !is_covariance<2>(C, false)) return false;
+    if (!C.isZero(0.0) && !is_noise(C)) return false;
   }
   std::uint64_t unused = 0;
   return !named_twice(sights, unused);
 }
 
 bool is_sensible(const Packet& packet) {
-  for (const Increment<SE2>& motion : packet.motions) {
-    const double turned = motion.T_before_after.rotation().matrix().col(0).squaredNorm();
-    if (!(std::abs(turned - 1.0) < 1e-9) || !is_covariance<3>(motion.covariance, true)) return false;
-  }
+  for (const Increment<SE2>& motion : packet.motions)
+    if (!is_motion(motion)) return false;
   for (const Observation& o : packet.vehicles)
     if (o.id == packet.vehicle || o.id == kNoId) return false;
   return is_sensible(packet.landmarks) && is_sensible(packet.vehicles);
 }
 
 }  // namespace
+
+bool is_motion(const Increment<SE2>& motion) {
+  const SE2& T = motion.T_before_after;
+  const Matrix3& C = motion.covariance;
+  const double turned = T.rotation().matrix().col(0).squaredNorm();
+  return std::abs(turned - 1.0) < 1e-9 && T.translation().cwiseAbs().maxCoeff() <= kFarthest &&
+         C.diagonal().head<2>().maxCoeff() <= kFarthest * kFarthest && C(2, 2) <= kLargestTurn * kLargestTurn &&
+         is_covariance<3>(C, true);
+}
 
 bool named_twice(const std::vector<Observation>& observations, std::uint64_t& name) {
   std::vector<std::uint64_t> ids;
@@ -162,8 +179,8 @@ std::uint32_t crc32(const std::uint8_t* bytes, std::size_t size) {
   return ~crc;
 }
 
-std::vector<std::uint8_t> encode(const Packet& packet) {
-  Writer to;
+void encode(const Packet& packet, std::vector<std::uint8_t>& out) {
+  Writer to(out);
   to.bytes(kMagic, sizeof kMagic);
   to.number(kPacketVersion);
   to.number(static_cast<std::uint16_t>(packet.kind));
@@ -186,7 +203,12 @@ std::vector<std::uint8_t> encode(const Packet& packet) {
   const auto size = static_cast<std::uint32_t>(to.out().size() + kChecksum);
   for (std::size_t i = 0; i < 4; ++i) to.out()[8 + i] = static_cast<std::uint8_t>(size >> (8 * i));
   to.number(crc32(to.out().data(), to.out().size()));
-  return to.out();
+}
+
+std::vector<std::uint8_t> encode(const Packet& packet) {
+  std::vector<std::uint8_t> out;
+  encode(packet, out);
+  return out;
 }
 
 PacketFault decode(const std::uint8_t* bytes, std::size_t size, Packet& packet) {

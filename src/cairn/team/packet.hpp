@@ -40,7 +40,19 @@ enum class PacketFault {
 
 constexpr std::uint16_t kPacketVersion = 1;
 constexpr std::size_t kMostOfPacket = 65535;  // motions in one packet; likewise landmarks, vehicles
+constexpr std::size_t kRequestSize = 64;      // bytes
 
+// Greater numbers are mistakes, not measurements. Inside these limits no product of a filter's numbers overflows. A
+// range may be any number: a range beyond kFarthest is no sighting, and only this sighting is not used.
+constexpr double kFarthest = 1e9;       // m, of a motion, of a sighting and of a motion's noise
+constexpr double kLargestTurn = 100.0;  // rad, of a motion's noise; a filter refuses less
+constexpr double kLeastVariance = 1e-100, kLargestVariance = 1e100;  // of a sighting
+
+// Whether a motion is one: finite, inside the limits, and its noise is a covariance.
+bool is_motion(const Increment<SE2>& motion);
+
+// The first writes into `out`; it allocates nothing if the capacity of `out` is large enough.
+void encode(const Packet& packet, std::vector<std::uint8_t>& out);
 std::vector<std::uint8_t> encode(const Packet& packet);
 // Writes `packet` only if the answer is `none`.
 PacketFault decode(const std::uint8_t* bytes, std::size_t size, Packet& packet);

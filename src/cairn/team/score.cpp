@@ -29,7 +29,7 @@ void Baseline::propagate(const Increment<SE2>& increment) {
 }
 
 void Baseline::observe(const std::vector<Observation>& landmarks) {
-  ignore_errors([&] { own_.update(kRadarSensor, landmarks, {}); });
+  ignore_errors([&] { own_.update(kRadarSensor, Scan(landmarks)); });
 }
 
 void Score::add(const Team& team, const Baseline* baseline, const SE2& truth) {

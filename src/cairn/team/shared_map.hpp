@@ -23,6 +23,11 @@ class SharedMap final : public GlobalMap<SE2> {
     map_.look_from(vehicle_);
     map_.base_joint_covariance(indices, count, matrix);
   }
+  Eigen::VectorXd errors() const override { return map_.errors(); }
+  Eigen::MatrixXd joint_with_errors(const std::size_t* indices, std::size_t count) const override {
+    map_.look_from(vehicle_);
+    return map_.joint_with_errors(indices, count);
+  }
   std::size_t submap_count() const override { return map_.submap_count(); }
   SE2 submap_base(std::size_t submap) const override { return map_.submap_base(submap); }
   const std::vector<std::uint64_t>& submap_ids(std::size_t submap) const override { return map_.submap_ids(submap); }

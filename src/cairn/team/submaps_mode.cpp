@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "team/submaps_mode.hpp"
 
+#include <new>
+
 namespace cairn {
 namespace {
 
@@ -29,12 +31,13 @@ void SubmapsMode::add(std::uint64_t /*vehicle*/) {
 }
 
 void SubmapsMode::add(std::uint64_t vehicle, const SE2& start, const Matrix3& covariance) {
-  auto made = make_filter(vehicle);
+  std::map<std::uint64_t, Teammate> made;
+  made.emplace(vehicle, Teammate{make_filter(vehicle), true});
   map_.add_vehicle(vehicle, start, covariance);
-  teammates_[vehicle] = {std::move(made), true};
+  teammates_.merge(made);
 }
 
-void SubmapsMode::lose_sight(std::uint64_t vehicle) {
+void SubmapsMode::lose_sight(std::uint64_t vehicle) noexcept {
   const auto teammate = teammates_.find(vehicle);
   if (teammate != teammates_.end()) teammate->second.in_sight = false;
 }
@@ -45,15 +48,39 @@ VehicleEstimate SubmapsMode::estimate(std::uint64_t vehicle) const {
   return {filter.vehicle_pose(vehicle), filter.vehicle_covariance(vehicle)};
 }
 
-void SubmapsMode::take_turn(std::vector<Packet>& packets) {
-  for (const Packet& packet : packets) {
-    if (is_own(packet)) {
-      move_and_scan(*own_, packet);
-      continue;
-    }
-    const auto teammate = teammates_.find(packet.vehicle);
-    if (teammate != teammates_.end() && teammate->second.in_sight) move_and_scan(*teammate->second.filter, packet);
+VehicleFilter* SubmapsMode::filter_of(const Packet& packet) {
+  if (is_own(packet)) return own_.get();
+  const auto teammate = teammates_.find(packet.vehicle);
+  return teammate != teammates_.end() && teammate->second.in_sight ? teammate->second.filter.get() : nullptr;
+}
+
+// A closing allocates. The order of the closings is the same at every vehicle. Hence, if memory runs out in one, all
+// later packets wait until it was made up for.
+bool SubmapsMode::take_turn(std::vector<Packet>& packets) noexcept {
+  while (taken_ < packets.size()) {
+    if (!close_open()) return false;
+    const Packet& packet = packets[taken_];
+    ++taken_;
+    VehicleFilter* const vehicle = filter_of(packet);
+    if (vehicle == nullptr) continue;
+    move_and_scan(*vehicle, packet);
+    if (vehicle->filter().closing().no_memory) open_ = vehicle;
   }
+  if (!close_open()) return false;
+  taken_ = 0;
+  return true;
+}
+
+bool SubmapsMode::close_open() noexcept {
+  if (open_ == nullptr) return true;
+  try {
+    open_->filter().close_submap();
+  } catch (const std::bad_alloc&) {
+    return false;
+  } catch (const Error&) {  // for another reason: the filter tries again, as after any frame
+  }
+  open_ = nullptr;
+  return true;
 }
 
 }  // namespace cairn

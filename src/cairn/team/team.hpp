@@ -34,9 +34,10 @@ class Team {
   // --- packets ---
   // The next packet to be sent; null if there is none.
   const std::vector<std::uint8_t>* next_packet() const { return mailbox_.next_packet(); }
-  void drop_packet() { mailbox_.drop_packet(); }
+  void drop_packet() noexcept { mailbox_.drop_packet(); }
+  // Throws with nothing changed.
   Arrival receive(const std::uint8_t* bytes, std::size_t size, PacketFault& fault);
-  void ask() { mailbox_.ask(); }  // for all packets that are missing
+  void ask();  // for all packets that are missing
 
   // --- queries ---
   // This vehicle's pose is the current one: it includes this vehicle's motions that no turn has taken yet.
@@ -46,17 +47,23 @@ class Team {
   const Landmarks& landmarks() const { return cooperation_->filter().landmarks(); }
   const std::vector<Match>& matches() const {
     return cooperation_->matches();
-  }                                                               // of this vehicle's scan that was taken last
-  std::size_t unsettled() const { return mailbox_.unsettled(); }  // own steps that wait for teammates' packets
+  }                               // of this vehicle's scan that was taken last
+  std::size_t unsettled() const;  // own steps that wait for teammates' packets
   const MailCounts& mail_counts() const { return mailbox_.counts(); }
   const ScanCounts& scan_counts() const { return cooperation_->counts(); }
+  bool interrupted() const { return interrupted_; }  // memory ran out in a turn; the next call goes on with it
 
  private:
-  void take_turns();  // all that are due
+  void finish_turn();          // throws if there is still no memory
+  void take_turns() noexcept;  // all that are due
+  const Packet* untaken_own_step() const;
 
   TeamOptions options_;
   Mailbox mailbox_;
   std::unique_ptr<Cooperation> cooperation_;
+  std::vector<Packet> packets_;  // of the turn
+  bool interrupted_ = false;
+  bool asking_ = false;  // a step of this vehicle asks for missing packets when all turns are taken
 };
 
 }  // namespace cairn

@@ -14,13 +14,13 @@ VehicleFilter::VehicleFilter(const FilterOptions<SE2>& options, std::uint64_t ve
   filter_.add(RangeBearing(radar));  // kRadarSensor
 }
 
-void VehicleFilter::update(int sensor, const std::vector<Observation>& landmarks,
-                           const std::vector<Observation>& vehicles) {
-  const std::size_t count = landmarks.size() + vehicles.size();
-  if (count > scan_.size())
-    throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu", count, scan_.size());
-  std::copy(vehicles.begin(), vehicles.end(), std::copy(landmarks.begin(), landmarks.end(), scan_.begin()));
-  filter_.update(sensor, scan_.data(), static_cast<Index>(landmarks.size()), static_cast<Index>(vehicles.size()));
+void VehicleFilter::update(int sensor, const Scan& scan) {
+  const std::size_t landmarks = scan.landmark_count, vehicles = scan.vehicle_count;
+  if (landmarks > scan_.size() || vehicles > scan_.size() - landmarks)
+    throw Error(ErrorCode::capacity, "count: %zu observations, and max_observations is %zu", landmarks + vehicles,
+                scan_.size());
+  std::copy_n(scan.vehicles, vehicles, std::copy_n(scan.landmarks, landmarks, scan_.begin()));
+  filter_.update(sensor, scan_.data(), static_cast<Index>(landmarks), static_cast<Index>(vehicles));
 }
 
 }  // namespace cairn

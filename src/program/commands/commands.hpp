@@ -9,6 +9,7 @@ namespace cairn::program {
 
 // Throw UsageError.
 void write_stdout(const std::string& text);
+void write_notes(const std::vector<std::string>& notes);  // to standard error
 void write_help();
 void write_manual_options();  // the parts of docs/cairn.1 that come from the option tables
 

@@ -15,8 +15,8 @@ constexpr const char* kUsage =
     "       cairn simulate mars|usv [options]\n"
     "       cairn --help | --version\n"
     "\n"
-    "cairn run drives the filter through a recorded log: a neutral text log or a STARS MATLAB v5 file. With a MRCLAM\n"
-    "folder it drives a team of robots.\n"
+    "cairn run drives the filter through a recorded log: a neutral text log, in space or in the plane, a text log of\n"
+    "iSAM, or a STARS MATLAB v5 file. With a MRCLAM folder it drives a team of robots.\n"
     "cairn simulate drives the filter through a simulated world. mars: a rover on rolling ground with a stereo head.\n"
     "usv: boats with radar that cooperate.\n";
 
@@ -39,6 +39,10 @@ void write_manual_options() {
   for (const OptionGroup& group : catalogue.groups())
     text += ".\\\" options: " + group.key + "\n" + manual_text(group) + ".\\\" end of options\n";
   write_stdout(text);
+}
+
+void write_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) std::fprintf(stderr, "cairn: note: %s\n", note.c_str());
 }
 
 void write_stdout(const std::string& text) {

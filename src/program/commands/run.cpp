@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // cairn run: a recorded log.
 #include <chrono>
-#include <cstdio>
 
 #include "program/commands/commands.hpp"
 #include "program/drives/log_drive.hpp"
@@ -17,9 +16,8 @@ void run_command(const std::vector<std::string>& arguments) {
   if (options.common.help) return write_help();
   const auto begin = std::chrono::steady_clock::now();
   const logs::Log log = logs::read_log(options.log, options.noise);
-  if (!options.common.quiet) {
-    for (const std::string& note : log.notes) std::fprintf(stderr, "cairn: note: %s\n", note.c_str());
-  }
+  check_log(options, log);
+  if (!options.common.quiet) write_notes(log.notes);
   LogDrive drive(log, options.camera);
   std::vector<Figure> figures;
   {

@@ -36,7 +36,7 @@ std::vector<Figure> run_world(const SimulateOptions& options, const Way& way, st
   const auto begin = std::chrono::steady_clock::now();
   cairn_world_options world = options.world;
   world.seed = options.common.seed + run;
-  WorldDrive drive(world, options.by_wheels);
+  WorldDrive drive(world, options.by_wheels, options.filter.systematic.scales_wheels());
   if (!progress) progress.emplace(drive.steps() * options.runs * ways, options.common.quiet);
   Session session;
   // Files are written for the first run only: the others are like it.

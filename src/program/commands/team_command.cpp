@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Teams: cairn simulate usv, and cairn run of a MRCLAM folder.
+#include <chrono>
 #include <cstdio>
 
 #include "program/commands/commands.hpp"
@@ -7,16 +8,19 @@
 #include "program/drives/fleet_drive.hpp"
 #include "program/options/team_options.hpp"
 #include "program/output/progress.hpp"
+#include "program/output/scene_output.hpp"
 #include "program/output/team_output.hpp"
 
 namespace cairn::program {
 namespace {
 
-// Runs the team in its mode and, if `beside` is given, each vehicle without the others.
+using Clock = std::chrono::steady_clock;
+
+// Runs the team in its mode and, if `beside` is given, each vehicle without the others. The run has begun at `begin`.
 std::vector<Figure> run_team(TeamDrive& drive, TeamDrive* beside, const TeamChoices& choices, const std::string& folder,
-                             Progress& progress) {
+                             Progress& progress, Clock::time_point begin) {
   std::optional<TeamOutput> output;
-  if (!folder.empty()) output.emplace(drive, folder);
+  if (!folder.empty()) output.emplace(drive, choices.mode, folder);
   TeamRunner runner(drive, choices);
   const TeamResult result = runner.run([&](const TeamStep& step, const std::vector<VehicleEstimate>& estimates) {
     if (output) output->add(step, estimates);
@@ -26,11 +30,15 @@ std::vector<Figure> run_team(TeamDrive& drive, TeamDrive* beside, const TeamChoi
   if (beside != nullptr) {
     TeamChoices mono = choices;
     mono.mode = CAIRN_TEAM_MONO;
-    alone = TeamRunner(*beside, mono).run([&](const TeamStep&, const std::vector<VehicleEstimate>&) {
+    const bool noted = output && choices.mode != CAIRN_TEAM_MONO;  // else the steps are the same
+    if (noted) output->begin_alone();
+    alone = TeamRunner(*beside, mono).run([&](const TeamStep& step, const std::vector<VehicleEstimate>& estimates) {
+      if (noted) output->add_alone(step, estimates);
       progress.advance();
     });
   }
-  const std::vector<Figure> figures = team_figures(drive, result, alone ? &*alone : nullptr);
+  const std::chrono::duration<double> seconds = Clock::now() - begin;
+  const std::vector<Figure> figures = team_figures(drive, result, alone ? &*alone : nullptr, seconds.count());
   if (output) output->finish(runner, figures);
   return figures;
 }
@@ -47,12 +55,15 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
   if (options.compare) {
     if (!options.common.output.empty()) create_folder(options.common.output);
     std::string table, object, rows;
+    StepTable steps;
     {
       Progress progress(compared_runs(options), options.common.quiet);
       compare_modes(
-          options, [&] { progress.advance(); }, table, object, rows);
+          options, [&] { progress.advance(); }, table, object, rows, steps);
     }
     if (!options.common.output.empty()) {
+      steps.write(options.common.output);
+      write_scene(compared_scene(options), options.common.output);
       OutputFile file(options.common.output, "team_compare.csv");
       file.text(rows);
       file.close();
@@ -65,11 +76,14 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
   std::vector<std::vector<Figure>> runs;
   std::optional<Progress> progress;
   for (std::uint32_t run = 0; run < options.runs; ++run) {
+    const auto begin = Clock::now();
     cairn_fleet_options fleet = options.fleet;
     fleet.seed = options.common.seed + run;
     FleetDrive drive(fleet), beside(fleet);
     if (!progress) progress.emplace(2 * drive.steps() * options.runs, options.common.quiet);
-    runs.push_back(run_team(drive, &beside, options.team, run == 0 ? options.common.output : "", *progress));
+    const std::string folder = run == 0 ? options.common.output : "";
+    runs.push_back(run_team(drive, &beside, options.team, folder, *progress, begin));
+    if (!folder.empty()) write_scene(fleet, folder);
   }
   progress.reset();
   const std::vector<Figure> figures = runs.size() == 1 ? runs.front() : means(runs);
@@ -79,14 +93,17 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
 void run_team_command(const std::vector<std::string>& arguments) {
   const MrclamOptions options = parse_mrclam_options(arguments);
   if (options.common.help) return write_help();
+  const auto begin = Clock::now();
   const logs::MrclamLog log = logs::read_mrclam(options.folder);
-  if (!options.common.quiet)
-    for (const std::string& note : log.notes) std::fprintf(stderr, "cairn: note: %s\n", note.c_str());
   MrclamDrive drive(log, options.noise);
+  if (!options.common.quiet) {
+    write_notes(log.notes);
+    write_notes(drive.notes());
+  }
   std::vector<Figure> figures;
   {
     Progress progress(drive.steps(), options.common.quiet);
-    figures = run_team(drive, nullptr, options.team, options.common.output, progress);
+    figures = run_team(drive, nullptr, options.team, options.common.output, progress, begin);
   }
   write_stdout(options.common.json ? json(figures) + "\n"
                                    : title(options.folder + ": " + log.format, options.team) + text(figures));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/commands/usv_compare.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -65,8 +66,15 @@ std::size_t compared_runs(const UsvOptions& options) {
   return std::size(kFeatures) * std::size(kModes) * options.runs;
 }
 
+cairn_fleet_options compared_scene(const UsvOptions& options) {
+  cairn_fleet_options fleet = options.fleet;
+  fleet.features = *std::max_element(std::begin(kFeatures), std::end(kFeatures));
+  fleet.seed = options.common.seed;
+  return fleet;
+}
+
 void compare_modes(const UsvOptions& options, const std::function<void()>& advance, std::string& table,
-                   std::string& object, std::string& rows) {
+                   std::string& object, std::string& rows, StepTable& steps) {
   table = print("%9s  %-12s %12s %12s %10s %8s %10s %12s %7s\n", "features", "mode", "claimed", "true", "ANEES/3",
                 "in band", "RMSE", "ms/recursion", "paper");
   rows = "features,mode,claimed,true,anees,in_band,band_low,band_high,rmse_m,landmark_rmse_m,recursion_ms,paper\n";
@@ -83,7 +91,11 @@ void compare_modes(const UsvOptions& options, const std::function<void()>& advan
         TeamChoices choices = options.team;
         choices.mode = mode;
         TeamRunner runner(drive, choices);
-        add(runner.run(nullptr), sums);
+        steps.begin_run(kFeatures[f], mode, drive.vehicles());
+        const auto add_step = [&](const TeamStep& step, const std::vector<VehicleEstimate>& estimates) {
+          steps.add(step.time, estimates);
+        };
+        add(runner.run(add_step), sums);
         advance();
       }
       if (mode == CAIRN_TEAM_MONO) alone = sums.score;

@@ -5,6 +5,7 @@
 #include <cairn/cairn.h>
 #include <cairn/sim.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -18,6 +19,7 @@ struct WheelTurn {
   double dt;
   double left;
   double right;
+  std::optional<std::array<double, 3>> rate;  // of a gyro, rad/s
 };
 
 // The motions that lead to a step, its observations, and the truth. Valid until the next step.

@@ -46,6 +46,8 @@ class TeamDrive {
   virtual const std::vector<std::uint64_t>& vehicles() const = 0;  // their numbers
   virtual std::size_t steps() const = 0;
   virtual cairn_pose start(std::size_t vehicle) const = 0;
+  // 6 x 6, of the error of the start; NULL: known exactly.
+  virtual const double* start_covariance(std::size_t) const { return nullptr; }
   virtual cairn_range_bearing radar() const = 0;
   virtual std::uint32_t landmarks() const = 0;      // at most
   virtual std::uint32_t largest_frame() const = 0;  // landmarks and vehicles

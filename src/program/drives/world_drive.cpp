@@ -8,8 +8,10 @@
 
 namespace cairn::program {
 
-WorldDrive::WorldDrive(const cairn_world_options& options, bool by_wheels)
-    : landmarks_(options.landmarks), by_wheels_(by_wheels) {
+WorldDrive::WorldDrive(const cairn_world_options& options, bool by_wheels, bool scales_wheels)
+    : landmarks_(options.landmarks),
+      by_wheels_(by_wheels),
+      by_gyro_(scales_wheels && options.drive == CAIRN_DRIVE_WHEELS_GYRO) {
   cairn_world* world = nullptr;
   const cairn_status status = cairn_world_create(&options, &world);
   if (status == CAIRN_ERROR_ARGUMENT) throw UsageError(cairn_sim_last_message());  // options that contradict each other
@@ -56,7 +58,10 @@ bool WorldDrive::next(DriveStep& step) {
   for (std::size_t i = 0; i < simulated.motion_count; ++i) {
     const cairn_world_motion& motion = simulated.motions[i];
     if (by_wheels_) {
-      step.wheel_turns.push_back({motion.dt, motion.wheels[0], motion.wheels[1]});
+      step.wheel_turns.push_back({motion.dt, motion.wheels[0], motion.wheels[1], std::nullopt});
+    } else if (by_gyro_) {
+      step.wheel_turns.push_back({motion.dt, motion.wheels[0], motion.wheels[1], std::array<double, 3>{}});
+      std::copy_n(motion.rate, 3, step.wheel_turns.back().rate->begin());
     } else {
       logs::Twist twist{motion.dt, {}, {}};
       std::copy_n(motion.velocity, 3, twist.velocity.begin());

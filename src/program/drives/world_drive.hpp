@@ -10,9 +10,10 @@ namespace cairn::program {
 
 class WorldDrive : public Drive {
  public:
-  // `by_wheels`: the filter gets only the rates of the wheels, instead of the world's twists. Throws UsageError if the
-  // options contradict each other, and LibraryError.
-  WorldDrive(const cairn_world_options& options, bool by_wheels);
+  // `by_wheels`: the filter gets only the rates of the wheels, instead of the world's twists. `scales_wheels`: it gets
+  // the rates of wheels and gyro, if the world's twists come from them, so that it can estimate scales of the wheels.
+  // Throws UsageError if the options contradict each other, and LibraryError.
+  WorldDrive(const cairn_world_options& options, bool by_wheels, bool scales_wheels = false);
 
   std::size_t steps() const override { return steps_; }
   cairn_pose start() const override;
@@ -29,7 +30,7 @@ class WorldDrive : public Drive {
   std::size_t landmarks_;
   std::size_t steps_ = 0;
   std::size_t next_ = 0;
-  bool by_wheels_;
+  bool by_wheels_, by_gyro_;
 };
 
 }  // namespace cairn::program

@@ -31,6 +31,7 @@ struct Graph {
   std::map<std::uint64_t, std::vector<cairn_observation>> sightings;  // by pose, as the file has them
   std::set<std::uint64_t> poses;
   std::size_t edges_again = 0, sightings_again = 0;  // left out, because the file has one of the same two
+  std::vector<std::string> notes;
 };
 
 // The error of an inverse: with T = (p, h), T^-1 = (-R^T p, -h), so that dp' = -R^T dp + G R^T p dh and dh' = -dh.
@@ -65,6 +66,7 @@ class Reader {
         lines_.fail("unknown record " + TextLines::quoted(name) + ", expected EDGE2 or LANDMARK");
       }
     }
+    lines_.note_missing_end(graph_.notes);
     return std::move(graph_);
   }
 
@@ -189,8 +191,8 @@ void add_truth(const Graph& truth, Log& log) {
   }
 }
 
-void note(Log& log, std::size_t count, const std::string& one, const std::string& many) {
-  if (count > 0) log.notes.push_back("left out " + std::to_string(count) + " " + (count == 1 ? one : many));
+void note_left_out(Log& log, std::size_t count, const std::string& what) {
+  if (count > 0) log.notes.push_back("left out " + std::to_string(count) + " " + what);
 }
 
 }  // namespace
@@ -203,11 +205,11 @@ Log read_isam_log(const std::string& path, const std::string& text) {
   log.sensor = SensorKind::kCartesian;
   cairn_cartesian_init(&log.cartesian, sizeof log.cartesian);
   log.steps = steps_of(path, graph);
+  log.notes = graph.notes;
   // Earlier poses are no part of a filter's state.
-  note(log, graph.edges.size() - (log.steps.size() - 1), "EDGE2 between poses that do not follow each other",
-       "EDGE2 between poses that do not follow each other");
-  note(log, graph.edges_again, "EDGE2 between two poses that have one", "EDGE2 between two poses that have one");
-  note(log, graph.sightings_again, "LANDMARK that its pose has twice", "LANDMARK that their poses have twice");
+  note_left_out(log, graph.edges.size() - (log.steps.size() - 1), "EDGE2 between poses that do not follow each other");
+  note_left_out(log, graph.edges_again, "EDGE2 between two poses that already have one");
+  note_left_out(log, graph.sightings_again, "LANDMARK of a landmark that the pose already has");
   const std::string beside = truth_path(path);
   struct stat status {};
   if (stat(beside.c_str(), &status) == 0) add_truth(Reader(beside, read_file(beside)).read(), log);

@@ -31,6 +31,11 @@ double wrapped(double angle) {
   return turned <= -kPi ? kPi : turned;
 }
 
+bool exists(const std::string& path) {
+  struct stat status {};
+  return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+}
+
 class Reader {
  public:
   explicit Reader(const std::string& folder) : folder_(folder) {}
@@ -105,6 +110,7 @@ class Reader {
       robot.odometry.push_back({time, table.number(1), table.number(2)});
     }
     if (robot.odometry.empty()) table.fail("no odometry: the robot cannot be followed");
+    sort(table, robot_file(robot, kOdometry), robot.odometry);
   }
 
   void read_measurements(MrclamLog::Robot& robot, const std::set<std::uint64_t>& robots) {
@@ -130,9 +136,20 @@ class Reader {
         robot.measurements.push_back(m);
       }
     }
+    sort(table, name, robot.measurements);
     note(name, strange, "of barcodes that no subject has");
     note(name, nobody, "of subjects that are neither a robot nor a landmark");
     note(name, own, "of the robot's own barcode");
+  }
+
+  // Sorts records of a table that was read to its end.
+  template <class Record>
+  void sort(const TextTable& table, const std::string& name, std::vector<Record>& records) {
+    table.note_missing_end(log_.notes);
+    if (table.late_lines() == 0) return;
+    std::stable_sort(records.begin(), records.end(), [](const Record& a, const Record& b) { return a.time < b.time; });
+    log_.notes.push_back(name + ": sorted by time, because of " + std::to_string(table.late_lines()) +
+                         (table.late_lines() == 1 ? " line" : " lines") + " earlier than the line before");
   }
 
   void note(const std::string& name, std::size_t count, const char* what) {
@@ -141,13 +158,16 @@ class Reader {
                          (count == 1 ? " measurement " : " measurements ") + what);
   }
 
+  // A robot may be without truth: without the file, or with an empty one.
   void read_truth(MrclamLog::Robot& robot) {
-    TextTable table(file(robot_file(robot, kTruth)), {"time", "x", "y", "heading"});
+    const std::string name = robot_file(robot, kTruth);
+    if (!exists(file(name))) return;
+    TextTable table(file(name), {"time", "x", "y", "heading"});
     while (table.next()) {
       const double time = table.time();
       robot.truth.push_back({time, table.number(1), table.number(2), table.number(3)});
     }
-    if (robot.truth.empty()) table.fail("no true pose: the robot's start is unknown");
+    sort(table, name, robot.truth);
   }
 
   const std::string& folder_;
@@ -158,8 +178,7 @@ class Reader {
 }  // namespace
 
 bool is_mrclam(const std::string& path) {
-  struct stat status {};
-  return stat((path + "/" + kBarcodes).c_str(), &status) == 0 && S_ISREG(status.st_mode);
+  return exists(path + "/" + kBarcodes);
 }
 
 MrclamLog read_mrclam(const std::string& path) {

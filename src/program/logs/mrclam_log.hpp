@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A recording of several robots in the plane: a folder of the UTIAS multi-robot set (MRCLAM). Its files are plain text,
-// one record a line, fields separated by blanks; lines that begin with # are skipped.
+// one record a line, fields separated by blanks; # begins a comment. A robot without a truth file has no true pose.
 //   Barcodes.dat               subject, barcode: what each robot and each landmark carries
 //   Landmark_Groundtruth.dat   subject, x, y, standard deviations of x and y (m)
 //   RobotN_Odometry.dat        time (s), forward speed (m/s), rate of turn (rad/s)
@@ -37,11 +37,11 @@ struct MrclamLog {
     std::uint64_t id;
     std::vector<Odometry> odometry;  // these three are in order of time, equal times allowed; never empty
     std::vector<Measurement> measurements;
-    std::vector<Truth> truth;  // never empty
+    std::vector<Truth> truth;
   };
 
   std::string format;                                        // for people
-  std::vector<std::string> notes;                            // what the reader left out
+  std::vector<std::string> notes;                            // what the reader left out or sorted
   std::vector<Robot> robots;                                 // by ascending id; never empty
   std::map<std::uint64_t, std::array<double, 2>> landmarks;  // true positions, m
 };
@@ -49,8 +49,8 @@ struct MrclamLog {
 // Whether `path` is a folder that holds a Barcodes.dat.
 bool is_mrclam(const std::string& path);
 
-// Reads such a folder, with every robot that has a file. Measurements of an unknown subject are left out, and the notes
-// count them. Throws LogError.
+// Reads such a folder, with every robot that has a file. Measurements of an unknown subject are left out, and lines are
+// sorted by time; the notes count both. Throws LogError.
 MrclamLog read_mrclam(const std::string& path);
 
 // A robot's true pose at a time, interpolated between two records along the straight line and the shorter turn; heading

@@ -15,8 +15,8 @@ bool is_mat_file(const std::string& content) {
 
 // The first record of iSAM's text form is of a planar graph. A TORO file has the same records and others; the reader
 // says so.
-bool is_isam_log(const std::string& content) {
-  TextLines lines("", content);
+bool is_isam_log(const std::string& path, const std::string& content) {
+  TextLines lines(path, content);
   if (!lines.next()) return false;
   const std::string_view name = lines.field(0);
   return name == "EDGE2" || name == "LANDMARK" || name == "VERTEX2";
@@ -31,7 +31,7 @@ Log read_log(const std::string& path, const NoiseOverride& noise) {
   const std::string content = read_file(path);
   if (content.empty()) throw LogError(path + ":1: the file is empty");
   if (is_mat_file(content)) return read_stars_log(path, content, noise);
-  if (is_isam_log(content)) return read_isam_log(path, content);
+  if (is_isam_log(path, content)) return read_isam_log(path, content);
   return read_neutral_log(path, content);
 }
 

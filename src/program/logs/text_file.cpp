@@ -10,16 +10,12 @@
 #include <memory>
 
 #include "program/logs/log.hpp"
+#include "program/read_number.hpp"
 
 namespace cairn::program::logs {
 namespace {
 
-// Reads the whole field; false if part of it is no number.
-template <class Number>
-bool parse(std::string_view field, Number& value) {
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  return error == std::errc() && end == field.data() + field.size();
-}
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 }  // namespace
 
@@ -34,21 +30,31 @@ std::string read_file(const std::string& path) {
   return content;
 }
 
+TextLines::TextLines(std::string path, std::string text) : path_(std::move(path)), text_(std::move(text)) {
+  const std::string_view start = std::string_view(text_).substr(0, 2);
+  if (start == "\xff\xfe" || start == "\xfe\xff") fail("the text is encoded as UTF-16; convert it to UTF-8");
+  if (text_.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0) begin_ = kByteOrderMark.size();
+}
+
+void TextLines::note_missing_end(std::vector<std::string>& notes) const {
+  if (text_.empty() || text_.back() == '\n') return;
+  notes.push_back(path_ + ": the last line has no end; it was read as a whole line");
+}
+
 bool TextLines::next() {
   constexpr std::string_view kBlanks = " \t\r";
   while (begin_ < text_.size()) {
     ++line_;
-    const std::size_t end = text_.find('\n', begin_);
+    const std::size_t end = std::min(text_.find('\n', begin_), text_.size());
     const std::string_view line = std::string_view(text_).substr(begin_, end - begin_);
     fields_.clear();
-    for (std::size_t begin = line.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
+    for (std::size_t begin = line.find_first_not_of(kBlanks); begin != std::string_view::npos && line[begin] != '#';) {
       const std::size_t stop = std::min(line.find_first_of(kBlanks, begin), line.size());
       fields_.push_back(line.substr(begin, stop - begin));
       begin = line.find_first_not_of(kBlanks, stop);
     }
-    if (end == std::string::npos) fail("the file is cut short: its last line has no end");
     begin_ = end + 1;
-    if (!fields_.empty() && fields_[0][0] != '#') return true;
+    if (!fields_.empty()) return true;
   }
   return false;
 }
@@ -56,14 +62,17 @@ bool TextLines::next() {
 double TextLines::number(std::size_t index, const char* name) const {
   std::string_view field = fields_[index];
   if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);  // from_chars refuses a plus
-  double value = 0;
-  if (!parse(field, value) || !std::isfinite(value)) refuse(index, name, "is not a finite number");
-  return value;
+  const std::optional<double> value = read_number(field);
+  if (!value || !std::isfinite(*value)) refuse(index, name, "is not a finite number");
+  return *value;
 }
 
 std::uint64_t TextLines::whole(std::size_t index, const char* name) const {
+  const std::string_view field = fields_[index];
   std::uint64_t value = 0;
-  if (!parse(fields_[index], value)) refuse(index, name, "is not a whole number of 0 or more");
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size())
+    refuse(index, name, "is not a whole number of 0 or more");
   return value;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text files of records, one a line, their fields separated by blanks. All errors are LogError and name file and line.
+// Text files of records, one a line, their fields separated by blanks. Lines end with LF or CR LF; the last one may
+// have no end. A byte order mark of UTF-8 is skipped. All errors are LogError and name file and line.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +14,13 @@ std::string read_file(const std::string& path);
 
 class TextLines {
  public:
-  TextLines(std::string path, std::string text) : path_(std::move(path)), text_(std::move(text)) {}
+  TextLines(std::string path, std::string text);
 
-  // Goes to the next record; false if there is none. Skips empty lines and lines that begin with #.
+  // Goes to the next record; false if there is none. Skips empty lines. A field that begins with # begins a comment.
   bool next();
+
+  // Adds a note if the last line has no end: only its reader can know whether the file is whole.
+  void note_missing_end(std::vector<std::string>& notes) const;
 
   // --- of this record ---
   std::size_t size() const { return fields_.size(); }

@@ -22,15 +22,18 @@ class TextTable {
   double positive(std::size_t column) const;
   std::uint64_t whole(std::size_t column) const { return lines_.whole(column, columns_[column]); }
   std::uint64_t identity(std::size_t column) const { return lines_.identity(column, columns_[column]); }
-  // The first field, which must not be less than that of the record before.
+  // The first field. Lines that are earlier than the line before them are counted.
   double time();
+  std::size_t late_lines() const { return late_lines_; }
 
+  void note_missing_end(std::vector<std::string>& notes) const { lines_.note_missing_end(notes); }
   // Throws a LogError that names the line that was read last.
   [[noreturn]] void fail(const std::string& cause) const { lines_.fail(cause); }
 
  private:
   TextLines lines_;
   std::vector<const char*> columns_;
+  std::size_t late_lines_ = 0;
   double last_time_ = -std::numeric_limits<double>::infinity();
 };
 

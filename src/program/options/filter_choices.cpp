@@ -2,6 +2,10 @@
 #include "program/options/filter_choices.hpp"
 
 #include <limits>
+#include <string>
+#include <utility>
+
+#include "program/usage_error.hpp"
 
 namespace cairn::program {
 
@@ -10,6 +14,8 @@ void FilterChoices::apply(cairn_filter_options& options) const {
 #define FILTER_WHOLE(field, initial, lower, upper, flag) options.field = field.value_or(options.field);
 #define FILTER_REAL(field, initial, bounds, flag) options.field = field.value_or(options.field);
 #include "options/filter_options.def"
+  systematic.apply(options);
+  if (gate_probability == 1.0) options.batch_gate_probability = batch_gate_probability.value_or(1);
 }
 
 namespace {
@@ -46,6 +52,19 @@ std::vector<Option> table_flags(FilterChoices& o) {
 
 }  // namespace
 
+void check_contradictions(const FilterChoices& o) {
+  if (o.submap_landmarks != 0u) return;
+  const std::pair<const char*, bool> given[] = {{"--submap-distance", o.submap_distance.value_or(0) > 0},
+                                                {"--submap-extent", o.submap_extent.value_or(0) > 0},
+                                                {"--submap-sigma", o.submap_sigma.value_or(0) > 0},
+                                                {"--join", o.join.value_or(CAIRN_JOIN_AUTO) != CAIRN_JOIN_AUTO}};
+  for (const auto& [name, contradicts] : given) {
+    if (contradicts)
+      throw UsageError(std::string("options --single-map and ") + name +
+                       " contradict each other: a single map has no submaps; leave one out");
+  }
+}
+
 OptionGroup filter_options(FilterChoices& o) {
   OptionGroup group{"filter", "The filter", table_flags(o)};
   group.options.push_back(custom({"--single-map", "", "Keep all landmarks in one map, as EKF-SLAM does.", ""},
@@ -70,6 +89,7 @@ OptionGroup filter_options(FilterChoices& o) {
                                   "Default: {default}.",
                                   ""},
                                  kPositive, kUsualLossWidth, o.loss_width));
+  for (Option& option : systematic_flags(o.systematic)) group.options.push_back(std::move(option));
   return group;
 }
 

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "program/read_number.hpp"
 #include "program/usage_error.hpp"
 
 namespace cairn::program {
@@ -97,11 +98,9 @@ std::uint64_t parse_whole(const std::string& name, const std::string& value, std
 }
 
 double parse_number(const std::string& name, const std::string& value, const options::Bounds& bounds) {
-  double number = 0;
-  const char* end = value.data() + value.size();
-  const auto [stop, error] = std::from_chars(value.data(), end, number);
-  if (error != std::errc() || stop != end || !bounds.contain(number)) reject(name, value, expected(bounds));
-  return number;
+  const std::optional<double> number = read_number(value);
+  if (!number || !bounds.contain(*number)) reject(name, value, expected(bounds));
+  return *number;
 }
 
 Option custom(const OptionText& text, std::function<void(const std::string&)> set) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/options/run_options.hpp"
 
+#include <utility>
+
 #include "program/options/parse.hpp"
 #include "program/usage_error.hpp"
 
@@ -60,8 +62,24 @@ RunOptions parse_run_options(const std::vector<std::string>& arguments) {
     options.log = word;
     has_log = true;
   });
+  check_contradictions(options.filter);
   if (!options.common.help && options.log.empty()) throw UsageError("no log given (usage: cairn run LOG [options])");
   return options;
+}
+
+void check_log(const RunOptions& o, const logs::Log& log) {
+  if (log.sensor == logs::SensorKind::kStereoCamera) return;
+  const std::pair<const char*, const std::optional<double>&> camera[] = {
+      {"--pixel-noise", o.noise.pixel},
+      {"--velocity-noise", o.noise.velocity},
+      {"--rate-noise", o.noise.rate},
+      {"--min-disparity", o.camera.min_disparity},
+      {"--min-disparity-sigmas", o.camera.min_disparity_sigmas}};
+  for (const auto& [name, value] : camera) {
+    if (value)
+      throw UsageError(std::string("option ") + name + " is for STARS files, and " + o.log + " is none (" + log.format +
+                       "); leave the option out");
+  }
 }
 
 }  // namespace cairn::program

@@ -25,5 +25,7 @@ OptionGroup log_options(RunOptions& options);
 
 // `arguments` are the words after the command. Throws UsageError.
 RunOptions parse_run_options(const std::vector<std::string>& arguments);
+// Throws UsageError if an option has no effect on this log.
+void check_log(const RunOptions& options, const logs::Log& log);
 
 }  // namespace cairn::program

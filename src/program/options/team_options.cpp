@@ -23,7 +23,7 @@ void check_choices(const TeamChoices& team) {
     throw UsageError("option --forget-after is not for teams, which keep all landmarks; leave it out");
   if (o.join.value_or(CAIRN_JOIN_AUTO) != CAIRN_JOIN_AUTO)
     throw UsageError("option --join is not for teams, which join submaps densely; leave it out");
-  const bool submaps = o.submap_landmarks.has_value() || o.submap_distance.value_or(0) > 0 ||
+  const bool submaps = o.submap_landmarks.value_or(0) > 0 || o.submap_distance.value_or(0) > 0 ||
                        o.submap_extent.value_or(0) > 0 || o.submap_sigma.value_or(0) > 0;
   if (submaps && team.mode != CAIRN_TEAM_SUBMAPS) throw UsageError("options of submaps need --mode submaps");
   if (team.mode == CAIRN_TEAM_SUBMAPS && o.submap_landmarks == 0u)
@@ -64,8 +64,8 @@ OptionGroup boat_options(UsvOptions& o) {
           {"--compare", "",
            "Run all modes with 6, 10 and 40 features, and print the figures beside those of the cooperative paper.",
            "For each mode the table has the improvement on a boat without a team: as its covariance claims it, and the "
-           "true one. It also has consistency, error and time. With `--output` the folder gets team_compare.csv and "
-           "summary.json."},
+           "true one. It also has consistency, error and time. With `--output` the folder gets team_compare.csv, "
+           "team_steps.csv, team_scene.csv and summary.json."},
           o.compare),
       whole({"--runs", "N",
              "Run N worlds, with seeds from `--seed` on, and print the mean of each figure. Default: "

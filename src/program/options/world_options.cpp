@@ -128,6 +128,13 @@ OptionGroup noise_group(cairn_world_options& w) {
       number({"--wheel-slip", "X",
               "Standard deviation of a wheel's rate in proportion to the rate. Default: {default}.", ""},
              kNotNegative, w.wheel_slip_sigma),
+      number(
+          {"--lateral-noise", "X",
+           "Standard deviation of the velocity to the side, which wheels do not measure. Default: {default} m/s.",
+           "One value for each motion. The rover of a simulated world does not slip: the filter is told this noise."},
+          kNotNegative, w.lateral_sigma),
+      number({"--vertical-noise", "X", "The same of the velocity upwards. Default: {default} m/s.", ""}, kNotNegative,
+             w.vertical_sigma),
       number({"--range-noise", "X", "Standard deviation of an observed range. Default: {default} m.", ""}, kPositive,
              w.range_sigma),
       number(
@@ -158,6 +165,31 @@ OptionGroup noise_group(cairn_world_options& w) {
   return group;
 }
 
+OptionGroup faults_group(cairn_world_options& w) {
+  OptionGroup group{"faults", "cairn simulate mars, systematic errors of the rover", {}};
+  group.options = {
+      components({"--true-velocity-bias", "M_S[,M_S,M_S]",
+                  "Error of the measured velocity: one number, or one each for forward, left and up. Default: 0.",
+                  "The filter is not told of these errors. `--velocity-bias` and similar make it estimate them."},
+                 kFinite, 3, w.velocity_bias),
+      components({"--true-rate-bias", "RAD_S[,RAD_S,RAD_S]", "Error of the measured turning rate. Default: 0.", ""},
+                 kFinite, 3, w.rate_bias),
+      components({"--true-wheel-scale", "SCALE[,SCALE]",
+                  "A wheel turns at its measured rate times 1 plus this: one number, or one each for the left and the "
+                  "right wheels. Default: 0.",
+                  ""},
+                 kFinite, 2, w.wheel_scale),
+      components({"--true-mount-turn", "RAD,RAD,RAD",
+                  "Rotation vector by which the head is turned against the body. Default: 0.", ""},
+                 kFinite, 3, w.mount_turn),
+      components({"--true-mount-shift", "M,M,M", "By which the head is shifted against the body. Default: 0.", ""},
+                 kFinite, 3, w.mount_shift),
+      components({"--true-offset", "M,RAD,RAD", "Error of observed range, azimuth and elevation. Default: 0.", ""},
+                 kFinite, 3, w.value_offset),
+  };
+  return group;
+}
+
 }  // namespace
 
 SimulateOptions default_simulate_options() {
@@ -170,7 +202,7 @@ SimulateOptions default_simulate_options() {
 }
 
 std::vector<OptionGroup> world_options(SimulateOptions& o) {
-  return {runs_group(o), scene_group(o), noise_group(o.world)};
+  return {runs_group(o), scene_group(o), noise_group(o.world), faults_group(o.world)};
 }
 
 SimulateOptions parse_simulate_options(const std::vector<std::string>& arguments) {
@@ -188,6 +220,7 @@ SimulateOptions parse_simulate_options(const std::vector<std::string>& arguments
       },
       "--preset");
   if (options.common.help) return options;
+  check_contradictions(options.filter);
   if (scenario.empty()) throw UsageError("no scenario given (usage: cairn simulate mars|usv [options])");
   if (options.compare && options.filter.submap_landmarks == 0u)
     throw UsageError(

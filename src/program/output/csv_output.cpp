@@ -54,6 +54,8 @@ const char* reason_name(std::int32_t reason) {
       return "no_place";
     case CAIRN_REASON_AMBIGUOUS:
       return "ambiguous";
+    case CAIRN_REASON_NO_ROOM:
+      return "no_room";
     default:
       return "unknown";
   }
@@ -103,7 +105,8 @@ CsvOutput::CsvOutput(const Drive& drive, const std::string& folder)
       folder_(created(folder)),
       trajectory_(folder, "trajectory.csv"),
       innovations_(folder, "innovations.csv"),
-      timing_(folder, "timing.csv") {
+      timing_(folder, "timing.csv"),
+      health_(folder) {
   trajectory_.text(kTrajectoryHeader);
   innovations_.text(kInnovationsHeader);
   timing_.text(kTimingHeader);
@@ -113,6 +116,7 @@ void CsvOutput::add(const DriveStep& step, const StepResult& result, const std::
   add_trajectory(step, result, score);
   add_innovations(step, result);
   add_timing(step, result);
+  health_.add(step, result);
   if (result.closing) closed_.push_back({step.number, *result.closing});
   last_step_ = step.number;
 }
@@ -173,6 +177,7 @@ void CsvOutput::finish(const cairn_filter* filter, const std::optional<cairn_clo
   trajectory_.close();
   innovations_.close();
   timing_.close();
+  health_.close();
   if (last_closing) closed_.push_back({last_step_, *last_closing});
   write_landmarks(filter, summary);
   write_submaps(filter);

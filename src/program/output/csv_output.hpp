@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "program/output/health_csv.hpp"
 #include "program/output/output_file.hpp"
 #include "program/output/summary.hpp"
 #include "program/runners/runner.hpp"
@@ -41,6 +42,7 @@ class CsvOutput {
   OutputFile trajectory_;
   OutputFile innovations_;
   OutputFile timing_;
+  HealthCsv health_;
   std::uint64_t last_step_ = 0;
   std::vector<Closed> closed_;
 };

@@ -9,6 +9,7 @@ namespace cairn::program {
 namespace {
 
 std::string format(const Figure& figure) {
+  if (!figure.word.empty()) return "\"" + figure.word + "\"";
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, figure.whole ? "%.0f" : "%.9g", figure.value);
   return buffer;
@@ -27,6 +28,7 @@ std::vector<Figure> means(const std::vector<std::vector<Figure>>& runs) {
   std::vector<Figure> all;
   const auto count = static_cast<double>(runs.size());
   for (const Figure& first : runs.front()) {
+    if (!first.word.empty()) continue;
     double sum = 0, square = 0;
     for (const std::vector<Figure>& run : runs) sum += value_of(run, first.key);
     const double mean = sum / count;
@@ -51,6 +53,11 @@ std::string text(const std::vector<Figure>& figures) {
   std::string out;
   char buffer[128];
   for (const Figure& figure : figures) {
+    if (!figure.word.empty()) {
+      std::snprintf(buffer, sizeof buffer, "%-24s %12s\n", figure.key.c_str(), figure.word.c_str());
+      out += buffer;
+      continue;
+    }
     std::snprintf(buffer, sizeof buffer, figure.whole ? "%-24s %12.0f\n" : "%-24s %12.6g\n", figure.key.c_str(),
                   figure.value);
     out += buffer;

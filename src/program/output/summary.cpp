@@ -67,9 +67,11 @@ void Summary::add(const DriveStep& step, const StepResult& result, const std::op
   filter_landmarks_sum_ += held;
   filter_landmarks_square_sum_ += held * held;
   if (result.closing) add_closing(*result.closing);
+  sensor_health_ = result.sensor_health;
   last_truth_ = step.truth;
   if (!score) return;
   ++scored_;
+  scored_later_ |= step.index > 0;
   const double position = square_norm(score->error);
   position_square_sum_ += position;
   position_last_ = std::sqrt(position);
@@ -115,7 +117,7 @@ void Summary::measure(const char* key, double value) {
 }
 
 void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing,
-                     double seconds) {
+                     const std::optional<double>& corrected_rmse, double seconds) {
   if (last_closing) {
     add_closing(*last_closing);
     closing_outside_ = last_closing->seconds;
@@ -138,10 +140,37 @@ void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closi
   finish_timing();
   measure("peak_rss_mib", peak_rss_mib());
   finish_pose(filter);
+  if (corrected_rmse && scored_later_) measure("pose_rmse_corrected_m", *corrected_rmse);
   finish_landmarks(landmarks);
   const int pose_dimension = drive_.planar() ? 3 : 6;
   if (nees_count_ > 0) measure("pose_anees_per_dof", nees_sum_ / static_cast<double>(nees_count_) / pose_dimension);
   if (nis_rows_ > 0) measure("nis_per_dof", nis_sum_ / static_cast<double>(nis_rows_));
+  finish_health(filter);
+}
+
+// A scale of which the observations say nothing is left out.
+void Summary::finish_health(const cairn_filter* filter) {
+  cairn_health health{};
+  health.struct_size = sizeof health;
+  check(cairn_filter_health(filter, &health));
+  figures_.push_back({"verdict", 0, false, cairn_verdict_text(health.verdict)});
+  measure("verdict_good_share", health.good_share);
+  measure("verdict_doubtful_share", health.doubtful_share);
+  measure("verdict_lost_share", health.lost_share);
+  if (sensor_health_.compared > 0) {
+    measure("refused_share",
+            static_cast<double>(sensor_health_.refused) / static_cast<double>(sensor_health_.compared));
+    measure("error_correlation", sensor_health_.persistence[0]);
+  }
+  count("widenings", health.widenings);
+  if (sensor_health_.scale_sigma < sensor_health_.scale) {
+    measure("sensor_noise_scale", sensor_health_.scale);
+    measure("sensor_noise_scale_sigma", sensor_health_.scale_sigma);
+  }
+  if (health.motion_scale_sigma < health.motion_scale) {
+    measure("motion_noise_scale", health.motion_scale);
+    measure("motion_noise_scale_sigma", health.motion_scale_sigma);
+  }
 }
 
 void Summary::finish_timing() {
@@ -164,7 +193,7 @@ void Summary::finish_timing() {
 }
 
 void Summary::finish_pose(const cairn_filter* filter) {
-  if (scored_ == 0) return;
+  if (!scored_later_) return;
   const auto count = static_cast<double>(scored_);
   measure("pose_rmse_m", std::sqrt(position_square_sum_ / count));
   measure("pose_final_m", position_last_);

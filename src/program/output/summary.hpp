@@ -32,9 +32,10 @@ class Summary {
   Summary(const Drive& drive, bool names_known) : drive_(drive), names_known_(names_known) {}
 
   void add(const DriveStep& step, const StepResult& result, const std::optional<PoseScore>& score);
-  // To be called once, after the last step, with the closing of the submap that was still open, and the time of the
-  // whole run.
-  void finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing, double seconds);
+  // To be called once, after the last step, with the closing of the submap that was still open, the error of the
+  // corrected trajectory, if there is truth, and the time of the whole run.
+  void finish(const cairn_filter* filter, const std::optional<cairn_closing_report>& last_closing,
+              const std::optional<double>& corrected_rmse, double seconds);
 
   const std::vector<Figure>& figures() const { return figures_; }
   // The drive's id of one of the filter's landmarks: the id of the observation that placed it.
@@ -46,6 +47,7 @@ class Summary {
   void measure(const char* key, double value);
   void add_closing(const cairn_closing_report& closing);
   void finish_timing();
+  void finish_health(const cairn_filter* filter);
   void finish_pose(const cairn_filter* filter);
   void finish_landmarks(const std::vector<cairn_landmark>& landmarks);
 
@@ -58,6 +60,7 @@ class Summary {
   std::size_t observations_ = 0;
   std::size_t rejected_ = 0;
   std::size_t scored_ = 0;                // steps with a true pose
+  bool scored_later_ = false;             // one of them is not the start, which the filter was given
   std::optional<cairn_pose> last_truth_;  // of the last step
   double position_square_sum_ = 0;
   double position_last_ = 0;
@@ -70,6 +73,7 @@ class Summary {
   double nees_sum_ = 0;
   double nis_sum_ = 0;
   std::size_t nis_rows_ = 0;
+  cairn_sensor_health sensor_health_{};  // after the last step
   std::size_t submaps_ = 0;
   double closing_worst_ = 0;               // s
   double closing_outside_ = 0;             // s, of the closing after the last step

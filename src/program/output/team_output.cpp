@@ -18,9 +18,18 @@ const std::string& made(const std::string& folder) {
 
 }  // namespace
 
-TeamOutput::TeamOutput(const TeamDrive& drive, const std::string& folder)
+TeamOutput::TeamOutput(const TeamDrive& drive, std::int32_t mode, const std::string& folder)
     : drive_(drive), folder_(made(folder)), trajectories_(folder, "team_trajectories.csv") {
   trajectories_.text("step,time,vehicle,x,y,heading,sigma3_x,sigma3_y,sigma3_heading,true_x,true_y,true_heading\n");
+  steps_.begin_run(drive.landmarks(), mode, drive.vehicles());
+}
+
+void TeamOutput::begin_alone() {
+  steps_.begin_run(drive_.landmarks(), CAIRN_TEAM_MONO, drive_.vehicles());
+}
+
+void TeamOutput::add_alone(const TeamStep& step, const std::vector<VehicleEstimate>& estimates) {
+  steps_.add(step.time, estimates);
 }
 
 void TeamOutput::add(const TeamStep& step, const std::vector<VehicleEstimate>& estimates) {
@@ -46,11 +55,13 @@ void TeamOutput::add(const TeamStep& step, const std::vector<VehicleEstimate>& e
     }
     trajectories_.end();
   }
+  steps_.add(step.time, estimates);
   ++step_;
 }
 
 void TeamOutput::finish(const TeamRunner& runner, const std::vector<Figure>& figures) {
   trajectories_.close();
+  steps_.write(folder_);
   OutputFile landmarks(folder_, "team_landmarks.csv");
   landmarks.text("vehicle,id,x,y,sigma3_x,sigma3_y,cov_xy,observations,true_x,true_y\n");
   for (std::size_t v = 0; v < drive_.vehicles().size(); ++v) {

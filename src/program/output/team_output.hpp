@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The folder of --output of a team: trajectories and maps of all vehicles.
+// The folder of --output of a team: trajectories and maps of all vehicles, and the claim and time of each step.
 #pragma once
 
 #include <string>
 
 #include "program/output/csv_output.hpp"
+#include "program/output/step_table.hpp"
 #include "program/runners/team_runner.hpp"
 
 namespace cairn::program {
@@ -12,15 +13,20 @@ namespace cairn::program {
 class TeamOutput {
  public:
   // Creates the files, and the folder if it does not exist. Throws UsageError.
-  TeamOutput(const TeamDrive& drive, const std::string& folder);
+  TeamOutput(const TeamDrive& drive, std::int32_t mode, const std::string& folder);
 
   void add(const TeamStep& step, const std::vector<VehicleEstimate>& estimates);
   void finish(const TeamRunner& runner, const std::vector<Figure>& figures);
+
+  // After the steps above: those of the same drive without cooperation.
+  void begin_alone();
+  void add_alone(const TeamStep& step, const std::vector<VehicleEstimate>& estimates);
 
  private:
   const TeamDrive& drive_;
   std::string folder_;
   OutputFile trajectories_;
+  StepTable steps_;
   std::uint64_t step_ = 0;
 };
 

@@ -11,7 +11,8 @@ namespace cairn::program {
 namespace {
 
 constexpr std::size_t kLandmarkMargin = 8;
-constexpr std::size_t kMostLandmarks = 10000000, kMostObservations = 4096;  // limits of the library
+constexpr std::size_t kMostLandmarks = 10000000, kMostObservations = 4096,
+                      kMostPoses = 10000000;  // limits of the library
 
 }  // namespace
 
@@ -33,9 +34,8 @@ void Runner::create() {
   const std::size_t room = std::min(kMostLandmarks, choices_.names_known() ? needed : 2 * needed);
   options.max_landmarks = static_cast<std::uint32_t>(room);
   options.max_observations = static_cast<std::uint32_t>(std::min(kMostObservations, drive_.largest_frame()));
-  // A submap that one frame fills costs more to close than it saves.
-  constexpr std::uint32_t kFrames = 2, kLargestSubmap = 4096;
-  options.submap_landmarks = std::min(kLargestSubmap, std::max(kUsualSubmap, kFrames * options.max_observations));
+  options.submap_landmarks = usual_submap(options.max_observations);
+  options.trajectory_poses = static_cast<std::uint32_t>(std::min(kMostPoses, drive_.steps()));
   choices_.apply(options);
   options.vehicle = drive_.planar() ? CAIRN_VEHICLE_PLANAR : CAIRN_VEHICLE_SPATIAL;
   has_submaps_ = options.submap_landmarks > 0;
@@ -46,6 +46,7 @@ void Runner::create() {
   sensor_ = drive_.equip(filter);
   if (choices_.loss)
     check(cairn_filter_set_loss(filter, sensor_, *choices_.loss, choices_.loss_width.value_or(kUsualLossWidth)));
+  check(choices_.systematic.calibrate(filter, sensor_));
 }
 
 void Runner::run(const Observer& observe) {
@@ -74,12 +75,15 @@ void Runner::predict() {
     check(cairn_filter_predict_twist(filter_.get(), twist.dt, twist.velocity.data(), twist.rate.data()));
   }
   for (const WheelTurn& turn : step_.wheel_turns) {
-    check(cairn_filter_predict_wheels(filter_.get(), turn.dt, turn.left, turn.right));
+    if (turn.rate)
+      check(cairn_filter_predict_wheels_gyro(filter_.get(), turn.dt, turn.left, turn.right, turn.rate->data()));
+    else
+      check(cairn_filter_predict_wheels(filter_.get(), turn.dt, turn.left, turn.right));
   }
 }
 
 void Runner::update() {
-  if (step_.count == 0) return;
+  if (step_.count == 0) return check(cairn_filter_keep_pose(filter_.get(), nullptr));
   check(cairn_filter_update(filter_.get(), sensor_, step_.observations, step_.count, result_.matches.data()));
 }
 
@@ -110,6 +114,10 @@ void Runner::report() {
   check(cairn_filter_local_pose(filter_.get(), nullptr, result_.local_covariance));
   check(cairn_map_size(cairn_filter_map(filter_.get()), &result_.landmarks));
   check(cairn_map_size(cairn_filter_local_map(filter_.get()), &result_.filter_landmarks));
+  result_.health.struct_size = sizeof result_.health;
+  check(cairn_filter_health(filter_.get(), &result_.health));
+  result_.sensor_health.struct_size = sizeof result_.sensor_health;
+  check(cairn_filter_sensor_health(filter_.get(), sensor_, &result_.sensor_health));
   result_.closing = new_closing();
   if (result_.closing) result_.filter_landmarks += result_.closing->landmarks;
 }

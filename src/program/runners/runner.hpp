@@ -30,6 +30,8 @@ struct StepResult {
   std::vector<cairn_match> matches;             // one for each observation
   cairn_update_report report{};                 // zeros if the step had no observations
   std::optional<cairn_closing_report> closing;  // of the submap that was closed after it
+  cairn_health health{};                        // after the step
+  cairn_sensor_health sensor_health{};
 };
 
 class Runner {

@@ -6,6 +6,8 @@
 
 #include "program/output/csv_output.hpp"
 #include "program/output/summary.hpp"
+#include "program/output/systematic_csv.hpp"
+#include "program/output/trajectories.hpp"
 #include "program/runners/runner.hpp"
 
 namespace cairn::program {
@@ -14,18 +16,29 @@ std::vector<Figure> run_drive(Drive& drive, const FilterChoices& choices, const 
   const auto begin = std::chrono::steady_clock::now();
   std::optional<CsvOutput> output;
   if (!session.output.empty()) output.emplace(drive, session.output);
+  std::optional<SystematicCsv> systematic;
+  if (output) systematic.emplace(session.output);
   Runner runner(drive, choices);
   Summary summary(drive, choices.names_known());
+  Trajectories trajectories;
   runner.run([&](const cairn_filter* filter, const DriveStep& step, const StepResult& result) {
     const std::optional<PoseScore> score = score_pose(filter, step, result.pose);
     summary.add(step, result, score);
+    trajectories.add(step, result);
     if (output) output->add(step, result, score);
+    if (systematic) systematic->add(filter, step);
     session.on_step();
   });
   const std::optional<cairn_closing_report> last_closing = runner.finish();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  summary.finish(runner.filter(), last_closing, session.seconds_before + seconds.count());
-  if (output) output->finish(runner.filter(), last_closing, summary);
+  trajectories.finish(runner.filter());
+  summary.finish(runner.filter(), last_closing, trajectories.corrected_rmse(),
+                 session.seconds_before + seconds.count());
+  if (output) {
+    output->finish(runner.filter(), last_closing, summary);
+    trajectories.write(session.output);
+    systematic->finish();
+  }
   return summary.figures();
 }
 

@@ -2,37 +2,15 @@
 #include "program/runners/team_runner.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "program/library.hpp"
+#include "program/runners/stopwatch.hpp"
 
 namespace cairn::program {
 
 const std::vector<const char*> kModeNames = {"mono", "eo_diagonal", "eo_full", "joint", "submaps"};
-
-double VehicleScore::rmse() const {
-  return std::sqrt(square_error / static_cast<double>(steps));
-}
-double VehicleScore::landmark_rmse() const {
-  return std::sqrt(landmark_square / static_cast<double>(landmarks_known));
-}
-double VehicleScore::anees() const {
-  return nees / (3.0 * static_cast<double>(nees_steps));
-}
-void VehicleScore::add(const VehicleScore& other) {
-  steps += other.steps;
-  nees_steps += other.nees_steps;
-  claimed += other.claimed;
-  square_error += other.square_error;
-  nees += other.nees;
-  landmark_square += other.landmark_square;
-  landmarks += other.landmarks;
-  landmarks_known += other.landmarks_known;
-  paired += other.paired;
-  paired_wrongly += other.paired_wrongly;
-}
 
 TeamRunner::TeamRunner(TeamDrive& drive, const TeamChoices& choices)
     : drive_(drive), choices_(choices), votes_(drive.vehicles().size()) {
@@ -42,7 +20,7 @@ TeamRunner::TeamRunner(TeamDrive& drive, const TeamChoices& choices)
     for (std::size_t other = 0; other < numbers.size(); ++other) {
       if (other == v || choices.mode == CAIRN_TEAM_MONO) continue;
       const cairn_pose start = drive.start(other);
-      check(cairn_team_add(teams_[v].get(), numbers[other], &start, nullptr));
+      check(cairn_team_add(teams_[v].get(), numbers[other], &start, drive.start_covariance(other)));
     }
 }
 
@@ -57,16 +35,17 @@ TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
   cairn_filter_options filter;
   check(cairn_filter_options_init(&filter, sizeof filter));
   filter.vehicle = CAIRN_VEHICLE_PLANAR;
-  // Without names some landmarks may be placed twice.
+  // Without ids some landmarks may be placed twice.
   const std::uint32_t room = drive_.landmarks() * (choices.names_known() ? 1 : 4);
   filter.max_landmarks = std::max<std::uint32_t>(1, room);
   filter.max_observations = std::max<std::uint32_t>(1, drive_.largest_frame());
   choices.apply(filter);
   filter.initial_pose = drive_.start(vehicle);
+  if (const double* covariance = drive_.start_covariance(vehicle))
+    std::copy_n(covariance, 36, filter.initial_covariance);
   if (choices_.mode == CAIRN_TEAM_SUBMAPS) {
-    // The limit is the distance driven: one frame may hold all existing landmarks.
-    if (!choices.submap_landmarks) filter.submap_landmarks = std::min<std::uint32_t>(4096, 2 * room + 1);
-    if (!(filter.submap_distance > 0)) filter.submap_distance = drive_.submap_distance();
+    if (!choices.submap_landmarks) filter.submap_landmarks = usual_submap(filter.max_observations);
+    if (!choices.submap_distance) filter.submap_distance = drive_.submap_distance();
     filter.join = CAIRN_JOIN_DENSE;
   } else {
     filter.submap_landmarks = 0;
@@ -79,7 +58,9 @@ TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
 }
 
 void TeamRunner::step(const TeamStep& step) {
+  seconds_.assign(teams_.size(), 0);
   for (std::size_t v = 0; v < teams_.size(); ++v) {
+    const Stopwatch watch(seconds_[v]);
     cairn_team* team = teams_[v].get();
     const VehicleStep& own = step.vehicles[v];
     for (const TeamMotion& motion : own.motions) {
@@ -101,13 +82,19 @@ void TeamRunner::exchange() {
   for (std::size_t from = 0; from < teams_.size(); ++from) {
     for (;;) {
       std::size_t size = 0;
-      check(cairn_team_take_packet(teams_[from].get(), nullptr, 0, &size));
-      if (size == 0) break;
-      packet.resize(size);
-      check(cairn_team_take_packet(teams_[from].get(), packet.data(), size, &size));
+      {
+        const Stopwatch watch(seconds_[from]);
+        check(cairn_team_take_packet(teams_[from].get(), nullptr, 0, &size));
+        if (size == 0) break;
+        packet.resize(size);
+        check(cairn_team_take_packet(teams_[from].get(), packet.data(), size, &size));
+      }
       if (choices_.mode == CAIRN_TEAM_MONO) continue;
-      for (std::size_t to = 0; to < teams_.size(); ++to)
-        if (to != from) check(cairn_team_receive(teams_[to].get(), packet.data(), size, nullptr));
+      for (std::size_t to = 0; to < teams_.size(); ++to) {
+        if (to == from) continue;
+        const Stopwatch watch(seconds_[to]);
+        check(cairn_team_receive(teams_[to].get(), packet.data(), size, nullptr));
+      }
     }
   }
 }
@@ -146,7 +133,7 @@ double TeamRunner::score(std::size_t vehicle, const cairn_pose& truth, VehicleSc
   double P[36];
   check(cairn_team_pose(team, drive_.vehicles()[vehicle], &pose, P));
   ++score.steps;
-  score.claimed += std::sqrt(P[0] * P[0] + 2 * P[1] * P[1] + P[7] * P[7]);
+  score.claimed += position_norm(P);
   score.square_error +=
       std::pow(truth.position[0] - pose.position[0], 2) + std::pow(truth.position[1] - pose.position[1], 2);
   double nees = 0;
@@ -175,12 +162,11 @@ TeamResult TeamRunner::run(const Observer& observe) {
   std::vector<VehicleEstimate> estimates(teams_.size());
   TeamStep next;
   for (std::size_t number = 0; drive_.next(next); ++number) {
-    const auto begin = std::chrono::steady_clock::now();
     step(next);
-    result.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result.recursions += teams_.size();
     double nees = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t v = 0; v < teams_.size(); ++v) {
+      result.seconds += estimates[v].seconds = seconds_[v];
       if (!choices_.filter.names_known()) note_pairs(v, next.vehicles[v], result.vehicles[v]);
       check(cairn_team_pose(teams_[v].get(), drive_.vehicles()[v], &estimates[v].pose, estimates[v].covariance));
       if (!next.vehicles[v].truth || static_cast<double>(number) < first) continue;
@@ -211,7 +197,8 @@ TeamResult TeamRunner::run(const Observer& observe) {
   return result;
 }
 
-std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& result, const TeamResult* alone) {
+std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& result, const TeamResult* alone,
+                                 double seconds) {
   std::vector<Figure> figures;
   const auto measure = [&](const std::string& key, double value) {
     if (std::isfinite(value)) figures.push_back({key, value, false});
@@ -219,15 +206,23 @@ std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& resul
   const auto count = [&](const std::string& key, std::size_t value) {
     figures.push_back({key, static_cast<double>(value), true});
   };
+  // Over the vehicles that have the figure: one without truth has no error.
   const auto mean = [&](auto&& figure) {
-    double sum = 0;
-    for (const VehicleScore& score : result.vehicles) sum += figure(score);
-    return sum / static_cast<double>(result.vehicles.size());
+    double sum = 0, known = 0;
+    for (const VehicleScore& score : result.vehicles) {
+      const double value = figure(score);
+      if (!std::isfinite(value)) continue;
+      sum += value;
+      known += 1;
+    }
+    return sum / known;
   };
   count("vehicles", result.vehicles.size());
   count("steps", result.recursions / result.vehicles.size());
   count("landmarks", result.vehicles[0].landmarks);
   count("rejected", result.rejected);
+  measure("seconds", seconds);
+  measure("filter_seconds", result.seconds);
   measure("recursion_ms_mean", 1e3 * result.seconds / static_cast<double>(result.recursions));
   measure("pose_rmse_m", mean([](const VehicleScore& s) { return s.rmse(); }));
   measure("landmark_rmse_m", mean([](const VehicleScore& s) { return s.landmark_rmse(); }));

@@ -10,6 +10,7 @@
 #include "program/drives/team_drive.hpp"
 #include "program/options/filter_choices.hpp"
 #include "program/output/figures.hpp"
+#include "program/runners/vehicle_score.hpp"
 
 namespace cairn::program {
 
@@ -21,24 +22,10 @@ struct TeamChoices {
 
 extern const std::vector<const char*> kModeNames;  // by the CAIRN_TEAM_ constants
 
-// Scores of one vehicle, over all scored steps.
-struct VehicleScore {
-  std::size_t steps = 0, nees_steps = 0;
-  double claimed = 0;       // sum of ||C_qq||, Frobenius, m^2
-  double square_error = 0;  // sum, m^2
-  double nees = 0;          // sum
-  double landmark_square = 0;
-  std::size_t landmarks = 0, landmarks_known = 0;  // of its map; of these, those with known truth
-  std::size_t paired = 0, paired_wrongly = 0;
-  double rmse() const;
-  double landmark_rmse() const;
-  double anees() const;  // for each degree of freedom
-  void add(const VehicleScore& other);
-};
-
 struct VehicleEstimate {
   cairn_pose pose;
   double covariance[36];
+  double seconds = 0;  // of this step in the library, with the vehicle's share of the packets
 };
 
 struct TeamResult {
@@ -71,10 +58,13 @@ class TeamRunner {
   TeamDrive& drive_;
   TeamChoices choices_;
   std::vector<Team> teams_;
+  std::vector<double> seconds_;  // of each vehicle in the current step
   std::vector<std::map<std::uint64_t, std::map<std::uint64_t, std::size_t>>> votes_;  // by vehicle and landmark
 };
 
-// The figures of a run, or of several summed up. `alone` (or null): the result of the same run without cooperation.
-std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& result, const TeamResult* alone);
+// The figures of a run. `alone` (or null): the result of the same run without cooperation. `seconds`: time of the whole
+// run. Figures that need the truth are left out if there is none.
+std::vector<Figure> team_figures(const TeamDrive& drive, const TeamResult& result, const TeamResult* alone,
+                                 double seconds);
 
 }  // namespace cairn::program

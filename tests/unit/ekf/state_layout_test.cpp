@@ -16,8 +16,9 @@ using namespace cairn;
 namespace {
 
 template <class Pose>
-StateLayout<Pose> layout_of(Index companions, Index points) {
+StateLayout<Pose> layout_of(Index companions, Index points, Index errors = 0) {
   StateLayout<Pose> layout;
+  layout.clear(errors);
   for (Index k = 0; k < companions; ++k) layout.add_companion();
   layout.add_points(points);
   return layout;
@@ -74,7 +75,7 @@ TEST_CASE_TEMPLATE("state layout: the blocks tile the states", Pose, SE2, SE3) {
       CHECK(same(layout.block(0), Layout::pose()));
       for (Index k = 0; k < companions; ++k) {
         const Block block = layout.block(1 + k);
-        CHECK(same(block, Layout::attitude(k)));
+        CHECK(same(block, layout.attitude(k)));
         CHECK(block.size == Pose::kTurn);
         CHECK((block.retraction == Retraction::attitude && block.number == k));
       }
@@ -107,16 +108,36 @@ TEST_CASE_TEMPLATE("state layout: adding and removing in any order gives the sam
 TEST_CASE_TEMPLATE("state layout: the blocks tile an update's window", Pose, SE2, SE3) {
   for (const Index mount : {Index(0), Index(kMountErrors<Pose>)})
     for (Index points = 0; points <= 5; ++points) {
+      const Index errors = points % 3;
       CAPTURE(mount);
       CAPTURE(points);
-      const WindowLayout<Pose> window(mount, points);
+      const WindowLayout<Pose> window(errors, mount, points);
       CHECK(window.mount_size() == mount);
       CHECK(window.points() == points);
-      CHECK(window.columns() == Pose::kDof + mount + Pose::kDim * points);
+      CHECK(window.moving() == Pose::kDof + errors);
+      CHECK(window.columns() == Pose::kDof + errors + mount + Pose::kDim * points);
       Cover cover(window.columns());
       cover.add(StateLayout<Pose>::pose().offset, Pose::kDof);
+      if (errors > 0) cover.add(Pose::kDof, errors);
       if (mount > 0) cover.add(window.mount(), mount);
       for (Index a = 0; a < points; ++a) cover.add(window.point(a), Pose::kDim);
       CHECK(cover.exact());
     }
+}
+
+TEST_CASE_TEMPLATE("state layout: systematic errors follow the pose", Pose, SE2, SE3) {
+  const StateLayout<Pose> layout = layout_of<Pose>(2, 4, 5);
+  CHECK(layout.systematic() == 5);
+  CHECK(layout.moving() == Pose::kDof + 5);
+  CHECK(layout.states() == StateLayout<Pose>::states(2, 4, 5));
+  REQUIRE(layout.blocks() == 1 + 1 + 2 + 4);
+  CHECK(same(layout.block(1), {Pose::kDof, 5, Retraction::number, 0}));
+  CHECK(same(layout.block(2), layout.attitude(0)));
+  CHECK(same(layout.block(4), layout.point(0)));
+  Index end = 0;
+  for (Index b = 0; b < layout.blocks(); ++b) {
+    CHECK(layout.block(b).offset == end);
+    end += layout.block(b).size;
+  }
+  CHECK(end == layout.states());
 }

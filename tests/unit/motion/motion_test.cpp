@@ -178,3 +178,56 @@ TEST_CASE("wheels: covariance of any step against the numerical one") {
     CHECK((step.covariance - J * sigma.cwiseAbs2().asDiagonal() * J.transpose()).norm() < 1e-12);
   }
 }
+
+// Column i of J_error: by the error of the estimate of systematic error i, truth minus estimate.
+TEST_CASE_TEMPLATE("corrected steps: derivative by the systematic errors", Pose, SE2, SE3) {
+  using Error = Eigen::Matrix<double, MotionErrors::kCount, 1>;
+  test::Random random(31);
+  const double dt = 0.4;
+  const TwistNoise noise;
+  Wheels wheels;
+  for (int k = 0; k < 5; ++k) {
+    wheels.yaw_left_minus_right = k % 2 == 1;
+    MotionErrors estimate;
+    for (int i = 0; i < MotionErrors::kCount; ++i) estimate[i] = 0.1 * random.normal();
+    const auto changed = [&](const Error& change) {
+      MotionErrors errors = estimate;
+      for (int i = 0; i < MotionErrors::kCount; ++i) errors[i] += change[i];
+      return errors;
+    };
+    const Vector3 v = random.normal_vector<3>(), w = random.normal_vector<3>();
+    const double left = 3 + random.normal(), right = 3 + random.normal();
+    const auto check = [&](const auto& step_with, const CorrectedStep<Pose>& step) {
+      const auto error = [&](const Error& change) {
+        return pose_error(step_with(changed(change)).increment.T_before_after, step.increment.T_before_after);
+      };
+      const auto J = test::jacobian_at_zero<MotionErrors::kCount>(error);
+      CHECK((J - step.J_error).norm() < 1e-8);
+    };
+    const auto twist = [&](const MotionErrors& e) { return integrate_twist<Pose>(v, w, dt, noise, e); };
+    const auto drive = [&](const MotionErrors& e) { return drive_wheels<Pose>(wheels, left, right, dt, e); };
+    const auto gyro = [&](const MotionErrors& e) {
+      return drive_wheels_gyro<Pose>(wheels, left, right, w, dt, noise, e);
+    };
+    check(twist, twist(estimate));
+    check(drive, drive(estimate));
+    check(gyro, gyro(estimate));
+  }
+}
+
+TEST_CASE("corrected steps: without systematic errors they are the plain steps") {
+  const TwistNoise noise;
+  const Wheels wheels;
+  const Vector3 v(1, 0.2, -0.1), w(0.1, 0.2, 0.3);
+  const MotionErrors none;
+  const auto same = [](const Increment<SE3>& a, const Increment<SE3>& b) {
+    return (a.T_before_after.translation() - b.T_before_after.translation()).norm() < 1e-15 &&
+           (a.covariance - b.covariance).norm() < 1e-15;
+  };
+  CHECK(same(integrate_twist<SE3>(v, w, 0.2, noise, none).increment, integrate_twist<SE3>(v, w, 0.2, noise)));
+  CHECK(same(drive_wheels<SE3>(wheels, 3, 4, 0.2, none).increment, drive_wheels<SE3>(wheels, 3, 4, 0.2)));
+  // The gyro's rate takes the place of that of the wheels, with its noise.
+  const Increment<SE3> step = drive_wheels_gyro<SE3>(wheels, 3, 4, w, 0.2, noise, none).increment;
+  CHECK((step.T_before_after.rotation().matrix() - SO3::exp(0.2 * w).matrix()).norm() < 1e-14);
+  CHECK(step.covariance(5, 5) == doctest::Approx(std::pow(0.2 * noise.rate_sigma[2], 2)).epsilon(1e-3));
+}

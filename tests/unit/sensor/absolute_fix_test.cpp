@@ -78,16 +78,16 @@ TEST_CASE("absolute fix: Jacobians against differences") {
   }
 }
 
-TEST_CASE("absolute fix: no heading within 5 degrees of the vertical") {
+TEST_CASE("absolute fix: no heading of a vertical axis") {
   const AbsoluteFix<SE3> fix = AbsoluteFix<SE3>::heading(0.3, 0.1);
   CHECK(fix.rows() == 1);
   CHECK(fix.covariance()(0, 0) == doctest::Approx(0.01));
-  for (const double degrees : {0.0, 30.0, 84.9, -84.9, 95.1}) {
+  for (const double degrees : {0.0, 30.0, 89.9, -89.9, 90.1}) {
     const SE3 T(SO3::exp(Vector3(0, 0, 1.1)) * SO3::exp(Vector3(0, degrees * kPi / 180, 0)), Vector3::Zero());
     CHECK(fix.defined(T));
     CHECK(fix.residual(T).allFinite());
   }
-  for (const double degrees : {85.1, 90.0, -90.0, 94.9}) {
+  for (const double degrees : {89.97, 90.0, -90.0, 90.03}) {
     const SE3 T(SO3::exp(Vector3(0, 0, 1.1)) * SO3::exp(Vector3(0, degrees * kPi / 180, 0)), Vector3::Zero());
     CHECK(!fix.defined(T));
   }

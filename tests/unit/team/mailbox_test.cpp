@@ -197,3 +197,116 @@ TEST_CASE("mailbox: motions are unsettled until their turn") {
   CHECK_THROWS_AS(mailbox.observe(9.0, {}, {}), Error);
   CHECK_THROWS_AS(mailbox.leave(), Error);
 }
+
+TEST_CASE("mailbox: requests do not fill the outbox") {
+  MailboxOptions options = options_of(1);
+  options.history = 100;
+  Mailbox mailbox(options);
+  mailbox.add(2);
+  for (int k = 0; k < 5; ++k) mailbox.observe(k, {}, {});
+  Packet request = step_of(2, 0, 0.0);
+  request.kind = PacketKind::request;
+  request.subject = 1;
+  const auto ask_often = [&] {
+    for (int k = 0; k < 1000; ++k) CHECK(give(mailbox, request) == Arrival::request);
+  };
+  ask_often();  // the steps themselves still wait
+  for (int k = 0; k < 5; ++k) CHECK(sent(mailbox).number == static_cast<std::uint64_t>(k));
+  CHECK(mailbox.next_packet() == nullptr);
+  ask_often();
+  CHECK(mailbox.counts().resent == 5);
+  for (int k = 0; k < 5; ++k) CHECK(sent(mailbox).number == static_cast<std::uint64_t>(k));
+  CHECK(mailbox.next_packet() == nullptr);
+}
+
+TEST_CASE("mailbox: one request to each teammate waits, and it is the newest one") {
+  Mailbox mailbox(options_of(1));
+  mailbox.add(2);
+  mailbox.add(3);
+  mailbox.observe(1.0, {}, {});
+  CHECK(sent(mailbox).kind == PacketKind::data);
+  give(mailbox, step_of(2, 3, 1.0));
+  for (int k = 0; k < 100; ++k) mailbox.ask();
+  give(mailbox, step_of(2, 2, 0.5));
+  mailbox.ask();
+  CHECK(mailbox.counts().requested == 2);
+  const Packet first = sent(mailbox);
+  CHECK((first.subject == 2 && first.count == 2));
+  CHECK(sent(mailbox).subject == 3);
+  CHECK(mailbox.next_packet() == nullptr);
+  mailbox.ask();
+  mailbox.remove(2);  // nobody asks for its packets any more
+  CHECK(sent(mailbox).subject == 3);
+  CHECK(mailbox.next_packet() == nullptr);
+}
+
+TEST_CASE("mailbox: an own time that is far ahead is refused until the next one confirms it") {
+  Mailbox mailbox(options_of(1));
+  const auto observe = [&](double time) { mailbox.observe(time, {}, {}); };
+  observe(1.0);
+  CHECK_THROWS_AS(observe(1e9), Error);
+  CHECK_THROWS_AS(observe(1e9), Error);  // the same time confirms nothing
+  CHECK(mailbox.counts().sent == 1);
+  observe(2.0);
+  CHECK_THROWS_AS(observe(500.0), Error);  // a long pause
+  CHECK_THROWS_AS(observe(600.0), Error);
+  observe(601.0);
+  CHECK(mailbox.counts().sent == 3);
+  CHECK_THROWS_AS(observe(601.0), Error);
+}
+
+TEST_CASE("mailbox: the first own time is compared with those of the teammates") {
+  Mailbox mailbox(options_of(1));
+  mailbox.add(2);
+  give(mailbox, step_of(2, 0, 100.0));
+  CHECK_THROWS_AS(mailbox.observe(1e9, {}, {}), Error);
+  mailbox.observe(100.0, {}, {});
+  CHECK(turn(mailbox) == Vehicles{1, 2});
+}
+
+TEST_CASE("mailbox: a teammate's packet that is far ahead locks out no later one") {
+  Mailbox mailbox(options_of(1));
+  mailbox.add(2);
+  mailbox.observe(1.0, {}, {});
+  CHECK(give(mailbox, step_of(2, 0, 1.0)) == Arrival::waiting);
+  CHECK(turn(mailbox) == Vehicles{1, 2});
+  for (int k = 0; k < 2; ++k) CHECK(give(mailbox, step_of(2, 1, 1e9)) == Arrival::ahead);
+  CHECK(give(mailbox, step_of(2, 2, 3.0)) == Arrival::waiting);
+  CHECK(mailbox.counts().ahead == 2);
+  mailbox.observe(20.0, {}, {});  // more than max_lag later the wrong packet is given up
+  CHECK(mailbox.skip_overdue_gap() == std::optional<std::uint64_t>(2));
+  CHECK(turn(mailbox) == Vehicles{2});
+}
+
+TEST_CASE("mailbox: two packets that agree are right, and the first one can come again") {
+  Mailbox mailbox(options_of(1));
+  mailbox.add(2);
+  mailbox.observe(1.0, {}, {});
+  CHECK(give(mailbox, step_of(2, 0, 1.0)) == Arrival::waiting);
+  CHECK(give(mailbox, step_of(2, 1, 500.0)) == Arrival::ahead);
+  CHECK(give(mailbox, step_of(2, 2, 501.0)) == Arrival::waiting);
+  CHECK(give(mailbox, step_of(2, 1, 500.0)) == Arrival::waiting);
+}
+
+// The first packet of a teammate has nothing to be compared with before this vehicle made a step.
+TEST_CASE("mailbox: a first packet with a wrong time is dropped when two later ones agree") {
+  Mailbox mailbox(options_of(1));
+  mailbox.add(2);
+  CHECK(give(mailbox, step_of(2, 0, 1e9)) == Arrival::waiting);
+  CHECK(give(mailbox, step_of(2, 1, 2.0)) == Arrival::past);
+  CHECK(give(mailbox, step_of(2, 2, 3.0)) == Arrival::waiting);
+  CHECK(give(mailbox, step_of(2, 1, 2.0)) == Arrival::waiting);
+  CHECK(give(mailbox, step_of(2, 0, 1e9)) == Arrival::past);
+}
+
+TEST_CASE("mailbox: a motion beyond any vehicle's is refused") {
+  Mailbox mailbox(options_of(1));
+  const auto move = [&](double x, double variance, double turn) {
+    Matrix3 C = Vector3(variance, variance, turn).asDiagonal();
+    mailbox.move({SE2(SO2(), Vector2(x, 0.0)), C});
+  };
+  move(1e9, 1e18, 39.0);
+  CHECK_THROWS_AS(move(1e10, 1.0, 0.1), Error);
+  CHECK_THROWS_AS(move(1.0, 1e308, 0.1), Error);
+  CHECK_THROWS_AS(move(1.0, 1.0, 40.0), Error);
+}

@@ -240,3 +240,37 @@ TEST_CASE("packet: numbers that end in nothing") {
   packet.time = std::numeric_limits<double>::infinity();
   CHECK(fault_of(encode(packet)) == PacketFault::content);
 }
+
+// Finite numbers that would overflow in a filter.
+TEST_CASE("packet: numbers of absurd size") {
+  Random random(8);
+  const auto fault_of = [](const Packet& packet) {
+    const std::vector<std::uint8_t> bytes = encode(packet);
+    Packet unused;
+    return decode(bytes.data(), bytes.size(), unused);
+  };
+  const Packet good = any_packet(random, 1, 1, 1);
+  REQUIRE(fault_of(good) == PacketFault::none);
+  const auto with_variance = [&](int axis, double variance) {
+    Packet packet = good;
+    packet.motions[0].covariance = Matrix3(1e-4 * Matrix3::Identity());
+    packet.motions[0].covariance(axis, axis) = variance;
+    return fault_of(packet);
+  };
+  CHECK(with_variance(0, 1e18) == PacketFault::none);
+  CHECK(with_variance(2, 1e4) == PacketFault::none);
+  for (int axis = 0; axis < 3; ++axis) CHECK(with_variance(axis, 1e308) == PacketFault::content);
+  CHECK(with_variance(2, 1.1e4) == PacketFault::content);
+  Packet far = good;
+  far.motions[0].T_before_after = SE2(SO2(), Vector2(0.0, -1e308));
+  CHECK(fault_of(far) == PacketFault::content);
+  for (const double variance : {1e308, 1e-308, 1e101}) {
+    Packet noisy = good;
+    noisy.landmarks[0].covariance[0] = noisy.landmarks[0].covariance[3] = variance;
+    noisy.landmarks[0].covariance[1] = noisy.landmarks[0].covariance[2] = 0.0;
+    CHECK(fault_of(noisy) == PacketFault::content);
+  }
+  Packet nothing = good;  // the range of a radar that got no echo costs the packet nothing
+  nothing.landmarks[0].z[0] = nothing.vehicles[0].z[0] = std::numeric_limits<double>::max();
+  CHECK(fault_of(nothing) == PacketFault::none);
+}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""python -m cairn.report DIR [-o FILE]: one HTML page; --figures OUT: the Mars paper's figures."""
+"""python -m cairn.report DIR [-o FILE]: one HTML page; --figures OUT: the figures of the paper."""
 import argparse
 import os
 import sys
@@ -24,18 +24,19 @@ def main(arguments=None):
         description="Makes one self-contained HTML page of a run's results, or pictures of them.")
     parser.add_argument("folder", metavar="DIR", help="what 'cairn run --output DIR' or 'cairn simulate --output DIR' wrote")
     parser.add_argument("-o", "--output", metavar="FILE", help="the page (default: DIR/report.html)")
-    parser.add_argument("--figures", metavar="OUT", help="write Figures 5 to 13 of the Mars paper into this folder instead")
+    parser.add_argument("--figures", metavar="OUT",
+                        help="write pictures into this folder instead: Figures 5 to 13 of the Mars paper or, of a team, "
+                             "Figures 2 to 7 of the cooperative paper")
     parser.add_argument("--format", choices=("png", "svg"), default="png", help="format of the figures (default: png)")
     options = parser.parse_args(arguments)
     try:
         cooperation = team.read_folder(options.folder)
-        if cooperation is not None and options.figures:
-            raise run.ReportError(f"{options.folder}: --figures draws the figures of the Mars paper, and this is the folder of "
-                                      "a team")
         runs = run.read_folder(options.folder) if cooperation is None else ()
         if options.figures:
-            from . import figures
-            for path in figures.write(runs, options.figures, options.format):
+            from . import figures, team_figures
+            paths = (figures.write(runs, options.figures, options.format) if cooperation is None
+                     else team_figures.write(cooperation, options.figures, options.format))
+            for path in paths:
                 print(path)
             return 0
         if cooperation is not None:

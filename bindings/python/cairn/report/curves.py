@@ -52,6 +52,8 @@ def errors(runs):
             error, sigma = run.trajectory.get(error_name), run.trajectory.get(sigma_name)
             if error is None or np.isnan(error).all():
                 continue
+            if not np.nan_to_num(error).any() and (sigma is None or not np.nan_to_num(sigma).any()):
+                continue  # z, roll and pitch of a planar vehicle
             key, times = key_of(runs, run), run.times()
             label = "" if key == "only" else f"{key}: "
             if sigma is not None and not np.isnan(sigma).all():
@@ -117,7 +119,7 @@ def step_time(runs):
             shown = np.flatnonzero(closings)[thin.envelope(taken[closings], 600)]
             traces.append(line(times[shown], taken[shown], "#b3261e", f"{label}a submap was closed", mode="markers",
                                marker={"size": 6, "symbol": "triangle-down", "color": "#b3261e"}))
-            note += f", {int(closings.sum())} closings ▼"
+            note += f", {int(closings.sum())} closing{'s' if closings.sum() > 1 else ''} ▼"
         notes.append(note)
     if not traces:
         return None

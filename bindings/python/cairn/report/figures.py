@@ -75,7 +75,7 @@ def trajectories(run):
     axes.plot(*estimate.T, "--", color=ESTIMATE, linewidth=1.4, label="estimated trajectory")
     marks = scene.Landmarks(run)
     if marks.truth is not None:
-        axes.plot(*marks.truth.T, "*", color=MARK, markersize=4, alpha=0.7, label="landmarks (true)")
+        axes.plot(*marks.truth.T, "o", color=MARK, markersize=5, fillstyle="none", alpha=0.8, label="landmarks (true)")
     if marks.count:
         axes.plot(*marks.points.T, "*", color=SEEN, markersize=4, alpha=0.7, label="landmarks (estimated)")
     axes.legend(loc="upper left")
@@ -175,9 +175,9 @@ def draw(runs):
     yield 13, lambda: held(runs)
 
 
-def _rendered(runs, kind):
+def _rendered(drawn, kind):
     with pyplot.rc_context(STYLE):
-        for number, make in draw(runs):
+        for number, make in drawn:
             figure = make()
             if figure is None:
                 continue
@@ -189,17 +189,23 @@ def _rendered(runs, kind):
 
 def for_page(runs):
     """(caption, media type, bytes) of each figure."""
-    return [(CAPTIONS[number], "image/png", content) for number, content in _rendered(runs, "png")]
+    return [(CAPTIONS[number], "image/png", content) for number, content in _rendered(draw(runs), "png")]
+
+
+def write_figures(drawn, folder, kind, name):
+    """Writes name_05.png and so on; returns their paths. `drawn` gives numbers and the functions that draw."""
+    os.makedirs(folder, exist_ok=True)
+    paths = []
+    for number, content in _rendered(drawn, kind):
+        paths.append(os.path.join(folder, f"{name}_{number:02d}.{kind}"))
+        with open(paths[-1], "wb") as file:
+            file.write(content)
+    return paths
 
 
 def write(runs, folder, kind):
     """Writes figure_05.png and so on; returns their paths."""
-    os.makedirs(folder, exist_ok=True)
-    paths = []
-    for number, content in _rendered(runs, kind):
-        paths.append(os.path.join(folder, f"figure_{number:02d}.{kind}"))
-        with open(paths[-1], "wb") as file:
-            file.write(content)
+    paths = write_figures(draw(runs), folder, kind, "figure")
     if not paths:
         raise ReportError("there is nothing to draw: name a folder that 'cairn simulate mars --output' wrote")
     return paths

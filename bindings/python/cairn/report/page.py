@@ -7,7 +7,7 @@ import os
 import re
 
 from .. import __version__
-from . import curves, scene
+from . import curves, path_curves, scene, trust, trust_curves
 from .run import ReportError
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -32,12 +32,23 @@ MEANINGS = {
     "pose_anees_per_dof": "squared pose error over its variance: 1 for a consistent filter",
     "nis_per_dof": "squared innovation over its variance: 1 if the noise is as assumed",
     "wrong_pairings": "observations paired with the wrong landmark", "paired": "observations paired without an id",
+    "verdict": "verdict on the filter at the end", "verdict_good_share": "share of the steps judged good",
+    "verdict_doubtful_share": "share of the steps judged doubtful", "verdict_lost_share": "share of the steps judged lost",
+    "refused_share": "share of the observations of known landmarks that were refused",
+    "widenings": "how often the pose was widened because most of what was seen contradicted it",
+    "motion_noise_scale": "factor on the stated noise of the motion that explains the innovations",
+    "motion_noise_scale_sigma": "its standard deviation",
+    "sensor_noise_scale": "factor on the stated noise of the sensors that explains the innovations",
+    "sensor_noise_scale_sigma": "its standard deviation",
+    "error_correlation": "correlation of a landmark’s innovations, one sighting and the next",
     "vehicles": "vehicles of the team", "recursion_ms_mean": "time of one vehicle's step, its share of the packets in it, ms",
     "claimed_improvement": "by how much the covariance of the first vehicle is smaller than without the team",
     "true_improvement": "by how much its mean squared error is smaller than without the team"}
-CARDS = [("pose_rmse_m", "position error, rms", "m"), ("landmark_rmse_m", "landmark error, rms", "m"),
+CARDS = [("verdict", "verdict at the end", ""), ("verdict_good_share", "of the steps judged good", "%"),
+         ("pose_rmse_m", "position error, rms", "m"), ("landmark_rmse_m", "landmark error, rms", "m"),
          ("attitude_rmse_deg", "attitude error, rms", "°"), ("pose_anees_per_dof", "consistency of the pose (1 is right)", ""),
-         ("step_ms_mean", "time of a step", "ms"), ("landmarks", "landmarks", ""), ("submaps", "submaps", "")]
+         ("step_ms_mean", "time of a step", "ms"),
+         ("landmarks", "landmarks", ""), ("submaps", "submaps", "")]
 FIGURE_SECTION = "The Mars paper’s figures"
 
 
@@ -80,10 +91,11 @@ def cards(runs):
     for key, name, unit in CARDS:
         if key not in main.summary or (key == "submaps" and not main.summary[key]):
             continue
+        scale = 100 if unit == "%" else 1  # shares
         rival = ""
         if len(runs) > 1 and key in runs[0].summary and key != "submaps":
-            rival = f'<div class="rival">{number(runs[0].summary[key])} {html.escape(runs[0].name)}</div>'
-        shown.append(f'<div class="card"><div class="value">{number(main.summary[key])} <span class="unit">{unit}</span></div>'
+            rival = f'<div class="rival">{number(scale * runs[0].summary[key])} {html.escape(runs[0].name)}</div>'
+        shown.append(f'<div class="card"><div class="value">{number(scale * main.summary[key])} <span class="unit">{unit}</span></div>'
                      f'<div class="name">{name}</div>{rival}</div>')
     return f'<div class="cards">{"".join(shown)}</div>' if shown else ""
 
@@ -105,9 +117,43 @@ def plot_block(curve, at):
             f'<div id="curve{at}" class="plot" style="height:{curve["layout"]["height"]}px"></div></div>')
 
 
+def section(title, figures, found, note="", grid="grid", kind=""):
+    """A section of figures, one below the other or in a grid of the style `grid`. The figures are added to `found`."""
+    if not figures:
+        return ""
+    blocks = []
+    for figure in figures:
+        found.append(figure)
+        blocks.append(plot_block(figure, len(found) - 1))
+    body = f'<div class="{grid}">{"".join(blocks)}</div>' if grid else "".join(blocks)
+    note = f'<p class="note">{note}</p>' if note else ""
+    attribute = f' class="{kind}"' if kind else ""
+    return f"<section{attribute}><h2>{title}</h2>{body}{note}</section>"
+
+
+def trust_sections(run, label, found):
+    """What the run says of itself: verdict, systematic errors, corrected trajectory. Each appears if its file is there."""
+    known, blocks = trust.Trust(run.folder, run.start), []
+    if known.health is not None:
+        blocks.append(section(f"Trust{label}", [trust_curves.verdict(known.health)], found, grid="", kind="trust"))
+        blocks.append(section(f"What the verdict rests on{label}", trust_curves.of_health(known.health), found, kind="trust"))
+    rest = known.systematic[trust_curves.MOST_STATES:]
+    note = "Estimate and its 3 σ band."
+    if rest:
+        note += " Not drawn: " + ", ".join(html.escape(state[0]) for state in rest) + "."
+    blocks.append(section(f"Systematic errors that the filter estimates{label}", trust_curves.systematic(known.systematic),
+                          found, note, kind="trust"))
+    blocks.append(section(f"Corrected and online trajectory{label}", path_curves.of_run(run, known), found,
+                          "Online: each pose as known right after its step. Corrected: the poses of all kept steps as known "
+                          "at the end.", grid="grid pairs", kind="trust"))
+    return [block for block in blocks if block]
+
+
 def sections(runs, pictures):
     """HTML of the sections below the scene, and the curves in them."""
     found, blocks = [], []
+    for run in runs:
+        blocks += trust_sections(run, "" if len(runs) == 1 else f": {html.escape(run.name)}", found)
 
     def place(curve):
         found.append(curve)
@@ -139,14 +185,25 @@ def plotly_source():
     return get_plotlyjs().replace("</script", "<\\/script")
 
 
+def lead_of(run):
+    times = run.times()
+    lead = f"{len(times)} steps"
+    if run.timed:
+        lead += f", {times[-1] - times[0]:.1f} s"
+    return lead + (f"; times count from {run.start:.3f} s" if run.start else "")
+
+
 def build(folder, runs, pictures=()):
     """The text of the page of one run or of two."""
     title = os.path.basename(os.path.abspath(folder))
     title = f"{title}: submaps beside one standard map" if len(runs) > 1 else title
     main = runs[-1]
-    duration = main.times()[-1] - main.times()[0]
     blocks, found = sections(runs, pictures)
-    return assemble(folder, title, f"{len(main.times())} steps, {duration:.1f} s", cards(runs), blocks, table(runs), found,
+    if not main.timed:
+        for curve in found:
+            axis = curve["layout"]["xaxis"]["title"]
+            axis["text"] = "step" if axis["text"] == "time (s)" else axis["text"]
+    return assemble(folder, title, lead_of(main), cards(runs), blocks, table(runs), found,
                     scene.build(runs))
 
 

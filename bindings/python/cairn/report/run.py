@@ -7,8 +7,9 @@ import os
 
 import numpy as np
 
+LARGE_TIME = 1e5            # s
 WHOLE = {"id", "submap"}    # columns whose values a double may not hold exactly
-WORDS = {"mode", "reason", "result"}
+WORDS = {"kind", "mode", "name", "reason", "reasons", "result", "verdict"}
 
 
 class ReportError(Exception):
@@ -128,6 +129,7 @@ class Run:
                 raise ReportError(f"{os.path.join(folder, 'trajectory.csv')}: it has no column {column}")
         if len(self.trajectory["step"]) == 0:
             raise ReportError(f"{os.path.join(folder, 'trajectory.csv')}: it has no steps")
+        self._set_clock()
         self.landmarks = self._table("landmarks")
         self.timing = self._table("timing")
         self.submaps = self._table("submaps")
@@ -135,6 +137,13 @@ class Run:
         self.summary = self._json("summary")
         self.members = self._members()
         self.observations = Observations(self._path("innovations.csv"), self.closing_steps())
+
+    def _set_clock(self):
+        """Large times, for example seconds since 1970, count from the first step. A log may have no times: steps count."""
+        self.timed = not np.isnan(self.trajectory["t_s"]).any()
+        times = self.trajectory["t_s"] if self.timed else self.trajectory["step"]
+        self.start = float(times[0]) if self.timed and abs(times[0]) > LARGE_TIME else 0.0
+        self.trajectory["t_s"] = times - self.start
 
     def _path(self, file):
         return os.path.join(self.folder, file)
@@ -166,6 +175,7 @@ class Run:
         return None if np.isnan(found).all() else found
 
     def times(self):
+        """Times of the steps: s since `start`. If `timed` is False they are numbers of steps."""
         return self.trajectory["t_s"]
 
     def time_of_steps(self, steps):

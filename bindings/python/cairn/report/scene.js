@@ -101,7 +101,7 @@ function drawScene(scene, config) {
         return {x: [main.estimate.x[i]], y: [main.estimate.y[i]], z: [main.estimate.z[i]]};
       });
 
-  const narrow = window.innerWidth < 700;
+  const narrow = window.innerWidth < 700, away = narrow ? 1.5 : 1;
   const axis = title => ({title: {text: title}, backgroundcolor: '#fbfaf7', showbackground: true, gridcolor: '#e2dfd7',
                           zerolinecolor: '#d4d0c6', color: '#6d6a62'});
   const layout = {
@@ -110,7 +110,7 @@ function drawScene(scene, config) {
     legend: {...(narrow ? {orientation: 'h', x: 0, y: 0.3, yanchor: 'top'} : {x: 0, y: 1}), bgcolor: 'rgba(255,255,255,0.82)', bordercolor: '#e4e1da', borderwidth: 1, itemsizing: 'constant'},
     scene: {domain: narrow ? {x: [0, 1], y: [0.32, 1]} : {x: [0.1, 1], y: [0, 1]}, xaxis: axis('x (m)'), yaxis: axis('y (m)'), zaxis: axis('z (m)'), aspectmode: 'manual',
             aspectratio: {x: scene.aspect.x, y: scene.aspect.y, z: scene.aspect.z},
-            camera: {eye: {x: -0.8, y: -1.08, z: 0.9}, center: {x: 0, y: 0, z: -0.14}}}
+            camera: {eye: {x: -0.8 * away, y: -1.08 * away, z: 0.9 * away}, center: {x: 0, y: 0, z: -0.14}}}
   };
 
   const slider = document.getElementById('slider'), label = document.getElementById('stop');
@@ -118,7 +118,7 @@ function drawScene(scene, config) {
   let drawing = Promise.resolve(), wanted = null, timer = null;
 
   function describe(stop) {
-    const parts = ['step ' + stop.step + ', ' + stop.time.toFixed(1) + ' s'];
+    const parts = ['step ' + stop.step + (stop.time === null ? '' : ', ' + stop.time.toFixed(1) + ' s')];
     if (main.outlines) parts.push(stop.submaps + (stop.submaps === 1 ? ' submap' : ' submaps'));
     if (main.landmarks.x.length) parts.push(stop.landmarks + ' landmarks seen');
     return parts.join(' · ');

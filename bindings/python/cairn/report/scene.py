@@ -105,10 +105,10 @@ def run_scene(run):
 
 
 def stops(run):
-    """Steps at which the slider stops: after each closing, or evenly spread. The last step is always a stop."""
+    """Steps at which the slider stops: after each of several closings, or evenly spread. The last step is always a stop."""
     steps = run.trajectory["step"]
     closings = [step for step in run.closing_steps() if steps[0] <= step <= steps[-1]]
-    if closings:
+    if len(closings) > 1:
         chosen = [closings[i] for i in thin.evenly(len(closings), MOST_STOPS)]
     else:
         chosen = steps[thin.evenly(len(steps), min(MOST_STOPS, 101))][1:]
@@ -142,6 +142,6 @@ def build(runs):
     ground = next((found for found in (terrain(run.terrain) for run in reversed(runs)) if found), None)
     scenes = [run_scene(run) for run in runs]
     return {"runs": scenes, "terrain": ground, "aspect": exaggeration(scenes, ground),
-            "stops": [{"step": step, "time": round(float(main.time_of_steps(step)), 2),
+            "stops": [{"step": step, "time": round(float(main.time_of_steps(step)), 2) if main.timed else None,
                        "landmarks": int(np.searchsorted(first, step, "right")),
                        "submaps": int(np.searchsorted(closings, step, "right"))} for step in stops(main)]}

@@ -11,6 +11,8 @@ from .run import ReportError
 TRAJECTORY = ["step", "time", "vehicle", "x", "y", "heading", "sigma3_x", "sigma3_y", "sigma3_heading"]
 LANDMARKS = ["vehicle", "id", "x", "y", "sigma3_x", "sigma3_y"]
 COMPARISON = ["features", "mode", "claimed", "true", "anees", "band_low", "band_high", "rmse_m", "recursion_ms", "paper"]
+STEPS = ["features", "mode", "runs", "step", "time", "vehicle", "norm_m2", "recursion_ms"]
+SCENE = ["kind", "id", "x", "y", "radius"]
 
 
 def _table(folder, name, columns):
@@ -49,6 +51,72 @@ def _by_vehicle(table):
             for number in np.unique(table["vehicle"])]
 
 
+class Scene:
+    """The square that simulated boats drive in: team_scene.csv."""
+
+    def __init__(self, table, path):
+        self.table, self.path = table, path
+        self.features = len(self._of("feature")["id"])
+        self.boats = [int(number) for number in self._of("radar")["id"]]
+        if len(self._of("coast")["id"]) == 0 or not self.boats:
+            raise ReportError(f"{path}: it has no coast line or no radar")
+        for kind in ("course", "radar"):
+            for boat in self.boats:
+                self.circle(kind, boat)
+
+    def _of(self, kind):
+        chosen = self.table["kind"] == kind
+        return {name: column[chosen] for name, column in self.table.items()}
+
+    def points(self, kind, number=None):
+        """x and y of the coast, of the features or of the drive of boat `number`."""
+        rows = self._of(kind)
+        chosen = np.ones(len(rows["id"]), bool) if number is None else rows["id"] == number
+        return rows["x"][chosen], rows["y"][chosen]
+
+    def circle(self, kind, number):
+        """x, y and radius of the `course` of a boat, or of its `radar` at the start."""
+        rows = self._of(kind)
+        for i in np.flatnonzero(rows["id"] == number):
+            return float(rows["x"][i]), float(rows["y"][i]), float(rows["radius"][i])
+        raise ReportError(f"{self.path}: boat {number} has no {kind}")
+
+
+class Steps:
+    """Claimed uncertainty and time of each vehicle at each step: team_steps.csv."""
+
+    def __init__(self, table, _):
+        self.table = table
+        self.features = sorted({int(number) for number in table["features"]})
+        self.modes = list(dict.fromkeys(table["mode"].tolist()))
+        self.vehicles = sorted({int(number) for number in table["vehicle"]})
+        self.runs = int(table["runs"].max())
+
+    def compares(self):
+        """Whether there are steps with a team and steps without."""
+        return "mono" in self.modes and len(self.modes) > 1
+
+    def curve(self, column, features, mode, vehicle):
+        """Times and values of a column. Empty if the mode was not run with this number of features."""
+        chosen = ((self.table["features"] == features) & (self.table["mode"] == mode)
+                  & (self.table["vehicle"] == vehicle))
+        return self.table["time"][chosen], self.table[column][chosen]
+
+    def improvement(self, features, mode, vehicle):
+        """Times, and by how much the norm is smaller than in the mode mono, in %; NaN where the norm of mono is 0."""
+        times, norm = self.curve("norm_m2", features, mode, vehicle)
+        alone_times, alone = self.curve("norm_m2", features, "mono", vehicle)
+        if len(times) == 0 or not np.array_equal(times, alone_times):
+            return np.zeros(0), np.zeros(0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return times, np.where(alone > 0, 100 * (alone - norm) / alone, np.nan)
+
+
+def _read(folder, name, columns, kind):
+    table = _table(folder, name, columns)
+    return None if table is None else kind(table, os.path.join(folder, name))
+
+
 class TeamRun:
     """The files of 'cairn simulate usv --output' or of 'cairn run' on an MRCLAM folder."""
 
@@ -59,7 +127,13 @@ class TeamRun:
         landmarks = _table(folder, "team_landmarks.csv", LANDMARKS)
         self.maps = _by_vehicle(landmarks) if landmarks is not None else []
         self.summary = run.read_figures(os.path.join(folder, "summary.json"))
+        self.scene = _read(folder, "team_scene.csv", SCENE, Scene)
+        self.steps = _read(folder, "team_steps.csv", STEPS, Steps)
         self.observations = types.SimpleNamespace(refused={})  # no file holds them
+
+    def drawn_features(self):
+        """The numbers of features with which the scene can be drawn."""
+        return [] if self.scene is None else [self.scene.features]
 
     def one_map(self):
         """Whether all vehicles hold the same map. They do if all run the same filter."""
@@ -77,6 +151,12 @@ class TeamComparison:
         self.table = _table(folder, "team_compare.csv", COMPARISON)
         self.features = sorted({int(number) for number in self.table["features"]})
         self.modes = list(dict.fromkeys(self.table["mode"].tolist()))
+        self.scene = _read(folder, "team_scene.csv", SCENE, Scene)
+        self.steps = _read(folder, "team_steps.csv", STEPS, Steps)
+
+    def drawn_features(self):
+        """The numbers of features with which the scene can be drawn: the first features are those of the smaller worlds."""
+        return [] if self.scene is None else self.features
 
     def value(self, column, features, mode):
         """One figure; NaN if the mode was not run with this number of features."""

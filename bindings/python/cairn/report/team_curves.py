@@ -6,8 +6,12 @@ from . import thin
 from .curves import MOST, band, base_layout, line
 
 PALETTE = ["#2563a8", "#c8641b", "#1d8a7a", "#7a4fb5", "#b5487e", "#5b7f1e", "#a86a12", "#55524a"]  # vehicles
-MODES = {"mono": "#8a867c", "eo_diagonal": "#b3261e", "eo_full": "#c8641b", "submaps": "#1d8a7a", "joint": "#2563a8"}
+# Colours of Okabe and Ito, which colour-blind readers can tell apart; each mode has a kind of line and a marker as well.
+MODES = {"mono": "#5c5c5c", "eo_diagonal": "#d55e00", "eo_full": "#e69f00", "submaps": "#009e73", "joint": "#0072b2"}
+DASHES = {"mono": "solid", "eo_diagonal": "dash", "eo_full": "dashdot", "submaps": "dot", "joint": "solid"}
+MARKERS = {"mono": "circle", "eo_diagonal": "x", "eo_full": "diamond", "submaps": "square", "joint": "triangle-up"}
 MOST_ELLIPSES = 400  # of one map
+LEAST_BAR = -150  # %: a mode that fails must not squeeze the bars of the others
 LEGEND = {"showlegend": True, "legend": {"orientation": "h", "x": 0, "y": 1, "yanchor": "bottom", "font": {"size": 12}}}
 ERRORS = [("x", "m", 1.0), ("y", "m", 1.0), ("heading", "deg", np.degrees(1.0))]
 
@@ -69,7 +73,8 @@ def the_map(team):
                               showlegend=at == 0, hoverinfo="skip",
                               marker={"size": 7, "symbol": "x-thin", "line": {"width": 1.4, "color": "#1d8a3a"}}))
     layout = base_layout(620, "y (m)", "x (m)", **LEGEND)
-    layout["yaxis"].update(scaleanchor="x", scaleratio=1)
+    layout["xaxis"]["exponentformat"] = "none"
+    layout["yaxis"].update(scaleanchor="x", scaleratio=1, exponentformat="none")
     note = "" if not maps else "Ellipses: 3 σ." if "cov_xy" in maps[0].columns else "Ellipses: 3 σ along x and y."
     if len(team.maps) > 1 and len(maps) == 1:
         note += " All vehicles hold the same map; it is drawn once."
@@ -104,11 +109,12 @@ def _bars(comparison, features, bounds):
     claimed, true = ([comparison.value(column, features, mode) for mode in modes]
                      for column in ("claimed", "true"))
     paper = max(comparison.value("paper", features, mode) for mode in comparison.modes)
-    number = {"texttemplate": "%{y:.0f}", "textposition": "outside", "cliponaxis": False, "textfont": {"size": 11}}
-    traces = [{"type": "bar", "x": modes, "y": thin.significant(claimed), "name": "claimed",
-               "marker": {"color": "#9fc0e0"}, **number},
-              {"type": "bar", "x": modes, "y": thin.significant(true), "name": "true",
-               "marker": {"color": "#2563a8"}, **number}]
+    traces = []
+    for name, values, colour in (("claimed", claimed, "#9fc0e0"), ("true", true, "#2563a8")):
+        text = [f"{value:.0f}" if np.isfinite(value) else "" for value in values]
+        traces.append({"type": "bar", "x": modes, "y": thin.significant(np.maximum(values, LEAST_BAR)), "name": name,
+                       "marker": {"color": colour}, "text": text, "textposition": "outside", "cliponaxis": False,
+                       "textfont": {"size": 11}, "hovertemplate": "%{x}: %{text} %<extra>" + name + "</extra>"})
     layout = base_layout(330, "improvement (%)", "", barmode="group", bargap=0.3, **LEGEND)
     layout["xaxis"].update(type="category", tickangle=0, tickfont={"size": 10})
     layout["yaxis"].update(range=bounds)
@@ -117,6 +123,8 @@ def _bars(comparison, features, bounds):
         layout["shapes"] = [{"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": paper, "y1": paper,
                              "line": {"color": "#b3261e", "width": 1.4, "dash": "dash"}}]
         note = f"dashed: the cooperative paper claims {paper:g} %"
+    if min([0.0, *claimed, *true]) < LEAST_BAR:
+        note += f"; bars are cut at {LEAST_BAR} %"
     return {"title": f"{features} features", "note": note, "data": traces, "layout": layout, "alone": True}
 
 
@@ -124,7 +132,7 @@ def improvement(comparison):
     """Claimed and true improvement over a vehicle without a team: one figure for each number of features, all on the same
     scale."""
     shown = np.concatenate([comparison.table[name] for name in ("claimed", "true", "paper")])
-    low, high = np.nanmin(np.append(shown, 0.0)), np.nanmax(np.append(shown, 10.0))
+    low, high = max(np.nanmin(np.append(shown, 0.0)), LEAST_BAR), np.nanmax(np.append(shown, 10.0))
     room = 0.12 * (high - low)
     return [_bars(comparison, features, [float(low - room if low < 0 else 0.0), float(high + room)])
             for features in comparison.features]
@@ -136,8 +144,8 @@ def _by_features(comparison, column, title, y_title, note, log=False):
         values = np.array([comparison.value(column, features, mode) for features in comparison.features])
         colour = MODES.get(mode, "#55524a")
         traces.append({"type": "scatter", "mode": "lines+markers", "x": [str(f) for f in comparison.features],
-                       "y": thin.significant(values), "name": mode, "line": {"color": colour, "width": 1.6},
-                       "marker": {"color": colour, "size": 7}})
+                       "y": thin.significant(values), "name": mode, "line": {"color": colour, "width": 1.6, "dash": DASHES.get(mode, "solid")},
+                       "marker": {"color": colour, "size": 8, "symbol": MARKERS.get(mode, "circle")}})
     layout = base_layout(330, y_title, "features", **LEGEND)
     layout["xaxis"]["type"] = "category"
     if log:

@@ -4,7 +4,7 @@ import html
 
 import numpy as np
 
-from . import page, team, team_curves
+from . import page, team, team_curves, team_time
 
 CARDS = [("pose_rmse_m", "position error, rms", "m", 1), ("landmark_rmse_m", "landmark error, rms", "m", 1),
          ("pose_anees_per_dof", "consistency of the poses (1 is right)", "", 1),
@@ -26,22 +26,47 @@ def _cards(summary):
     return f'<div class="cards">{"".join(shown)}</div>' if shown else ""
 
 
-def _section(title, figures, found, note="", grid=True):
-    """A section of figures. The figures are added to `found`."""
-    blocks = []
-    for figure in figures:
-        found.append(figure)
-        blocks.append(page.plot_block(figure, len(found) - 1))
-    body = f'<div class="grid">{"".join(blocks)}</div>' if grid else "".join(blocks)
-    return (f"<section><h2>{title}</h2>{body}" + (f'<p class="note">{note}</p>' if note else "") + "</section>") \
-        if figures else ""
+def _worlds(steps, kind):
+    return "One world." if steps.runs == 1 else f"{kind} of {steps.runs} worlds."
+
+
+def _over_time(steps, features, found):
+    """Norms and improvement ratios with one number of features."""
+    figures = team_time.norms(steps, features) + team_time.improvements(steps, features)
+    return page.section(f"Uncertainty with {features} features{team_time.paper_figure('norm', features)}", figures, found,
+                        f"{_worlds(steps, 'Means')} Frobenius norm of the covariance of x and y. The improvement ratio is the "
+                        "share by which it is smaller than that of a vehicle by itself. Both are claims: they do not use the truth. "
+                        "A click on a mode in the legend shows or hides it.", grid="grid pairs")
+
+
+def _compared_steps(steps, found):
+    """All modes over time. The steps of only one mode need one curve for each vehicle."""
+    if len(steps.modes) > 1:
+        return "".join(_over_time(steps, features, found) for features in steps.features) + _recursions(steps, found)
+    return page.section("Uncertainty and cost", team_time.by_vehicle(steps, steps.features[0]), found,
+                        "Frobenius norm of the covariance of x and y. A recursion is one step of one vehicle, with its share "
+                        "of the packets.", grid="grid pairs")
+
+
+def _recursions(steps, found):
+    figures = [figure for features in steps.features
+               for figure in team_time.recursions(steps, features, steps.vehicles)]
+    return page.section("Time of a recursion", figures, found,
+                        f"{_worlds(steps, 'Medians')} One vehicle, one step, with its share of the packets.", grid="grid pairs")
 
 
 def _of_run(one):
     found, times = [], np.concatenate([vehicle["time"] for vehicle in one.vehicles])
-    blocks = _section("The drives and their map", [team_curves.the_map(one)], found, grid=False)
-    blocks += _section("Errors, and what the filters say of them", team_curves.errors(one), found,
-                       "Truth minus estimate of each step, as the vehicle itself knew its pose right after that step.")
+    the_map = team_curves.the_map(one)
+    if one.scene is None:
+        blocks = page.section("The drives and their map", [the_map], found, grid="")
+    else:
+        world = team_time.world(one.scene, one.scene.features)
+        blocks = page.section("The world, the drives and their map", [world, the_map], found, grid="grid pairs")
+    blocks += page.section("Errors, and what the filters say of them", team_curves.errors(one), found,
+                           "Truth minus estimate of each step, as the vehicle itself knew its pose right after that step.")
+    if one.steps is not None:
+        blocks += _compared_steps(one.steps, found)
     steps = max(len(vehicle["time"]) for vehicle in one.vehicles)
     lead = f"{len(one.vehicles)} vehicles, {steps} steps, {times.max() - times.min():.1f} s"
     return page.assemble(one.folder, one.name, lead, _cards(one.summary), blocks, page.table([one]), found)
@@ -62,10 +87,16 @@ def _comparison_table(comparison):
 
 def _of_comparison(comparison):
     found = []
-    blocks = _section("Improvement on a vehicle by itself, vehicle 1", team_curves.improvement(comparison), found,
-                      "Claimed: by how much the norm of the position’s covariance is smaller. True: by how much the mean "
-                      "squared error is. A claim above the truth is overconfidence.")
-    blocks += _section("Consistency, accuracy and cost", team_curves.comparisons(comparison), found)
+    blocks = page.section("Improvement on a vehicle by itself, vehicle 1", team_curves.improvement(comparison), found,
+                           "Claimed: by how much the norm of the position’s covariance is smaller. True: by how much the mean "
+                           "squared error is. A claim above the truth is overconfidence.")
+    blocks += page.section("Consistency, accuracy and cost", team_curves.comparisons(comparison), found)
+    worlds = [team_time.world(comparison.scene, features) for features in comparison.drawn_features()
+              if ("scene", features) in team_time.PAPER]
+    several = comparison.steps is None or comparison.steps.runs > 1
+    blocks += page.section("The world", worlds, found, "The first of the worlds." if several else "", grid="grid pairs")
+    if comparison.steps is not None:
+        blocks += _compared_steps(comparison.steps, found)
     lead = "modes of a team beside each other: " + ", ".join(comparison.modes)
     return page.assemble(comparison.folder, comparison.name, lead, "", blocks, _comparison_table(comparison), found)
 

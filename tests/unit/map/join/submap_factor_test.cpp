@@ -317,3 +317,73 @@ TEST_CASE_TEMPLATE("submap factor: exact knowledge is no division by zero, and n
     CHECK_THROWS_AS(SubmapFactor<Pose>(std::make_shared<SubmapData<Pose>>(submap), {0, 1}), Error);
   }
 }
+
+namespace {
+
+// Errors of which the second and the fourth walk: three points in space, constant, at the base and at the end.
+SharedErrorOptions error_options() {
+  return {{0.1, 0.3, 0.02, 0.5}, {1, 3}};
+}
+
+template <class Pose>
+Submap<Pose> submap_with_errors(Random& random, ErrorKind error) {
+  const Index landmarks = 4, n = in_submap<Pose>(landmarks), g = 4, d = 2, all = n + g + d;
+  Submap<Pose> submap = random_submap<Pose>(random, error, static_cast<int>(landmarks));
+  Matrix root(all, all + 4);
+  for (Index i = 0; i < root.size(); ++i) root.data()[i] = random.normal();
+  for (Index r = 0; r < all; ++r) root.row(r) *= r >= Pose::kDim && r < Pose::kDof ? 0.004 : 0.02;
+  const Matrix joint = root * root.transpose();
+  SubmapErrors& errors = submap.errors;
+  submap.covariance = joint.topLeftCorner(n, n);
+  errors.cross = joint.topRightCorner(n, g + d);
+  errors.covariance = joint.bottomRightCorner(g + d, g + d);
+  errors.prior_covariance = 3 * errors.covariance.topLeftCorner(g, g);
+  errors.prior = Vector::Zero(g);
+  errors.value.resize(g);
+  for (Index i = 0; i < g; ++i) errors.value(i) = 0.1 * random.normal();
+  errors.walked = 0.05 * Vector::Ones(d);
+  return submap;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("submap factor: derivatives by systematic errors against differences", Pose, SE3, SE2) {
+  Random random(12);
+  for (const ErrorKind error : kKinds)
+    for (const double turn : {0.0, 0.1, 0.7}) {
+      const Submap<Pose> submap = submap_with_errors<Pose>(random, error);
+      const ErrorPoints<Pose> points(error_options());
+      const SubmapFactor<Pose> factor(std::make_shared<SubmapData<Pose>>(submap, points), {0, 2});
+      const Index first = factor.column(factor.shared_count()), own = factor.columns() - first;
+      CHECK(own == Pose::kDim * points.factor_points());
+      CHECK(factor.rows() == Pose::kDof + 2 * Pose::kDim + 2);
+      FactorValues<Pose> values =
+          disturbed(own_values(submap, factor.shared(), random_pose<Pose>(random, 2, 20)), random, turn, turn);
+      values.errors = 0.3 * Vector::Ones(own);
+      const auto at = [&](const Vector& e) {
+        FactorValues<Pose> out = moved(values, e);
+        out.errors = values.errors + e.tail(own);
+        return out;
+      };
+      // The cost is a sum of squares: its gradient and, without residual, its Hessian by differences.
+      const auto slope = [&](Index c) {
+        const Vector e = cairn::test::kStep * Vector::Unit(factor.columns(), c);
+        const auto cost = [&](double times) { return factor.evaluate(at(times * e)).cost; };
+        return (8 * (cost(1) - cost(-1)) - (cost(2) - cost(-2))) / (12 * cairn::test::kStep);
+      };
+      const typename SubmapFactor<Pose>::Evaluation out = factor.evaluate(values);
+      for (Index c = 0; c < factor.columns(); ++c)
+        CHECK(out.gradient(c) == doctest::Approx(slope(c)).epsilon(1e-5).scale(1 + out.gradient.norm()));
+      // The columns of the errors are linear: their block of the Hessian is exact anywhere.
+      const Matrix H = factor.hessian(
+          values, std::vector<typename Pose::Rotation>(static_cast<std::size_t>(2 + factor.shared_count())));
+      for (Index c = first; c < factor.columns(); ++c) {
+        const Vector e = 0.1 * Vector::Unit(factor.columns(), c);
+        const Vector change = (factor.evaluate(at(e)).gradient - factor.evaluate(at(-e)).gradient) / 0.2;
+        CHECK((change.tail(own) -
+               Matrix(Matrix(H.bottomRightCorner(own, own)).selfadjointView<Eigen::Lower>()).col(c - first))
+                  .norm() <= 1e-7 * (1 + change.norm()));
+        CHECK((change.head(first) - H.row(c).head(first).transpose()).norm() <= 1e-7 * (1 + change.norm()));
+      }
+    }
+}

@@ -13,7 +13,7 @@ template <class Pose>
 StateCapacity<Pose> capacity_of(const MapOptions<Pose>& options) {
   return {static_cast<Index>(options.max_landmarks + options.max_companions),
           static_cast<Index>(std::min(options.submap_capacity, options.max_landmarks)),
-          static_cast<Index>(options.max_companions)};
+          static_cast<Index>(options.max_companions), options.errors.count()};
 }
 
 }  // namespace
@@ -29,7 +29,12 @@ DenseMap<Pose>::DenseMap(const MapOptions<Pose>& options, std::size_t bytes)
       indices_(arena_, options.max_landmarks),
       ids_(arena_.take<std::uint64_t>(options.max_landmarks)),
       counts_(arena_.take<std::uint64_t>(options.max_landmarks)) {
-  state_.start(options.initial_pose, options.initial_covariance);
+  const auto errors = static_cast<std::size_t>(options.errors.count());
+  std::vector<double> values(errors, 0.0), covariance(errors * errors, 0.0);
+  for (std::size_t i = 0; i < errors; ++i)
+    covariance[i * (errors + 1)] = options.errors.sigma[i] * options.errors.sigma[i];
+  state_.start(options.initial_pose, options.initial_covariance,
+               {options.errors.count(), 0, values.data(), values.data(), covariance.data()});
 }
 
 template <class Pose>
@@ -83,6 +88,9 @@ Index DenseMap<Pose>::companion(std::uint64_t id) const {
 
 template <class Pose>
 void DenseMap<Pose>::add_vehicle(std::uint64_t id, const Pose& pose, const typename Pose::Square& covariance) {
+  if (id == vehicle_ || std::find(companions_.begin(), companions_.end(), id) != companions_.end())
+    throw Error(ErrorCode::argument, "vehicle: the map has the number %llu already",
+                static_cast<unsigned long long>(id));
   if (!closed_.empty())
     throw Error(ErrorCode::state,
                 "vehicle: the map already holds %zu submaps; add all vehicles before the first submap is closed",
@@ -109,6 +117,23 @@ void DenseMap<Pose>::base_joint_covariance(const std::size_t* indices, std::size
   std::vector<Index> slots;
   for (std::size_t i = 0; i < count; ++i) slots.push_back(slot_of(indices[i]));
   state_.gather_ordinary(slots.data(), static_cast<Index>(count), matrix, static_cast<Index>(kDof + kDim * count));
+}
+
+template <class Pose>
+Eigen::VectorXd DenseMap<Pose>::errors() const {
+  Eigen::VectorXd errors(state_.systematic());
+  for (Index i = 0; i < errors.size(); ++i) errors(i) = state_.systematic(i);
+  return errors;
+}
+
+template <class Pose>
+Eigen::MatrixXd DenseMap<Pose>::joint_with_errors(const std::size_t* indices, std::size_t count) const {
+  std::vector<Index> slots;
+  for (std::size_t i = 0; i < count; ++i) slots.push_back(slot_of(indices[i]));
+  const Index n = kDof + state_.systematic() + static_cast<Index>(kDim * count);
+  Eigen::MatrixXd joint(n, n);
+  state_.gather_systematic(slots.data(), static_cast<Index>(count), joint.data(), n, true);
+  return joint;
 }
 
 template <class Pose>

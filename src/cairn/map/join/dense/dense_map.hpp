@@ -27,6 +27,8 @@ class DenseMap final : public GlobalMap<Pose> {
   Pose base() const override { return state_.pose(); }
   typename Pose::Square base_covariance() const override { return state_.pose_covariance(); }
   void base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override;
+  Eigen::VectorXd errors() const override;
+  Eigen::MatrixXd joint_with_errors(const std::size_t* indices, std::size_t count) const override;
   std::size_t submap_count() const override { return closed_.size(); }
   Pose submap_base(std::size_t submap) const override { return closed_[submap].base; }
   const std::vector<std::uint64_t>& submap_ids(std::size_t submap) const override { return closed_[submap].ids; }

@@ -30,8 +30,8 @@ std::vector<Eigen::Index> states_of(const std::vector<Eigen::Index>& landmarks) 
 template <class Pose>
 class DenseTransaction<Pose>::Fusing {
  public:
-  Fusing(State<Pose>& state, const Submap<Pose>& submap, const Eigen::MatrixXd& noise, std::vector<Pair>& pairs)
-      : state_(state), submap_(submap), noise_(noise), pairs_(pairs) {
+  Fusing(State<Pose>& state, const Submap<Pose>& submap, const GivenErrors& given, std::vector<Pair>& pairs)
+      : state_(state), submap_(submap), noise_(given.covariance), K_(given.K), pairs_(pairs) {
     refill();
   }
 
@@ -73,7 +73,10 @@ class DenseTransaction<Pose>::Fusing {
     if (residual_only == nullptr) batch.clear();
     for (std::size_t a = 0; a < pairs_.size(); ++a) {
       const Point l = update_->landmark(static_cast<Index>(a));
-      const Point residual = submap_.landmarks[pairs_[a].local] - T.inverse() * l;
+      Point residual = submap_.landmarks[pairs_[a].local] - T.inverse() * l;
+      const auto by_errors = K_.middleRows<kDim>(kDof + kDim * pairs_[a].local);
+      for (Index i = 0; i < K_.cols(); ++i)
+        residual += by_errors.col(i) * (update_->systematic(i) - submap_.errors.value(i));
       double* target = residual_only != nullptr ? residual_only : batch.residual();
       std::copy_n(residual.data(), kDim, target + kDim * a);
       if (residual_only != nullptr) continue;
@@ -81,6 +84,7 @@ class DenseTransaction<Pose>::Fusing {
       map_jacobians(T, l, Prediction<Pose>::ByLandmark::Identity(), prediction);
       const Index row = batch.add_rows(kDim);
       const auto pose = update_->add_pose_block(row, kDim, prediction.J_z_pose, true);
+      if (K_.cols() > 0) update_->add_systematic_block(row, kDim, Eigen::MatrixXd(-by_errors), 0, K_.cols());
       update_->add_landmark_block(row, kDim, prediction.J_z_landmark, static_cast<Index>(a), pose);
     }
     if (residual_only != nullptr) return true;
@@ -96,6 +100,7 @@ class DenseTransaction<Pose>::Fusing {
   State<Pose>& state_;
   const Submap<Pose>& submap_;
   const Eigen::MatrixXd& noise_;
+  const Eigen::MatrixXd& K_;  // the landmarks' estimates by the systematic errors
   std::vector<Pair>& pairs_;
   std::optional<EkfUpdate<Pose>> update_;
 };
@@ -105,12 +110,54 @@ DenseTransaction<Pose>::~DenseTransaction() {
   if (backup_) map_.state_.restore(*backup_);
 }
 
-// The error of the rest of the submap (end pose and new landmarks) is K y + w, with the error y of the fused landmarks.
+template <class Pose>
+GivenErrors DenseTransaction<Pose>::split_errors(const Submap<Pose>& submap) const {
+  GivenErrors given;
+  if (submap.errors.count() > 0)
+    given = given_errors(submap.covariance, submap.errors);
+  else
+    given = {Eigen::MatrixXd(submap.covariance.rows(), 0), submap.covariance};
+  std::vector<Eigen::Index> known;
+  for (const Pair& pair : pairs_) known.push_back(pair.local);
+  to_ordinary(submap, known, given.covariance);
+  rows_to_ordinary(submap, known, given.K);
+  return given;
+}
+
+// The map learns what the submap found out about the systematic errors.
+template <class Pose>
+void DenseTransaction<Pose>::learn_errors(const SubmapErrors& errors) {
+  const ErrorRows found = found_out(errors);
+  const Index rows = found.rows.rows(), g = errors.count();
+  if (rows == 0) return;
+  EkfUpdate<Pose> update = map_.state_.begin({});
+  update.linearise([&](double* residual_only) {
+    Eigen::VectorXd residual = found.values;
+    for (Index i = 0; i < g; ++i) residual -= found.rows.col(i) * update.systematic(i);
+    std::copy_n(residual.data(), rows, residual_only != nullptr ? residual_only : update.batch().residual());
+    if (residual_only != nullptr) return true;
+    update.batch().clear();
+    const Index row = update.batch().add_rows(rows);
+    update.add_systematic_block(row, rows, found.rows, 0, g);
+    double* noise = update.batch().add_noise(row, rows);
+    for (Index c = 0; c < rows; ++c)
+      for (Index r = 0; r < rows; ++r) noise[c * rows + r] = r == c ? 1.0 : 0.0;
+    return true;
+  });
+  update.factor();
+  update.solve();
+  update.commit();
+}
+
+// The error of the rest of the submap (end pose, what the systematic errors walked, new landmarks) is K y + w, with the
+// error y of the systematic errors and the fused landmarks.
 template <class Pose>
 typename State<Pose>::Handover DenseTransaction<Pose>::split_rest(const Submap<Pose>& submap,
-                                                                  const Eigen::MatrixXd& joint) const {
+                                                                  const GivenErrors& given) const {
+  const Eigen::MatrixXd& joint = given.covariance;
   std::vector<Eigen::Index> fused, rest;
   for (Eigen::Index d = 0; d < kDof; ++d) rest.push_back(d);
+  for (Eigen::Index d = submap.covariance.rows(); d < joint.rows(); ++d) rest.push_back(d);
   for (const Pair& pair : pairs_) fused.push_back(pair.local);
   const std::vector<Eigen::Index> of_fused = states_of<Pose>(fused), of_fresh = states_of<Pose>(fresh_);
   rest.insert(rest.end(), of_fresh.begin(), of_fresh.end());
@@ -121,6 +168,15 @@ typename State<Pose>::Handover DenseTransaction<Pose>::split_rest(const Submap<P
                               : Eigen::MatrixXd(joint(of_fused, of_fused).ldlt().solve(cross).transpose());
   handover.W = joint(rest, rest);
   handover.W -= handover.K * cross;
+  if (submap.errors.count() > 0) {
+    Eigen::MatrixXd K(handover.K.rows(), given.K.cols() + handover.K.cols());
+    K.leftCols(given.K.cols()) = given.K(rest, Eigen::all) - handover.K * given.K(of_fused, Eigen::all);
+    K.rightCols(handover.K.cols()) = handover.K;
+    handover.K.swap(K);
+    handover.walking = map_.options_.errors.walking.data();
+    handover.walking_count = submap.errors.walked.size();
+    handover.walked = submap.errors.walked;
+  }
   if (!handover.K.allFinite() || !handover.W.allFinite()) throw_not_definite();
   return handover;
 }
@@ -142,9 +198,11 @@ void DenseTransaction<Pose>::hand_over(const Submap<Pose>& submap, typename Stat
   std::vector<Index> slots;
   for (const Pair& pair : pairs_) slots.push_back(pair.slot);
   std::vector<Point> landmarks;
+  handover.walked += error.segment(kDof, handover.walking_count);
+  const Index first = kDof + handover.walking_count;
   for (std::size_t a = 0; a < fresh_.size(); ++a)
     landmarks.push_back(
-        move_point(submap.landmarks[fresh_[a]], error.segment<kDim>(kDof + kDim * static_cast<Eigen::Index>(a))));
+        move_point(submap.landmarks[fresh_[a]], error.segment<kDim>(first + kDim * static_cast<Eigen::Index>(a))));
   handover.fused = slots.data();
   handover.fused_count = static_cast<Index>(slots.size());
   handover.fresh = landmarks.data();
@@ -167,13 +225,15 @@ JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
     throw Error(ErrorCode::capacity, "submap: %zu new landmarks, and the map holds %zu of max_landmarks = %zu",
                 fresh_.size(), map_.size(), options.max_landmarks);
   const std::size_t known = pairs_.size();
-  std::vector<Eigen::Index> known_ones;
-  for (const Pair& pair : pairs_) known_ones.push_back(pair.local);
-  Eigen::MatrixXd joint = submap.covariance;
-  to_ordinary(submap, known_ones, joint);
+  const GivenErrors given = split_errors(submap);
+  const Index errors = submap.errors.count();
+  if (errors > 0) {
+    backup_.emplace(state.backup());
+    learn_errors(submap.errors);
+  }
   std::optional<Fusing> fusing;
   if (known > 0) {
-    fusing.emplace(state, submap, joint, pairs_);
+    fusing.emplace(state, submap, given, pairs_);
     const auto bound = [&](Index rows) {
       return chi_square_quantile(static_cast<double>(rows), options.joint_gate_probability);
     };
@@ -187,7 +247,7 @@ JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
   report_.fresh = fresh_.size();
   report_.refused = known - pairs_.size();
 
-  typename State<Pose>::Handover handover = split_rest(submap, joint);
+  typename State<Pose>::Handover handover = split_rest(submap, given);
   for (std::size_t i = 0; i < map_.size(); ++i) before_.push_back(state.landmark(map_.slot_of(i)));
   for (const Eigen::Index i : fresh_) {
     fresh_ids_.push_back(submap.ids[i]);
@@ -197,16 +257,17 @@ JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
   closed_.emplace(typename DenseMap<Pose>::Closed{map_.base(), submap.ids});
   if (map_.closed_.size() == map_.closed_.capacity()) map_.closed_.reserve(2 * map_.closed_.size() + 8);
 
-  // Nothing was changed so far. The composition allocates again: if there is no memory, the update is taken back.
-  backup_.emplace(state.backup());
-  Eigen::VectorXd shift = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kDim * pairs_.size()));
+  // The composition allocates again: if there is no memory, the updates are taken back.
+  if (!backup_) backup_.emplace(state.backup());
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(errors + static_cast<Eigen::Index>(kDim * pairs_.size()));
   if (!pairs_.empty()) {
     report_.iterations = fusing->iterate_and_commit({options.iterations, options.iteration_tolerance, true});
     const Pose T_base_map = state.pose().inverse();
     for (std::size_t a = 0; a < pairs_.size(); ++a)
-      shift.segment<kDim>(kDim * static_cast<Eigen::Index>(a)) =
+      shift.segment<kDim>(errors + kDim * static_cast<Eigen::Index>(a)) =
           T_base_map * state.landmark(pairs_[a].slot) - submap.landmarks[pairs_[a].local];
   }
+  for (Index i = 0; i < errors; ++i) shift(i) = state.systematic(i) - submap.errors.value(i);
   hand_over(submap, handover, shift);
   return report_;
 }

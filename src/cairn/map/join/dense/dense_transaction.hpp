@@ -32,7 +32,10 @@ class DenseTransaction final : public MapTransaction<Pose> {
   };
   class Fusing;
 
-  typename State<Pose>::Handover split_rest(const Submap<Pose>& submap, const Eigen::MatrixXd& joint) const;
+  // A submap given the systematic errors, with the errors of the map's landmarks ordinary.
+  GivenErrors split_errors(const Submap<Pose>& submap) const;
+  void learn_errors(const SubmapErrors& errors);
+  typename State<Pose>::Handover split_rest(const Submap<Pose>& submap, const GivenErrors& given) const;
   void hand_over(const Submap<Pose>& submap, typename State<Pose>::Handover& handover, const Eigen::VectorXd& shift);
 
   DenseMap<Pose>& map_;

@@ -13,6 +13,8 @@ void LeafInformation<Pose>::information(std::uint32_t number, double* H, Index l
   std::vector<Rotation> R{state_.axes(base_variable(number)), state_.axes(base_variable(number + 1))};
   for (const Index i : leaf.factor->shared()) R.push_back(state_.axes(landmark_variable(leaf.landmarks[i])));
   Eigen::MatrixXd own = leaf.factor->hessian(state_.values(number), R);
+  if (number == 0)  // the prior of the systematic errors
+    own.diagonal().segment(Factor::column(leaf.factor->shared_count()), state_.error_points.size()).array() += 1.0;
   // The information on a single base (its prior or its fixes) is added to the submap that ends there; that of the first
   // base to the submap that begins there.
   const auto add = [&](Index base, Eigen::MatrixXd J, const Eigen::MatrixXd& information) {

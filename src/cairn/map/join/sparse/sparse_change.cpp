@@ -15,6 +15,7 @@ SparseChange<Pose>::SparseChange(SparseState<Pose>& state, SpatialIndex& index)
       leaf_count_(state.leaves.size()),
       base_count_(state.bases.size()),
       visible_(state.visible.size()),
+      walking_(state.walking_errors.size()),
       solution_(state.solution) {}
 
 template <class Pose>
@@ -61,6 +62,14 @@ template <class Pose>
 typename SparseChange<Pose>::Number SparseChange<Pose>::add_landmark(const Point& position) {
   state_.landmarks.push_back({0, 0, position, {}, State::kNone, number_});
   return static_cast<Number>(state_.landmarks.size() - 1);
+}
+
+template <class Pose>
+void SparseChange<Pose>::add_errors(const Eigen::VectorXd& values) {
+  for (Index at = 0; at < values.size(); at += Pose::kDim) {
+    state_.walking_errors.push_back(add_landmark(values.segment<Pose::kDim>(at)));
+    state_.landmarks.back().error = true;
+  }
 }
 
 template <class Pose>
@@ -120,6 +129,7 @@ void SparseChange<Pose>::finish(JoinReport& report) {
   state_.refresh_base_covariance();
   double sum = 0.0;
   for (const auto& [landmark, before] : positions_) {
+    if (state_.landmarks[landmark].error) continue;
     const double way = (state_.landmarks[landmark].position - before).squaredNorm();
     sum += way;
     report.moved_max = std::max(report.moved_max, std::sqrt(way));
@@ -161,6 +171,7 @@ void SparseChange<Pose>::roll_back() noexcept {
   state_.bases.resize(base_count_);
   state_.base_saved.resize(base_count_);
   state_.visible.resize(visible_);
+  state_.walking_errors.resize(walking_);
   state_.solution = std::move(solution_);
 }
 

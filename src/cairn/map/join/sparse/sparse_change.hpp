@@ -33,6 +33,8 @@ class SparseChange {
 
   void add_base(const Pose& base);
   Number add_landmark(const Point& position);  // without an id, which callers do not see
+  // The points of systematic errors that walk, at the newest base.
+  void add_errors(const Eigen::VectorXd& values);
   void show_landmark(Number landmark, std::uint64_t id);
   typename State::Leaf new_leaf(std::shared_ptr<const SubmapData<Pose>> data) const;  // of the next number
   // Another submap holds an existing landmark, with this number of observations.
@@ -57,7 +59,7 @@ class SparseChange {
   bool kept_ = false;
   Number number_;
   Number landmarks_;  // how many of each there were
-  std::size_t leaf_count_, base_count_, visible_;
+  std::size_t leaf_count_, base_count_, visible_, walking_;
   typename State::Solution solution_;
   std::vector<std::pair<Number, Point>> positions_;
   std::vector<std::pair<Number, Pose>> bases_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map/join/sparse/sparse_map.hpp"
 
+#include "core/error.hpp"
 #include "map/join/sparse/sparse_merger.hpp"
 #include "map/join/sparse/sparse_transaction.hpp"
 
@@ -47,6 +48,9 @@ void SparseMap<Pose>::remove(std::uint64_t id) {
 template <>
 void SparseMap<SE3>::append(const SparseMap& other, const MergePlan& plan, const MergeOptions& options,
                             MergeReport& report) {
+  if (state_.error_points.count() + other.state_.error_points.count() > 0)
+    throw Error(ErrorCode::argument,
+                "map: its submaps share systematic errors, and such sparse maps cannot be merged; use dense joining");
   SparseMerger(state_, index_, other.state_, plan, options).append(report);
 }
 

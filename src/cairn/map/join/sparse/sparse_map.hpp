@@ -29,6 +29,10 @@ class SparseMap final : public GlobalMap<Pose> {
   void base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override {
     joint_covariance_of_base(state_, indices, count, matrix);
   }
+  Eigen::VectorXd errors() const override { return errors_of(state_); }
+  Eigen::MatrixXd joint_with_errors(const std::size_t* indices, std::size_t count) const override {
+    return joint_with_errors_of(state_, indices, count);
+  }
   std::size_t submap_count() const override { return state_.leaves.size(); }
   Pose submap_base(std::size_t submap) const override { return state_.bases[submap]; }
   const std::vector<std::uint64_t>& submap_ids(std::size_t submap) const override {

@@ -107,7 +107,8 @@ double SparseMerger::append_bases() {
 
 // Appends a submap without landmarks; append_leaves() evaluates it.
 void SparseMerger::bridge(const SE3& T_base_end, const Matrix6& covariance) {
-  State::Leaf leaf = change_.new_leaf(std::make_shared<const SubmapData<SE3>>(link_to(T_base_end, covariance)));
+  State::Leaf leaf =
+      change_.new_leaf(std::make_shared<const SubmapData<SE3>>(link_to(T_base_end, covariance), state_.error_points));
   change_.add_base(state_.bases.back() * T_base_end);
   state_.leaves.push_back(std::move(leaf));
 }

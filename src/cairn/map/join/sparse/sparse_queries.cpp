@@ -136,13 +136,17 @@ typename SparseCovariances<Pose>::PointSquare SparseCovariances<Pose>::of(const 
 
 template <class Pose>
 void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t* indices, std::size_t count,
-                              double* matrix) {
+                              double* matrix, bool errors) {
   constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
   using Number = std::uint32_t;
-  const auto size = static_cast<Index>(kDof + kDim * count);
+  const std::vector<Number> error_points =
+      errors ? state.errors_at(static_cast<Number>(state.bases.size() - 1)) : std::vector<Number>();
+  const auto first = static_cast<Index>(kDof + kDim * error_points.size());
+  const auto size = first + static_cast<Index>(kDim * count);
   Eigen::Map<Eigen::MatrixXd> joint(matrix, size, size);
   if (state.leaves.empty()) {
-    joint = state.solution.base_covariance;
+    joint.setIdentity();  // of the systematic errors' points
+    joint.template topLeftCorner<kDof, kDof>() = state.solution.base_covariance;
     return;
   }
   // The requested errors are A e + w, where e are the errors of some variables; private landmarks of one submap share
@@ -155,6 +159,7 @@ void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t*
     variables.push_back(v);
     touches.push_back(state.solution.tree.touch(v, state.leaves[leaf].key));
   };
+  for (const Number point : error_points) want(landmark_variable(point), static_cast<Number>(state.leaves.size() - 1));
   for (std::size_t i = 0; i < count; ++i) {
     const Number landmark = state.visible[indices[i]], leaf = state.landmarks[landmark].submaps[0];
     if (state.shared(landmark))
@@ -172,10 +177,13 @@ void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t*
 
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, columns.columns()), W = Eigen::MatrixXd::Zero(size, size);
   A.block<kDof, kDof>(0, columns.state(newest)).setIdentity();
+  for (std::size_t i = 0; i < error_points.size(); ++i)
+    A.block<kDim, kDim>(static_cast<Index>(kDof + kDim * i), columns.state(landmark_variable(error_points[i])))
+        .setIdentity();
   for (std::size_t i = 0; i < count; ++i) {
     const Number landmark = state.visible[indices[i]];
     if (state.shared(landmark))
-      A.block<kDim, kDim>(static_cast<Index>(kDof + kDim * i), columns.state(landmark_variable(landmark)))
+      A.block<kDim, kDim>(first + static_cast<Index>(kDim * i), columns.state(landmark_variable(landmark)))
           .setIdentity();
   }
   for (const auto& [number, asked] : privates) {
@@ -188,13 +196,13 @@ void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t*
     leaf.factor->express_private(local, state.values(number), own, noise);
     for (Index c = 0; c < own.cols(); ++c) sorted.col(leaf.order[c]) = own.col(c);
     for (std::size_t a = 0; a < asked.size(); ++a) {
-      const auto row = static_cast<Index>(kDof + kDim * asked[a]), from = kDim * static_cast<Index>(a);
+      const auto row = first + static_cast<Index>(kDim * asked[a]), from = kDim * static_cast<Index>(a);
       for (std::size_t v = 0; v < leaf.variables.size(); ++v) {
         const Index d = dimension<Pose>(leaf.variables[v]);
         A.block(row, columns.state(leaf.variables[v]), kDim, d) = sorted.block(from, leaf.states[v], kDim, d);
       }
       for (std::size_t b = 0; b < asked.size(); ++b)
-        W.block<kDim, kDim>(row, static_cast<Index>(kDof + kDim * asked[b])) =
+        W.block<kDim, kDim>(row, first + static_cast<Index>(kDim * asked[b])) =
             noise.block<kDim, kDim>(from, kDim * static_cast<Index>(b));
     }
   }
@@ -203,9 +211,37 @@ void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t*
     for (Index r = c + 1; r < size; ++r) joint(c, r) = joint(r, c);
 }
 
+template <class Pose>
+Eigen::VectorXd errors_of(const SparseState<Pose>& state) {
+  const ErrorPoints<Pose>& points = state.error_points;
+  const Eigen::VectorXd values =
+      state.error_values(state.errors_at(static_cast<std::uint32_t>(state.bases.size() - 1)));
+  Eigen::VectorXd errors(points.count());
+  for (Index i = 0; i < points.count(); ++i) errors(i) = points.unit(i) * values(points.at(i));
+  return errors;
+}
+
+// From the points' numbers to the errors in their units.
+template <class Pose>
+Eigen::MatrixXd joint_with_errors_of(const SparseState<Pose>& state, const std::size_t* indices, std::size_t count) {
+  constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  const ErrorPoints<Pose>& points = state.error_points;
+  const Index landmarks = static_cast<Index>(kDim * count), n = kDof + points.size() + landmarks;
+  Eigen::MatrixXd joint(n, n), J = Eigen::MatrixXd::Zero(kDof + points.count() + landmarks, n);
+  joint_covariance_of_base(state, indices, count, joint.data(), true);
+  J.topLeftCorner(kDof, kDof).setIdentity();
+  for (Index i = 0; i < points.count(); ++i) J(kDof + i, kDof + points.at(i)) = points.unit(i);
+  J.bottomRightCorner(landmarks, landmarks).setIdentity();
+  return J * joint * J.transpose();
+}
+
 template class SparseCovariances<SE2>;
 template class SparseCovariances<SE3>;
-template void joint_covariance_of_base(const SparseState<SE2>&, const std::size_t*, std::size_t, double*);
-template void joint_covariance_of_base(const SparseState<SE3>&, const std::size_t*, std::size_t, double*);
+template void joint_covariance_of_base(const SparseState<SE2>&, const std::size_t*, std::size_t, double*, bool);
+template void joint_covariance_of_base(const SparseState<SE3>&, const std::size_t*, std::size_t, double*, bool);
+template Eigen::VectorXd errors_of(const SparseState<SE2>&);
+template Eigen::VectorXd errors_of(const SparseState<SE3>&);
+template Eigen::MatrixXd joint_with_errors_of(const SparseState<SE2>&, const std::size_t*, std::size_t);
+template Eigen::MatrixXd joint_with_errors_of(const SparseState<SE3>&, const std::size_t*, std::size_t);
 
 }  // namespace cairn

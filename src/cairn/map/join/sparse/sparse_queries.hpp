@@ -28,14 +28,23 @@ class SparseCovariances {
   std::vector<std::uint32_t> covariance_of_;  // by landmark: number of the change to which the covariance belongs
 };
 
-// GlobalMap::base_joint_covariance().
+// GlobalMap::base_joint_covariance(); with `errors` the points of the systematic errors at the base follow the base.
 template <class Pose>
 void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t* indices, std::size_t count,
-                              double* matrix);
+                              double* matrix, bool errors = false);
+// GlobalMap::errors() and GlobalMap::joint_with_errors().
+template <class Pose>
+Eigen::VectorXd errors_of(const SparseState<Pose>& state);
+template <class Pose>
+Eigen::MatrixXd joint_with_errors_of(const SparseState<Pose>& state, const std::size_t* indices, std::size_t count);
 
 extern template class SparseCovariances<SE2>;
 extern template class SparseCovariances<SE3>;
-extern template void joint_covariance_of_base(const SparseState<SE2>&, const std::size_t*, std::size_t, double*);
-extern template void joint_covariance_of_base(const SparseState<SE3>&, const std::size_t*, std::size_t, double*);
+extern template void joint_covariance_of_base(const SparseState<SE2>&, const std::size_t*, std::size_t, double*, bool);
+extern template void joint_covariance_of_base(const SparseState<SE3>&, const std::size_t*, std::size_t, double*, bool);
+extern template Eigen::VectorXd errors_of(const SparseState<SE2>&);
+extern template Eigen::VectorXd errors_of(const SparseState<SE3>&);
+extern template Eigen::MatrixXd joint_with_errors_of(const SparseState<SE2>&, const std::size_t*, std::size_t);
+extern template Eigen::MatrixXd joint_with_errors_of(const SparseState<SE3>&, const std::size_t*, std::size_t);
 
 }  // namespace cairn

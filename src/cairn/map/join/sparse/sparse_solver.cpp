@@ -30,7 +30,7 @@ void SparseSolver<Pose>::place(const Step& step, double factor, const Before& fr
     if (!is_landmark(entry.variable)) continue;
     typename State::Landmark& landmark = state_.landmarks[static_cast<Number>(entry.variable >> 1)];
     const Point move = factor * Eigen::Map<const Point>(entry.value);
-    const auto first = turned.find(landmark.submaps[0]);
+    const auto first = landmark.error ? turned.end() : turned.find(landmark.submaps[0]);
     landmark.position = from.positions[position++] + (first != turned.end() ? Point(first->second * move) : move);
   }
   for (std::size_t i = 0; i < step.carried().size(); ++i)

@@ -10,9 +10,31 @@ namespace cairn {
 template <class Pose>
 SparseState<Pose>::SparseState(const MapOptions<Pose>& map_options)
     : options(map_options),
+      error_points(map_options.errors),
       solution(map_options.initial_pose, map_options.initial_covariance),
       bases{map_options.initial_pose},
-      base_saved{0} {}
+      base_saved{0} {
+  for (Index i = 0; i < error_points.constant() + error_points.walking(); ++i) {
+    (i < error_points.constant() ? constant_errors : walking_errors).push_back(static_cast<Number>(landmarks.size()));
+    landmarks.push_back({0, 0, Point::Zero(), {}, kNone, 0, true});
+  }
+}
+
+template <class Pose>
+std::vector<typename SparseState<Pose>::Number> SparseState<Pose>::errors_at(Number base) const {
+  std::vector<Number> points = constant_errors;
+  const auto first = walking_errors.begin() + static_cast<std::ptrdiff_t>(base) * error_points.walking();
+  points.insert(points.end(), first, first + error_points.walking());
+  return points;
+}
+
+template <class Pose>
+Eigen::VectorXd SparseState<Pose>::error_values(const std::vector<Number>& points) const {
+  Eigen::VectorXd values(static_cast<Index>(kDim * points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    values.segment<kDim>(static_cast<Index>(kDim * i)) = landmarks[points[i]].position;
+  return values;
+}
 
 template <class Pose>
 bool SparseState<Pose>::find(std::uint64_t id, std::size_t& index) const {
@@ -25,7 +47,7 @@ bool SparseState<Pose>::find(std::uint64_t id, std::size_t& index) const {
 template <class Pose>
 FactorValues<Pose> SparseState<Pose>::values(Number number) const {
   const Leaf& leaf = leaves[number];
-  Values values{bases[number], bases[number + 1], {}};
+  Values values{bases[number], bases[number + 1], {}, error_values(leaf.errors)};
   values.shared.reserve(static_cast<std::size_t>(leaf.factor->shared_count()));
   for (const Index i : leaf.factor->shared()) values.shared.push_back(landmarks[leaf.landmarks[i]].position);
   return values;
@@ -52,6 +74,9 @@ void SparseState<Pose>::shape(Leaf& leaf, Number number) const {
   std::vector<Column> columns{{base_variable(number), 0}, {base_variable(number + 1), kDof}};
   for (Index i = 0; i < leaf.factor->shared_count(); ++i)
     columns.push_back({landmark_variable(leaf.landmarks[leaf.factor->shared()[i]]), Factor::column(i)});
+  for (std::size_t i = 0; i < leaf.errors.size(); ++i)
+    columns.push_back(
+        {landmark_variable(leaf.errors[i]), Factor::column(leaf.factor->shared_count() + static_cast<Index>(i))});
   std::sort(columns.begin(), columns.end(), [](const Column& a, const Column& b) { return a.variable < b.variable; });
   leaf.variables.clear();
   leaf.states.clear();
@@ -69,6 +94,8 @@ void SparseState<Pose>::shape(Leaf& leaf, Number number) const {
 // linearisation stays valid when the map around it turns as a whole.
 template <class Pose>
 const typename SparseState<Pose>::Rotation& SparseState<Pose>::axes(Variable v) const {
+  static const Rotation kStill{};
+  if (is_error(v)) return kStill;
   const auto number = static_cast<Number>(v >> 1);
   return bases[is_landmark(v) ? landmarks[number].submaps[0] : number].rotation();
 }
@@ -111,8 +138,10 @@ double SparseState<Pose>::strain(Number number) const {
     const Point& l = landmarks[leaf.landmarks[leaf.factor->shared()[i]]].position;
     way = std::max(way, (T_base_map * l - leaf.landmarks_then[i]).norm());
   }
-  for (std::size_t i = 0; i < leaf.variables.size(); ++i)
+  for (std::size_t i = 0; i < leaf.variables.size(); ++i) {
+    if (is_error(leaf.variables[i])) continue;
     turn = std::max(turn, (T_base_map.rotation() * axes(leaf.variables[i]) * leaf.axes_then[i].inverse()).chord());
+  }
   return std::max(way / solution.length_scale, turn / solution.turn_scale);
 }
 
@@ -130,6 +159,10 @@ void SparseState<Pose>::evaluate(Number number) {
     leaf.cost += 0.5 * e.dot(weighted);
     leaf.gradient.template segment<kDof>(leaf.order[0]) +=
         solution.anchors.prior_jacobian(bases[0]).transpose() * weighted;
+    const Eigen::VectorXd s = error_values(errors_at(0));  // their prior has unit covariance
+    leaf.cost += 0.5 * s.squaredNorm();
+    for (Index i = 0; i < s.size(); ++i)
+      leaf.gradient(leaf.order[static_cast<std::size_t>(Factor::column(leaf.factor->shared_count()) + i)]) += s(i);
   }
   if (const auto* fixes = solution.anchors.fixes_of(number + 1)) add_fixes(leaf, bases[number + 1], *fixes);
   leaf.turned = Rotation();

@@ -16,8 +16,9 @@
 
 namespace cairn {
 
-// A copy is independent; it shares only data that never changes. Submap j, the leaf j of the tree, leads from base j to
-// base j + 1.
+// Systematic errors that the submaps share are points, too: entries of `landmarks` that no caller sees, whose axes
+// never turn (ErrorPoints says which numbers they hold). A copy is independent; it shares only data that never changes.
+// Submap j, the leaf j of the tree, leads from base j to base j + 1.
 template <class Pose>
 struct SparseState {
   static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
@@ -37,11 +38,13 @@ struct SparseState {
     std::vector<Number> submaps;  // that hold it
     Number slot;                  // in `visible`, kNone once removed
     Number saved;                 // the change that saved it last
+    bool error = false;           // it holds systematic errors
   };
   struct Leaf {
     TreeKey key;
     std::shared_ptr<const Data> data;
     std::vector<Number> landmarks;  // of the map, by the submap's; kNone: left out
+    std::vector<Number> errors;     // points of systematic errors: constant, at the base, at the end
     std::shared_ptr<const Factor> factor;
     std::vector<Variable> variables;  // ascending
     std::vector<Index> states;        // where each begins
@@ -66,14 +69,17 @@ struct SparseState {
     // The units of a step: the smallest typical standard deviation of a landmark in its submap, and the turn that moves
     // the submap's farthest landmark by the same distance.
     double length_scale = std::numeric_limits<double>::infinity(), turn_scale = length_scale;
-    std::vector<Number> pending;  // leaves evaluated since the tree took their forces
-    bool settled = true;          // whether the last optimisation converged
-    std::vector<Number> stale;    // leaves to be linearised anew
+    double error_scale = length_scale;  // of points of systematic errors
+    std::vector<Number> pending;        // leaves evaluated since the tree took their forces
+    bool settled = true;                // whether the last optimisation converged
+    std::vector<Number> stale;          // leaves to be linearised anew
   };
 
   explicit SparseState(const MapOptions<Pose>& map_options);
 
   MapOptions<Pose> options;
+  ErrorPoints<Pose> error_points;
+  std::vector<Number> constant_errors, walking_errors;  // points; those that walk, base by base
   Solution solution;
   std::vector<Pose> bases;
   std::vector<Number> base_saved;  // by base: the change that saved it last
@@ -86,6 +92,10 @@ struct SparseState {
   bool find(std::uint64_t id, std::size_t& index) const;
   const Point& point(std::size_t index) const { return landmarks[visible[index]].position; }
   bool shared(Number landmark) const { return landmarks[landmark].submaps.size() > 1; }
+  bool is_error(Variable v) const { return is_landmark(v) && landmarks[static_cast<Number>(v >> 1)].error; }
+  // The points of a base: [constant; walking at the base].
+  std::vector<Number> errors_at(Number base) const;
+  Eigen::VectorXd error_values(const std::vector<Number>& points) const;
   double cost() const;
   std::size_t memory_bytes() const;
 

@@ -29,7 +29,7 @@ void SparseStep<Pose>::right_hand_side(Variable v, double* b, Index) const {
   for_leaves_of(state_, v, [&](Number number) {
     const typename State::Leaf& leaf = state_.leaves[number];
     const auto at = std::lower_bound(leaf.variables.begin(), leaf.variables.end(), v) - leaf.variables.begin();
-    const Rotation turn = own * leaf.turned;
+    const Rotation turn = state_.is_error(v) ? own : own * leaf.turned;
     const double* pull = leaf.gradient.data() + leaf.states[at];
     Eigen::Map<Point> force(b);
     force -= turn * Point(Eigen::Map<const Point>(pull));
@@ -53,6 +53,7 @@ bool SparseStep<Pose>::solution(Variable v, const double* x, Index) {
 
 template <class Pose>
 void SparseStep<Pose>::carry(Variable v, const RigidMotion<Pose>& motion) {
+  if (state_.is_error(v)) return;
   Entry entry{v, {}};
   Eigen::Map<Point>(entry.value) = motion.move + Rotation::swing(motion.turn, state_.place_of(v) - motion.centre);
   if (!is_landmark(v)) Eigen::Map<Tangent>(entry.value + kDim) = motion.turn;
@@ -74,19 +75,25 @@ RigidMotion<Pose> SparseStep<Pose>::take_rigid(const std::vector<Variable>& vari
   RigidMotion<Pose> rigid{Point::Zero(), Point::Zero(), Tangent::Zero()};
   std::vector<PointSquare> axes;
   Index at = 0;
+  std::size_t turning = 0;
   for (const Variable v : variables) {
     axes.push_back(state_.axes(v).matrix());
-    rigid.centre += state_.place_of(v);
-    rigid.move += axes.back() * motion.segment<kDim>(at);
+    if (!state_.is_error(v)) {  // a systematic error moves with nothing
+      rigid.centre += state_.place_of(v);
+      rigid.move += axes.back() * motion.segment<kDim>(at);
+      ++turning;
+    }
     at += State::dimension(v);
   }
-  const auto count = static_cast<double>(variables.size());
+  if (turning == 0) return rigid;
+  const auto count = static_cast<double>(turning);
   rigid.centre /= count;
   rigid.move /= count;
   Jacobian A = Jacobian::Zero();
   Tangent b = Tangent::Zero();
   at = 0;
   for (std::size_t i = 0; i < variables.size(); at += State::dimension(variables[i++])) {
+    if (state_.is_error(variables[i])) continue;
     const Point arm = state_.place_of(variables[i]) - rigid.centre;
     A += by_length * Rotation::inertia(arm);
     b += by_length * Rotation::moment(arm, axes[i] * motion.segment<kDim>(at) - rigid.move);
@@ -98,6 +105,7 @@ RigidMotion<Pose> SparseStep<Pose>::take_rigid(const std::vector<Variable>& vari
   rigid.turn = A.ldlt().solve(b);
   at = 0;
   for (std::size_t i = 0; i < variables.size(); at += State::dimension(variables[i++])) {
+    if (state_.is_error(variables[i])) continue;
     const Point arm = state_.place_of(variables[i]) - rigid.centre;
     motion.segment<kDim>(at) -= axes[i].transpose() * (rigid.move + Rotation::swing(rigid.turn, arm));
     if (!is_landmark(variables[i]))

@@ -49,6 +49,7 @@ class SparseStep final : public TreeRelaxation<Pose> {
   using PointSquare = typename Rotation::Matrix;
 
   double size(Variable v, const double* x) const {
+    if (state_.is_error(v)) return Eigen::Map<const Point>(x).norm() / state_.solution.error_scale;
     const double way = Eigen::Map<const Point>(x).norm() / state_.solution.length_scale;
     return is_landmark(v) ? way
                           : std::max(way, Eigen::Map<const Tangent>(x + kDim).norm() / state_.solution.turn_scale);

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
@@ -39,7 +40,9 @@ typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::try_join(const
   solver.optimise(report_);
   report_.rows = kDim * report_.fused;
   if (report_.rows == 0) return leaf;
-  // To first order the cost grows by half of the squared distance between the fused landmarks' two estimates.
+  // To first order the cost grows by half of the squared distance between the fused landmarks' two estimates, and
+  // between those of the systematic errors.
+  report_.rows += static_cast<std::size_t>(state_.leaves[leaf].data->errors.found.values.size());
   report_.threshold = chi_square_quantile(static_cast<double>(report_.rows), state_.options.joint_gate_probability);
   report_.distance = 2.0 * change_->cost_growth();
   if (report_.distance > report_.threshold && !state_.solution.settled) {  // perhaps not accurate yet
@@ -56,7 +59,8 @@ typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::append(const S
   const auto number = static_cast<Number>(state_.leaves.size());
   const Pose base = state_.bases.back();
   change_->add_base(base * submap.T_base_end);
-  typename State::Leaf leaf = change_->new_leaf(std::make_shared<const SubmapData<Pose>>(submap));
+  typename State::Leaf leaf = change_->new_leaf(std::make_shared<const SubmapData<Pose>>(submap, state_.error_points));
+  hold_errors(leaf, number);
   TreeChanges changes;
   std::vector<Number> reshaped;
   EliminationTree<Pose>& tree = state_.solution.tree;
@@ -102,9 +106,41 @@ typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::append(const S
   // does not exist yet; until then this base is eliminated last.
   tree.set_degree(base_variable(number), number == 0 ? 1 : 2);
   tree.set_degree(base_variable(number + 1), 2);
+  for (const Number point : state_.leaves[number].errors) set_error_degree(point);
   changes.leaves.push_back(state_.leaves[number].key);
   SparseSolver<Pose>(state_, *change_).refactor(std::move(changes), report_);
   return number;
+}
+
+// The points of systematic errors that the leaf holds, and those of the errors that walk at its end.
+template <class Pose>
+void SparseTransaction<Pose>::hold_errors(typename State::Leaf& leaf, Number number) {
+  const ErrorPoints<Pose>& points = state_.error_points;
+  if (points.count() == 0) return;
+  const Index first = kDim * points.constant();
+  Eigen::VectorXd end = state_.error_values(state_.errors_at(number)).tail(points.size() - first);
+  for (Index w = 0; w < leaf.data->errors.walked.size(); ++w)
+    end(points.at(points.walkers()[static_cast<std::size_t>(w)]) - first) += leaf.data->errors.walked(w);
+  change_->add_errors(end);
+  leaf.errors = state_.errors_at(number);
+  const std::vector<Number> at_end = state_.errors_at(number + 1);
+  leaf.errors.insert(leaf.errors.end(), at_end.begin() + points.constant(), at_end.end());
+  for (std::size_t i = 0; i < leaf.errors.size(); ++i) change_->extend(leaf.errors[i], number, 0);
+}
+
+// Errors that do not walk are held by all submaps: they are eliminated last. Those at a base are held as the base is.
+template <class Pose>
+void SparseTransaction<Pose>::set_error_degree(Number point) {
+  const std::vector<Number>& constant = state_.constant_errors;
+  const std::vector<Number>& walking = state_.walking_errors;
+  std::int32_t degree = 2;
+  if (std::find(constant.begin(), constant.end(), point) != constant.end()) {
+    degree = std::numeric_limits<std::int32_t>::max();
+  } else if (std::find(walking.begin(), walking.begin() + state_.error_points.walking(), point) !=
+             walking.begin() + state_.error_points.walking()) {
+    degree = 1;  // at the first base
+  }
+  state_.solution.tree.set_degree(landmark_variable(point), degree);
 }
 
 template <class Pose>
@@ -123,6 +159,12 @@ void SparseTransaction<Pose>::set_scales(const Submap<Pose>& submap) {
   typename State::Solution& solution = state_.solution;
   solution.length_scale = std::min(solution.length_scale, *median);
   solution.turn_scale = std::min(solution.turn_scale, *median / extent);
+  // The motion of a systematic error that moves a landmark or the end by the typical standard deviation.
+  const Eigen::MatrixXd& K = state_.leaves.back().data->errors.K;
+  double reach = 0.0;
+  for (Index row = 0; K.cols() > 0 && row < kDof + kDim * submap.size(); row += row == 0 ? kDof : kDim)
+    reach = std::max(reach, K.middleRows<kDim>(row).norm());
+  if (reach > 0.0) solution.error_scale = std::min(solution.error_scale, *median / reach);
 }
 
 template <class Pose>
@@ -140,7 +182,7 @@ FixReport SparseTransaction<Pose>::fix(const AbsoluteFix<Pose>& fix, double thre
   report.accepted = report.distance <= threshold;
   if (!report.accepted) return report;
   if (state_.leaves.empty()) {
-    fix_prior(r, J, S);
+    fix_prior(r, J, S, fix.covariance().topLeftCorner(rows, rows));
     report.iterations = 1;
     return report;
   }
@@ -159,14 +201,19 @@ FixReport SparseTransaction<Pose>::fix(const AbsoluteFix<Pose>& fix, double thre
   return report;
 }
 
-// Without a submap there is only the prior: one linearisation.
+// Without a submap there is only the prior: one linearisation. Joseph's form keeps the digits of a precise fix of a
+// start that is hardly known.
 template <class Pose>
-void SparseTransaction<Pose>::fix_prior(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& S) {
+void SparseTransaction<Pose>::fix_prior(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& S,
+                                        const Eigen::MatrixXd& R) {
+  using Square = typename Pose::Square;
   change_->save_base(0);
-  typename Pose::Square& P = state_.solution.base_covariance;
+  Square& P = state_.solution.base_covariance;
   const Eigen::MatrixXd PJ = P * J.transpose();
   const typename Pose::Tangent e = PJ * S.ldlt().solve(r);
-  const typename Pose::Square lower = P - PJ * S.ldlt().solve(PJ.transpose());
+  const Eigen::MatrixXd K = S.ldlt().solve(PJ.transpose()).transpose();
+  const Square A = Square::Identity() - K * J;
+  const Square lower = A * P * A.transpose() + K * R * K.transpose();
   state_.bases[0] = retract(state_.bases[0], e);
   P = lower.template selfadjointView<Eigen::Lower>();
   state_.solution.anchors.set_prior(state_.bases[0], P);

@@ -27,8 +27,11 @@ class SparseTransaction final : public MapTransaction<Pose> {
 
   Number try_join(const Submap<Pose>& submap, const std::vector<char>& left_out);
   Number append(const Submap<Pose>& submap, const std::vector<char>& left_out);
+  void hold_errors(typename State::Leaf& leaf, Number number);
+  void set_error_degree(Number point);
   void set_scales(const Submap<Pose>& submap);
-  void fix_prior(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& S);
+  void fix_prior(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& S,
+                 const Eigen::MatrixXd& R);
 
   State& state_;
   SpatialIndex& index_;

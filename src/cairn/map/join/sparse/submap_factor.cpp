@@ -57,14 +57,20 @@ Matrix invert(const Matrix& covariance) {
 }  // namespace
 
 template <class Pose>
-SubmapData<Pose>::SubmapData(const Submap<Pose>& submap)
+SubmapData<Pose>::SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>& error_points)
     : error(submap.error),
       T_base_end(submap.T_base_end),
       ids(submap.ids),
       landmarks(submap.landmarks),
-      covariance(submap.covariance) {
+      points(error_points) {
+  GivenErrors given{Matrix(submap.covariance.rows(), 0), submap.covariance};
+  if (points.count() > 0) {
+    given = given_errors(submap.covariance, submap.errors);
+    errors = factor_errors(submap.errors, points, given);
+  }
   // Tests the whole covariance, so that no private landmark can make a later closing fail that shares it.
-  factor<Pose>(submap.covariance);
+  factor<Pose>(given.covariance);
+  covariance = Packed(given.covariance);
 }
 
 template <class Pose>
@@ -80,11 +86,20 @@ std::vector<Index> SubmapFactor<Pose>::states() const {
   for (Index d = 0; d < kDof; ++d) states.push_back(d);
   for (const Index i : shared_)
     for (Index d = 0; d < kDim; ++d) states.push_back(kDof + kDim * i + d);
+  for (Index w = data_->covariance.size() - data_->errors.walked.size(); w < data_->covariance.size(); ++w)
+    states.push_back(w);
   return states;
 }
 
 template <class Pose>
 Vector SubmapFactor<Pose>::residual(const Values& values) const {
+  Vector xi = whole_error(values);
+  if (data_->points.count() > 0) xi -= K() * error_shift(values);
+  return xi;
+}
+
+template <class Pose>
+Vector SubmapFactor<Pose>::whole_error(const Values& values) const {
   Vector xi(rows());
   const Pose T_end = values.base.inverse() * values.end;
   const Tangent turn = (T_end.rotation() * data_->T_base_end.rotation().inverse()).log();
@@ -99,6 +114,12 @@ Vector SubmapFactor<Pose>::residual(const Values& values) const {
   const Pose T_base_map = values.base.inverse();
   for (Index i = 0; i < shared_count(); ++i)
     xi.segment<kDim>(kDof + kDim * i) = error(T_base_map * values.shared[i], data_->landmarks[shared_[i]]);
+  const Index walkers = data_->errors.walked.size();
+  for (Index w = 0; w < walkers; ++w) {
+    const Index at = data_->points.at(data_->points.walkers()[static_cast<std::size_t>(w)]);
+    xi(rows() - walkers + w) =
+        values.errors(at + data_->points.from_base_to_end()) - values.errors(at) - data_->errors.walked(w);
+  }
   return xi;
 }
 
@@ -157,7 +178,7 @@ typename SubmapFactor<Pose>::Evaluation SubmapFactor<Pose>::evaluate(const Value
   const Vector xi = residual(values);
   const Vector weight = weighted(xi);
   out.cost = 0.5 * xi.dot(weight);
-  const Jacobian J = jacobian(values, xi);
+  const Jacobian J = jacobian(values, whole_error(values));
   Vector& gradient = out.gradient = Vector::Zero(columns());
   const Tangent turn = J.turn.transpose() * weight.segment<kTurn>(kDim);
   gradient.segment<kTurn>(kDim) -= turn;
@@ -170,13 +191,26 @@ typename SubmapFactor<Pose>::Evaluation SubmapFactor<Pose>::evaluate(const Value
     gradient.segment<kTurn>(kDim) += J.by_base[i + 1].transpose() * w;
     gradient.segment<kTurn>(kDof + kDim) += J.by_end[i + 1].transpose() * w;
   }
+  if (data_->points.count() == 0) return out;
+  const ErrorRows& found = data_->errors.found;
+  const Index size = data_->points.size(), first = column(shared_count());
+  const Vector missed = found.rows * values.errors.head(size) - found.values;
+  gradient.tail(error_columns()) += error_jacobian().transpose() * weight;
+  gradient.segment(first, size) += found.rows.transpose() * missed;
+  out.cost += 0.5 * missed.squaredNorm();
+  for (Index k = 0; k < error_columns(); ++k) {
+    if (uses(k)) continue;
+    gradient(first + k) += values.errors(k);
+    out.cost += 0.5 * values.errors(k) * values.errors(k);
+  }
   return out;
 }
 
 template <class Pose>
 Matrix SubmapFactor<Pose>::dense_jacobian(const Values& values) const {
-  const Jacobian J = jacobian(values, residual(values));
+  const Jacobian J = jacobian(values, whole_error(values));
   Matrix D = Matrix::Zero(rows(), columns());
+  D.rightCols(error_columns()) = error_jacobian();
   D.block<kTurn, kTurn>(kDim, kDim) = -J.turn;
   D.block<kTurn, kTurn>(kDim, kDof + kDim) = J.turn;
   for (Index i = -1; i < shared_count(); ++i) {
@@ -225,6 +259,7 @@ Matrix SubmapFactor<Pose>::hessian(const Values& values, const std::vector<Rotat
     for (Index i = j; i < shared_count(); ++i)
       H.block<kDim, kDim>(column(i), column(j)).noalias() = own[i].transpose() * strip.middleRows<kDim>(kDim * (i - j));
   }
+  if (error_columns() > 0) add_error_hessian(information, weighted, own, H);
   return H;
 }
 
@@ -246,10 +281,12 @@ typename SubmapFactor<Pose>::Points SubmapFactor<Pose>::place_private(const Valu
   data_->covariance.times(weights.data(), errors.data());
   PointSquare R = PointSquare::Identity(), V = R;
   if (data_->error != ErrorKind::standard) {
-    const Tangent turn = xi.segment<kTurn>(kDim);
+    Tangent turn = xi.segment<kTurn>(kDim);
+    if (data_->points.count() > 0) turn = whole_error(values).template segment<kTurn>(kDim);
     R = Rotation::exp(turn).matrix();
     V = Rotation::translation_jacobian(turn);
   }
+  if (data_->points.count() > 0) errors += data_->errors.K * error_shift(values);
   const PointSquare base = values.base.rotation().matrix();
   Points positions(kDim, static_cast<Index>(data_->landmarks.size()));
   for (Index i = 0; i < positions.cols(); ++i)
@@ -274,6 +311,7 @@ void SubmapFactor<Pose>::express_private(const std::vector<Index>& landmarks, co
     for (Index r = 0; r < rows(); ++r) information(r, c) = information_(r, c);
   const Matrix cross = data_->covariance.block(rows_of, chosen);
   Matrix K = cross * information;
+  const Matrix by_errors = K * error_jacobian();
   W = data_->covariance.block(rows_of, rows_of);
   W -= K * cross.transpose();
   const PointSquare R = values.base.rotation().matrix();
@@ -285,6 +323,10 @@ void SubmapFactor<Pose>::express_private(const std::vector<Index>& landmarks, co
       K.block<kDim, kTurn>(kDim * a, kDim) += Rotation::turn(R.transpose() * arms[a]);
   }
   A = K * dense_jacobian(values);
+  if (error_columns() > 0) {  // the arms of the turn do not depend on the systematic errors
+    A.rightCols(error_columns()) = by_errors;
+    A.middleCols(column(shared_count()), data_->points.size()) += data_->errors.K(rows_of, Eigen::all);
+  }
   for (Index a = 0; a < n; ++a) {
     A.middleRows<kDim>(kDim * a) = (R * A.middleRows<kDim>(kDim * a)).eval();
     A.block<kDim, kDim>(kDim * a, 0) += PointSquare::Identity();

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "map/join/sparse/error_points.hpp"
 #include "map/join/sparse/packed.hpp"
 #include "map/submap.hpp"
 
@@ -18,13 +19,15 @@ namespace cairn {
 // The part of a factor that never changes. Copies of a map share it.
 template <class Pose>
 struct SubmapData {
-  explicit SubmapData(const Submap<Pose>& submap);
+  explicit SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>& error_points = {});
 
   ErrorKind error;
   Pose T_base_end;
   std::vector<std::uint64_t> ids;
   std::vector<typename Pose::Point> landmarks;  // in the frame of the base
-  Packed covariance;                            // of [end; landmarks], own error coordinates
+  ErrorPoints<Pose> points;
+  FactorErrors errors;
+  Packed covariance;  // of [end; landmarks; walked] given the systematic errors, own error coordinates
 };
 
 // Values of the variables of a factor.
@@ -32,6 +35,7 @@ template <class Pose>
 struct FactorValues {
   Pose base, end;
   std::vector<typename Pose::Point> shared;  // in the map frame, in the order of the factor's shared landmarks
+  Eigen::VectorXd errors = {};               // of the factor's points
 };
 
 // The factor for one choice of shared landmarks.
@@ -52,13 +56,13 @@ class SubmapFactor {
 
   const Data& data() const { return *data_; }
   const std::vector<Eigen::Index>& shared() const { return shared_; }
-  Eigen::Index rows() const { return information_.size(); }  // kDof + kDim shared
-  // Columns of the Jacobian: base, end, shared landmarks; ordinary errors in map axes.
-  Eigen::Index columns() const { return column(shared_count()); }
+  Eigen::Index rows() const { return information_.size(); }  // kDof + kDim shared + walked
+  // Columns of the Jacobian: base, end, shared landmarks, points of systematic errors; ordinary errors in map axes.
+  Eigen::Index columns() const { return column(shared_count() + data_->points.factor_points()); }
   static Eigen::Index column(Eigen::Index shared_landmark) { return 2 * kDof + kDim * shared_landmark; }
   Eigen::Index shared_count() const { return static_cast<Eigen::Index>(shared_.size()); }
 
-  // The error xi of the submap's estimate against the values; that of its turn comes from kDim on.
+  // The error xi of the submap's estimate, given the systematic errors, against the values.
   Vector residual(const Values& values) const;
   Vector weighted(const Vector& residual) const;  // Sigma^-1 xi
   struct Evaluation {
@@ -85,8 +89,17 @@ class SubmapFactor {
   using Tangent = typename Rotation::Tangent;
 
   struct Jacobian;
-  Jacobian jacobian(const Values& values, const Vector& residual) const;
+  // The error of the estimate as it is; that of its turn comes from kDim on.
+  Vector whole_error(const Values& values) const;
+  Jacobian jacobian(const Values& values, const Vector& whole_error) const;
   std::vector<Eigen::Index> states() const;
+  Eigen::Index error_columns() const { return kDim * data_->points.factor_points(); }
+  Vector error_shift(const Values& values) const;  // of the systematic errors, from where K was computed
+  Matrix K() const;                                // of the rows of the factor
+  bool uses(Eigen::Index number) const;            // a number of the factor's points holds an error
+  Matrix error_jacobian() const;                   // of the residual, by the factor's points
+  void add_error_hessian(const Matrix& information, const Matrix& weighted_poses,
+                         const std::vector<PointSquare>& landmark_axes, Matrix& H) const;
   Matrix dense_jacobian(const Values& values) const;
 
   std::shared_ptr<const Data> data_;

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "health/health_monitor.hpp"
+
+#include "health/semidefinite.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr double kSlowFrames = 300.0, kFastFrames = 20.0;
+constexpr double kKeepInformation = 0.95;
+constexpr double kEnoughFrames = 10.0;  // before a direction counts as one without information
+
+}  // namespace
+
+template <class Pose>
+HealthMonitor<Pose>::HealthMonitor(Arena& arena, const HealthOptions& options)
+    : apply_(options.apply_noise),
+      sensors_(options.max_sensors),
+      places_(arena.take<Place>(static_cast<std::size_t>(options.max_sensors))),
+      memory_(arena, 4 * options.max_observations),
+      paired_{{arena, options.max_observations}, {arena, options.max_observations}, {arena, options.max_observations}},
+      steps_(arena.take<typename SightingMemory<Pose>::Sighting*>(static_cast<std::size_t>(options.max_observations))),
+      slow_(arena, options.max_sensors, kSlowFrames),
+      fast_(arena, options.max_sensors, kFastFrames),
+      verdict_(options.gate_probability) {}
+
+template <class Pose>
+void HealthMonitor<Pose>::moved(const Increment<Pose>& increment) {
+  const ProductJacobians J(since_.T_before_after, increment.T_before_after);
+  since_.covariance = J.covariance(since_.covariance, increment.covariance);
+  since_.T_before_after = since_.T_before_after * increment.T_before_after;
+}
+
+template <class Pose>
+void HealthMonitor<Pose>::interrupt() {
+  for (Index s = 0; s < sensors_; ++s)
+    for (auto& drive : places_[s].drives) drive.chained = false;
+  since_ = Increment<Pose>();
+}
+
+template <class Pose>
+void HealthMonitor<Pose>::closed(std::size_t refused, std::size_t known) {
+  verdict_.closing(static_cast<double>(refused), static_cast<double>(known));
+}
+
+template <class Pose>
+void HealthMonitor<Pose>::fixed(Index rows, double distance, bool refused) {
+  evidence_ = UpdateEvidence();
+  evidence_.compared = 1;
+  evidence_.refused = refused ? 1 : 0;
+  if (!refused) evidence_.nis = distance, evidence_.rows = rows;
+  verdict_.add(evidence_);
+}
+
+// The motion since the last frame of any sensor goes to every sensor.
+template <class Pose>
+void HealthMonitor<Pose>::drive_all() {
+  for (Index s = 0; s < sensors_; ++s)
+    for (auto& drive : places_[s].drives) {
+      if (!drive.chained) continue;
+      drive.noise = ProductJacobians(drive.T, since_.T_before_after).covariance(drive.noise, since_.covariance);
+      drive.T = drive.T * since_.T_before_after;
+      drive.chained = drive.noise.allFinite();
+    }
+  since_ = Increment<Pose>();
+}
+
+template <class Pose>
+void HealthMonitor<Pose>::start(Index sensor, Index rows, bool relative) {
+  drive_all();
+  now_ = sensor;
+  rows_ = rows;
+  relative_ = relative;
+  ++places_[sensor].frame;
+  for (PairedFrame<Pose>& paired : paired_) paired.start(rows);
+  evidence_ = UpdateEvidence();
+}
+
+// The difference to a sighting before, and its covariance (docs/trust.md, eq. 1 and 2).
+template <class Pose>
+bool HealthMonitor<Pose>::pair(const Sighted<Pose>& sighted, bool refused, const Left<Pose>& last, Index stride) {
+  const auto& drive = places_[now_].drives[stride];
+  if (!drive.chained || last.sensor != now_ || last.frame != drive.frame) return false;
+  // Where the estimate saw the landmark then, moved by the odometry: other updates between the frames drop out.
+  const typename Pose::Point y = drive.T.inverse() * last.y;
+  Vector3 innovation = sighted.innovation + sighted.J_z_y * (sighted.y - y);
+  auto J_z_y = sighted.J_z_y;
+  if (refused) {  // the estimate may be far off
+    Prediction<Pose> there;
+    if (!sighted.sensor->predict(Pose(), y, MountError<Pose>::Zero(), there)) return false;
+    innovation = sighted.sensor->residual(sighted.z, there.z);
+    J_z_y = there.J_z_landmark;
+  }
+  // The error of y counts by the change of the Jacobian. The residual before has the covariance R - J P J^T, and the
+  // error of y the covariance P - 0 with it: together they are those of the two terms below.
+  const typename Prediction<Pose>::ByLandmark J_now = J_z_y * drive.T.rotation().inverse().matrix();
+  const Matrix3 before = last.noise - last.J_z_y * last.P * last.J_z_y.transpose();
+  const Matrix3 noise = sighted.noise + before + J_now * last.P * J_now.transpose();
+  // By the motion's error in the axes of the body after it: dy = -dp - turn(y) dtheta.
+  typename PairedFrame<Pose>::ByMotion J;
+  J.template leftCols<kDim>() = -J_z_y;
+  J.template rightCols<kTurn>() = -J_z_y * Pose::Rotation::turn(y);
+  return paired_[stride].add(innovation - last.residual, noise, J);
+}
+
+template <class Pose>
+void HealthMonitor<Pose>::compare(const Sighted<Pose>& sighted, double distance, bool refused) {
+  SensorHealth& health = places_[now_].health;
+  health.compared += 1.0;
+  health.refused += refused ? 1.0 : 0.0;
+  ++evidence_.compared;
+  evidence_.refused += refused ? 1 : 0;
+  auto* last = memory_.find(sighted.landmark);
+  if (last == nullptr) return;
+  const Index number = paired_[0].count();
+  for (Index stride = 0; stride < kStrides; ++stride) {
+    if (!due(stride)) continue;
+    const bool paired = pair(sighted, refused, last->anchors[stride], stride);
+    if (stride > 0) continue;
+    if (paired)
+      steps_[number] = last;
+    else
+      last->jumped = false;
+  }
+  last->contradiction.add(distance, rows_);
+  evidence_.contradicting += last->contradiction.found() ? 1 : 0;
+  Vector3 error = Vector3::Zero();
+  for (Index r = 0; r < rows_; ++r) error(r) = sighted.innovation(r) / std::sqrt(sighted.noise(r, r));
+  health.persistence.add(error, last->past);
+}
+
+template <class Pose>
+void HealthMonitor<Pose>::correct(const Pose& before, const Square& P_before, const Pose& after,
+                                  const Square& P_after) {
+  drift_.add(before, P_before, after, P_after);
+  semidefinite_factor(P_after, nullptr, &evidence_.pivot);
+}
+
+template <class Pose>
+FrameParts HealthMonitor<Pose>::split(Index stride) {
+  const auto& drive = places_[now_].drives[stride];
+  const typename Pose::Rotation R_inverse = drive.T.rotation().inverse();
+  Square to_body = Square::Zero();
+  to_body.template topLeftCorner<kDim, kDim>() = R_inverse.matrix();
+  to_body.template bottomRightCorner<kTurn, kTurn>() = R_inverse.adjoint();
+  return paired_[stride].split(to_body * drive.noise * to_body.transpose(), slow_.sensor(now_).value,
+                               slow_.motion().value);
+}
+
+template <class Pose>
+void HealthMonitor<Pose>::judge_jump(const FrameParts& parts) {
+  constexpr Index kWitnesses = 3;  // a single gross error must not look like a jump
+  if (parts.residual_dof < kWitnesses) return;
+  const double alpha = slow_.sensor(now_).value, beta = slow_.motion().value;
+  for (Index j = 0; j < parts.commons; ++j)
+    evidence_.jump += parts.common[j].square / (alpha + beta * parts.common[j].weight);
+  evidence_.jump += parts.rest / alpha;
+  evidence_.jump_dof = parts.commons + parts.rest_dof;
+}
+
+// A landmark that jumps and stays has moved, or got another name. A gross error jumps back.
+template <class Pose>
+void HealthMonitor<Pose>::judge_steps() {
+  using Step = typename PairedFrame<Pose>::Step;
+  for (Index i = 0; i < paired_[0].count(); ++i) {
+    bool& jumped = steps_[i]->jumped;
+    const Step step = paired_[0].step(i);
+    if (step == Step::agrees && jumped) ++evidence_.contradicting;
+    jumped = step == Step::jumped && !jumped;
+  }
+}
+
+template <class Pose>
+void HealthMonitor<Pose>::learn() {
+  slow_.fade(now_);
+  fast_.fade(now_);
+  for (Index stride = 0; stride < kStrides; ++stride) {
+    if (paired_[stride].count() == 0) continue;
+    const FrameParts parts = split(stride);
+    if (stride > 0) {
+      slow_.add_motion(now_, parts);
+      fast_.add_motion(now_, parts);
+      continue;
+    }
+    judge_jump(parts);
+    judge_steps();
+    slow_.add(now_, parts);
+    fast_.add(now_, parts);
+    information_ = kKeepInformation * information_ + paired_[stride].information();
+    informed_ = kKeepInformation * informed_ + 1.0;
+  }
+}
+
+template <class Pose>
+void HealthMonitor<Pose>::finish(double nis, Index rows) {
+  learn();
+  evidence_.nis = nis;
+  evidence_.rows = rows;
+  if (rows > 0) places_[now_].health.nis.add(nis, static_cast<double>(rows), kKeepInformation);
+  evidence_.drift = drift_.sigmas();
+  int rank = kDof;
+  if (informed_ >= kEnoughFrames) semidefinite_factor(information_, &rank);
+  evidence_.blind = kDof - rank;
+  const auto over = [](NoiseFactor factor, double used) {
+    return NoiseFactor{factor.value / used, factor.sigma / used};
+  };
+  evidence_.sensor = over(fast_.sensor(now_), applied_to_sensor(now_));
+  evidence_.motion = over(fast_.motion(), applied_to_motion());
+  verdict_.add(evidence_);
+  for (Index stride = 0; stride < kStrides; ++stride)
+    if (due(stride)) places_[now_].drives[stride] = {relative_, places_[now_].frame, Pose(), Square::Zero()};
+}
+
+template <class Pose>
+void HealthMonitor<Pose>::remember(std::uint64_t landmark, Left<Pose> left) {
+  auto& sighting = memory_.find_or_make(landmark);
+  left.sensor = now_;
+  left.frame = places_[now_].frame;
+  for (Index stride = 0; stride < kStrides; ++stride)
+    if (due(stride)) sighting.anchors[stride] = left;
+}
+
+// A factor that is not known well moves the noise less: the noise follows what is significant.
+template <class Pose>
+double HealthMonitor<Pose>::applied(const NoiseFactor& factor) {
+  constexpr double kKnown = 0.2;  // relative standard deviation
+  return factor.sigma < kKnown * factor.value ? factor.value : 1.0;
+}
+
+template class HealthMonitor<SE2>;
+template class HealthMonitor<SE3>;
+
+}  // namespace cairn

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Systematic errors as states, over many worlds: the two tables of docs/systematic_errors.md.
+#
+#   tests/consistency/systematic_campaign.sh PROGRAM [RUNS [SEED]]
+#
+# PROGRAM is consistency_systematic of a build; the default is 50 worlds from seed 1. It fails if an error is more than
+# 1.5 times that of a rover without errors, or if the ANEES is outside its band at more than a tenth of the times.
+set -euo pipefail
+
+if (($# < 1)); then
+  echo "usage: $0 PROGRAM [RUNS [SEED]]" >&2
+  exit 2
+fi
+program=$1 runs=${2:-50} seed=${3:-1}
+"$program" --runs "$runs" --seed "$seed" --check
+echo
+"$program" --wheels --runs "$runs" --seed "$seed" --check

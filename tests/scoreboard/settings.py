@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The recordings of the scoreboard, and the settings of each kind of vehicle: options of `cairn run`, one list for all
+recordings of a kind. No setting depends on a single recording, and none was chosen by looking at the truth of one."""
+import dataclasses
+
+# A stereo camera places no landmark below this disparity, pixels: no image is as wide. The run is odometry alone.
+NO_LANDMARKS = ["--min-disparity", "1e9"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Kind:
+    name: str
+    options: list        # of cairn run
+    freedoms: int        # of a pose
+    recordings: list     # names of files or folders in CAIRN_DATA_DIR
+
+
+KINDS = [
+    Kind("stereo head", [], 6, ["starry_night.mat"]),
+    Kind("car", ["--forget-after", "5"], 6,
+         ["2011_09_26_drive_0001_sync_KLT.mat", "2011_09_26_drive_0005_sync_KLT.mat",
+          "2011_09_26_drive_0027_sync_KLT.mat", "2011_09_26_drive_0035_sync_KLT.mat",
+          "2011_09_26_drive_0036_sync_KLT.mat", "2011_10_03_drive_0042_sync_KLT.mat"]),
+    Kind("planar log", [], 3, ["cityTrees10000.txt"]),
+    Kind("robots", [], 3, ["mrclam7", "mrclam9", "two_robots"]),
+]
+
+# The smoothers beside it. Noise of the robots: that of docs/mrclam.md. A planar log and some STARS files hold their own
+# noise.
+PIXELS, VELOCITY, RATE = 1.5, 0.1, 0.01  # of a STARS file without noise: pixels, m/s, rad/s
+CAUCHY = 1.0              # of the stereo observations, standard deviations
+HUBER = 1.345             # of the robots' observations, standard deviations
+SPEED, TURN = 0.03, 0.06  # m/s and rad/s per square root of Hz
+RANGE, BEARING = 0.2, 0.06  # in proportion to the range; rad

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The verdict and its tests: what each of them finds, and that honest noise gives no alarm.
+#include "health/verdict.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "health/contradiction.hpp"
+#include "health/drift_test.hpp"
+#include "health/persistence.hpp"
+#include "health/sighting_memory.hpp"
+
+using namespace cairn;
+
+namespace {
+
+constexpr double kGate = 0.99;
+
+struct Source {
+  std::mt19937_64 engine{5};
+  double normal() { return std::normal_distribution<double>()(engine); }
+  double chi_square(int dof) { return std::chi_squared_distribution<double>(dof)(engine); }
+  UpdateEvidence honest() {
+    UpdateEvidence evidence;
+    evidence.compared = 12;
+    for (int i = 0; i < 12; ++i) evidence.refused += std::uniform_real_distribution<double>()(engine) > kGate;
+    evidence.rows = 36;
+    evidence.nis = chi_square(36);
+    evidence.jump = chi_square(6);
+    evidence.jump_dof = 6;
+    return evidence;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("verdict: honest updates are good") {
+  Verdict verdict(kGate);
+  Source source;
+  for (int i = 0; i < 20000; ++i) verdict.add(source.honest());
+  CHECK(verdict.share(Trust::good) > 0.998);
+  CHECK(verdict.share(Trust::lost) == 0.0);
+}
+
+TEST_CASE("verdict: each reason is named") {
+  const auto after = [](auto&& spoil, int updates) {
+    Verdict verdict(kGate);
+    Source source;
+    for (int i = 0; i < 50; ++i) verdict.add(source.honest());
+    REQUIRE(verdict.trust() == Trust::good);
+    for (int i = 0; i < updates; ++i) {
+      UpdateEvidence evidence = source.honest();
+      spoil(evidence, verdict);
+      verdict.add(evidence);
+    }
+    CHECK(verdict.trust() == Trust::doubtful);
+    return verdict.reasons();
+  };
+  CHECK(after([](UpdateEvidence& e, Verdict&) { e.nis *= 2; }, 20) == kDoubtNis);
+  CHECK(after([](UpdateEvidence& e, Verdict&) { e.refused = 3; }, 10) == kDoubtRefusals);
+  CHECK(after([](UpdateEvidence&, Verdict& v) { v.widened(0.5); }, 1) == kDoubtWidened);
+  CHECK(after([](UpdateEvidence& e, Verdict&) { e.sensor = {9.0, 1.0}; }, 1) == kDoubtSensorNoise);
+  CHECK(after([](UpdateEvidence& e, Verdict&) { e.motion = {9.0, 2.0}; }, 1) == kDoubtMotionNoise);
+  CHECK(after([](UpdateEvidence& e, Verdict&) { e.drift = 6.0; }, 1) == kDoubtBias);
+  CHECK(after([](UpdateEvidence& e, Verdict&) { e.jump = 100.0; }, 1) == kDoubtJump);
+  CHECK(after([](UpdateEvidence& e, Verdict&) { e.contradicting = 1; }, 1) == kDoubtLandmarks);
+  CHECK(after([](UpdateEvidence&, Verdict& v) { v.closing(5, 20); }, 1) == kDoubtClosing);
+  CHECK(after([](UpdateEvidence& e, Verdict&) { e.blind = 1; }, 1) == kDoubtBlind);
+  CHECK(after([](UpdateEvidence& e, Verdict&) { e.pivot = -0.1; }, 1) == kDoubtDefinite);
+}
+
+TEST_CASE("verdict: a factor that is not known, and one that is too small, are no reason") {
+  Verdict verdict(kGate);
+  Source source;
+  UpdateEvidence evidence = source.honest();
+  evidence.sensor = {9.0, 8.0};
+  evidence.motion = {0.1, 0.01};
+  verdict.add(evidence);
+  CHECK(verdict.reasons() == 0);
+}
+
+TEST_CASE("verdict: lost while most of what is seen is refused, and good again later") {
+  Verdict verdict(kGate);
+  Source source;
+  for (int i = 0; i < 50; ++i) verdict.add(source.honest());
+  for (int i = 0; i < 10; ++i) {
+    UpdateEvidence evidence = source.honest();
+    evidence.refused = 11;
+    verdict.add(evidence);
+  }
+  CHECK(verdict.trust() == Trust::lost);
+  CHECK((verdict.reasons() & kDoubtRefusals) != 0);
+  for (int i = 0; i < 40; ++i) verdict.add(source.honest());
+  CHECK(verdict.trust() == Trust::good);
+}
+
+TEST_CASE("contradiction: a moved landmark is found at its second sighting, an honest one hardly ever") {
+  Contradiction moved;
+  moved.add(200.0, 2);
+  CHECK_FALSE(moved.found());
+  moved.add(std::nan(""), 2);
+  CHECK(moved.found());
+  for (int i = 0; i < 8; ++i) moved.add(1.0, 2);
+  CHECK_FALSE(moved.found());
+  Source source;
+  for (const int rows : {2, 3}) {
+    int found = 0;
+    Contradiction honest;
+    for (int i = 0; i < 1000000; ++i) {
+      honest.add(source.chi_square(rows), rows);
+      found += honest.found();
+    }
+    CHECK(found < 40);
+  }
+}
+
+TEST_CASE("drift: a mean of the corrections is found, and white ones give no alarm") {
+  using Square = SE2::Square;
+  const SE2 pose(SO2::from_angle(0.7), Vector2(3, -2));
+  Source source;
+  int alarms = 0;
+  double most = 0.0;
+  for (const double bias : {0.0, 0.5}) {
+    DriftTest<SE2> drift;
+    for (int i = 0; i < 5000; ++i) {
+      SE2::Tangent step(bias + source.normal(), source.normal(), 0.01 * source.normal());
+      step.head<2>() = pose.rotation() * Vector2(step.head<2>());
+      Square learned = Square::Identity();
+      learned(2, 2) = 1e-4;
+      drift.add(pose, 2.0 * learned, retract(pose, step), learned);
+      if (bias == 0.0) alarms += drift.sigmas() > 5.0;
+      if (bias > 0.0 && i > 100) most = std::max(most, drift.sigmas());
+    }
+  }
+  CHECK(alarms == 0);
+  CHECK(most > 5.0);
+}
+
+TEST_CASE("persistence: the correlation of errors that last") {
+  for (const double correlation : {0.0, 0.6}) {
+    Persistence persistence;
+    Source source;
+    for (int landmark = 0; landmark < 200; ++landmark) {
+      PastErrors past = {};
+      Vector3 error(source.normal(), source.normal(), 0);
+      for (int i = 0; i < 20; ++i) {
+        persistence.add(error, past);
+        const Vector3 fresh(source.normal(), source.normal(), 0);
+        error = correlation * error + std::sqrt(1 - correlation * correlation) * fresh;
+      }
+    }
+    CHECK(std::abs(persistence.correlation(1) - correlation) < 0.05);
+    CHECK(std::abs(persistence.correlation(3) - std::pow(correlation, 3)) < 0.05);
+  }
+  CHECK(Persistence().correlation(1) == 0.0);
+}
+
+TEST_CASE("sighting memory: the oldest landmark makes room") {
+  Arena arena(1 << 16);
+  SightingMemory<SE2> memory(arena, 3);
+  for (std::uint64_t id = 10; id < 14; ++id) memory.find_or_make(id).anchors[0].frame = id;
+  CHECK(memory.find(10) == nullptr);
+  REQUIRE(memory.find(11) != nullptr);
+  CHECK(memory.find(11)->anchors[0].frame == 11);
+  CHECK(memory.find_or_make(13).anchors[0].frame == 13);
+  CHECK(memory.find_or_make(10).anchors[0].frame == 0);
+}
