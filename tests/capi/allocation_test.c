@@ -98,6 +98,8 @@ static void live(const scale* s) {
     widened += report.widened_position > 0;
     if (n > most) most = n;
     failed += cairn_filter_update_position(f, w.truth.position, small, step % 2 ? NULL : centre, &one) != CAIRN_OK;
+    failed += cairn_filter_last_update(f, &report) != CAIRN_OK;
+    widened += report.widened_position > 0;
     failed += cairn_filter_update_attitude(f, w.truth.quaternion, small, &one) != CAIRN_OK;
     failed += cairn_filter_update_heading(f, 0.1, 0.1, NULL) != CAIRN_OK;
     size_t known = 0, needed;

@@ -87,6 +87,34 @@ class SlipTest(unittest.TestCase):
         drive.step()
         self.assertEqual(drive.vehicle.last_update()["widened_position"], 0.0)
 
+    def test_an_update_that_throws_takes_the_widening_back(self):
+        calls, refuse_at = [0], [None]
+
+        def predict(pose, landmark):  # in the axes of the map, from a vehicle that does not turn
+            calls[0] += 1
+            if calls[0] == refuse_at[0]:
+                return None
+            return landmark - pose.position, np.hstack([-np.eye(3), np.zeros((3, 3))]), np.eye(3)
+
+        drive = Among(SPATIAL)
+        drive.sensor = drive.vehicle.add_custom(
+            predict, lambda pose, z: (pose.position + z, np.hstack([np.eye(3), np.zeros((3, 3))]), np.eye(3)), sigma=[0.05] * 3)
+        for _ in range(60):
+            drive.step()
+        drive.step(slip=1.0)
+        self.assertEqual(drive.refused[-1], 6)
+        drive.move()
+        before, report = drive.vehicle.pose(), drive.vehicle.last_update()
+        # Two attempts and the residual at the first iterate have six calls each; the next linearisation is refused.
+        calls[0], refuse_at[0] = 0, 19
+        with self.assertRaisesRegex(cairn.CairnError, "nothing was changed"):
+            drive.see()
+        for old, new in zip(before, drive.vehicle.pose()):
+            np.testing.assert_array_equal(old, new)
+        self.assertEqual(drive.vehicle.last_update(), report)
+        drive.see()  # what was heard before the failure is still known
+        self.assertAlmostEqual(drive.widened[-1], 1.0, delta=0.2)
+
     def test_an_accepted_heading_or_a_coarse_fix_is_no_agreement(self):
         def heading(drive):
             return drive.vehicle.update_heading(0.0, 0.05)

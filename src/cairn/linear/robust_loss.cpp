@@ -8,13 +8,14 @@ namespace cairn {
 
 RobustLoss::RobustLoss(LossKind kind, double width) : kind_(kind), width_(width) {
   if (!robust()) return;
-  // Means over d, chi-distributed with `rows` degrees of freedom, by the trapezoidal rule.
+  // Means over d, chi-distributed with `rows` degrees of freedom, by the midpoint rule.
   constexpr int kSteps = 4000;
   constexpr double kEnd = 12.0;
   for (int rows = 1; rows <= kMostRows; ++rows) {
     double one = 0.0, w = 0.0, wdd = 0.0, wwdd = 0.0;
-    for (int i = 1; i < kSteps; ++i) {
-      const double d = kEnd * i / kSteps, density = std::pow(d, rows - 1) * std::exp(-0.5 * d * d), at = weight(d * d);
+    for (int i = 0; i < kSteps; ++i) {
+      const double d = kEnd * (i + 0.5) / kSteps, density = std::pow(d, rows - 1) * std::exp(-0.5 * d * d),
+                   at = weight(d * d);
       one += density;
       w += density * at;
       wdd += density * at * d * d;

@@ -50,12 +50,12 @@ bool AxisEvidence<Pose>::weigh(const ForgottenSums& bounds, const double* J, con
     axis.excess = ForgottenSums::kForget * axis.excess + (g - b);
     axis.information = ForgottenSums::kForget * axis.information + b * b;
     axis.samples = std::min(axis.samples + 1, ForgottenSums::kMost);
-    if (!axis.wider) {
+    const bool doubtful = axis.ratio > bounds.doubtful(axis.samples);
+    if (!axis.wider && !doubtful) {  // what is in doubt must not spoil the record that decides about it
       axis.record = kForgetRecord * axis.record + g / b;
       axis.record_count = kForgetRecord * axis.record_count + 1.0;
     }
-    axis.wider = axis.wider ? axis.ratio > bounds.calm(axis.samples)
-                            : axis.trusted() && axis.ratio > bounds.doubtful(axis.samples);
+    axis.wider = axis.wider ? axis.ratio > bounds.calm(axis.samples) : axis.trusted() && doubtful;
     if (!axis.wider || !(axis.excess > 0.0)) continue;
     widening += axis.excess / axis.information * u * u.transpose();  // (F5)
     wider = true;

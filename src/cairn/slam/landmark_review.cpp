@@ -27,6 +27,7 @@ void LandmarkReview<Pose>::run(const Frame<Pose>& frame) {
   if (!defers && !misses) return;
   note_sightings(frame.landmarks);
   promote();
+  remove_contradicted(frame.landmarks);
   remove_unconfirmed();
   report_.last().deferred = map_.table().deferred();
   if (misses && frame.view != nullptr) remove_missed(frame);
@@ -58,6 +59,19 @@ template <class Pose>
 void LandmarkReview<Pose>::remove(Index slot) {
   map_.forget(slot);
   ++report_.last().removed;
+}
+
+// Of a deferred landmark and a refused observation by its id, one is wrong, and nobody knows which: the next
+// observation places it again.
+template <class Pose>
+void LandmarkReview<Pose>::remove_contradicted(Index observations) {
+  if (options_.association != AssociationKind::known) return;
+  for (Index i = 0; i < observations; ++i) {
+    const Match& match = report_.matches()[i];
+    if (match.reason != Reason::gate && match.reason != Reason::batch_gate) continue;
+    const std::optional<Index> slot = map_.table().find(match.landmark);
+    if (slot && !map_.table().counts(*slot)) remove(*slot);
+  }
 }
 
 template <class Pose>

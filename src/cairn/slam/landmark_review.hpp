@@ -22,6 +22,7 @@ class LandmarkReview {
  private:
   void note_sightings(Index observations);
   void promote();
+  void remove_contradicted(Index observations);
   void remove_unconfirmed();
   void remove_missed(const Frame<Pose>& frame);
   void remove(Index slot);

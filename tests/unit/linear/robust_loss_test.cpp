@@ -36,7 +36,7 @@ Scatter locate(const RobustLoss& loss, int count, double outliers, int runs) {
     }
     Vector estimate = Vector::Zero();
     double information = 0.0;
-    for (int i = 0; i < 30; ++i) {
+    for (int i = 0; i < 12; ++i) {
       Vector sum = Vector::Zero();
       information = 0.0;
       for (const Vector& z : seen) {
@@ -113,9 +113,9 @@ TEST_CASE_TEMPLATE("robust loss: the claimed covariance is the scatter of the es
     for (const double width : {1.0, 2.0}) {
       CAPTURE(static_cast<int>(kind));
       CAPTURE(width);
-      const Scatter scatter = locate<Rows::value>(RobustLoss(kind, width), 50, 0.0, 4000);
-      CHECK(scatter.claimed == doctest::Approx(scatter.variance).epsilon(0.06));
-      CHECK(scatter.claimed > 0.99 / 50);  // never better than least squares
+      const Scatter scatter = locate<Rows::value>(RobustLoss(kind, width), 50, 0.0, 1500);
+      CHECK(scatter.claimed == doctest::Approx(scatter.variance).epsilon(0.08));
+      CHECK(scatter.claimed > 0.98 / 50);  // never better than least squares
       CHECK(scatter.claimed < 1.6 / 50);
     }
 }
