@@ -44,14 +44,14 @@ static void a_far_return_is_refused_alone(void** state) {
         cairn_filter* f = create(&o);
         const int32_t sensor = add_sensor(f, vehicle);
         for (int n = 1; n <= 12; ++n) {
-          cairn_observation frame[NEAR + 1];
+          cairn_observation shot[NEAR + 1];
           cairn_match m[NEAR + 1];
           step(f);
-          for (uint64_t i = 0; i < NEAR; ++i) frame[i] = seen(vehicle, i, 0.1 * n);
-          frame[NEAR] = sighting(99, far_away[k], 0.3);
+          for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(vehicle, i, 0.1 * n);
+          shot[NEAR] = sighting(99, far_away[k], 0.3);
           /* With the gates open, a known landmark far away is an outlier that the user has asked for. */
-          if (n % 3 == 0 && way < 5 && way != 4) frame[0].z[0] = far_away[k];
-          assert_ok(cairn_filter_update(f, sensor, frame, NEAR + 1, m));
+          if (n % 3 == 0 && way < 5 && way != 4) shot[0].z[0] = far_away[k];
+          assert_ok(cairn_filter_update(f, sensor, shot, NEAR + 1, m));
           for (int i = 1; i < NEAR; ++i) assert_true(m[i].result == (n == 1 ? CAIRN_NEW : m[i].result));
           if (way < 2)
             for (int i = 1; i < NEAR; ++i) assert_int_equal(m[i].result, n == 1 ? CAIRN_NEW : CAIRN_MATCHED);
@@ -74,12 +74,12 @@ static void open_gates_do_not_let_the_impossible_in(void** state) {
   cairn_filter* f = create(&o);
   const int32_t sensor = add_sensor(f, CAIRN_VEHICLE_SPATIAL);
   for (int n = 1; n <= 5; ++n) {
-    cairn_observation frame[NEAR];
+    cairn_observation shot[NEAR];
     cairn_match m[NEAR];
     step(f);
-    for (uint64_t i = 0; i < NEAR; ++i) frame[i] = seen(CAIRN_VEHICLE_SPATIAL, i, 0.1 * n);
-    if (n > 1) frame[3].z[1] = n == 2 ? 1e20 : 1e160;
-    assert_ok(cairn_filter_update(f, sensor, frame, NEAR, m));
+    for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(CAIRN_VEHICLE_SPATIAL, i, 0.1 * n);
+    if (n > 1) shot[3].z[1] = n == 2 ? 1e20 : 1e160;
+    assert_ok(cairn_filter_update(f, sensor, shot, NEAR, m));
     for (int i = 0; i < NEAR; ++i)
       assert_int_equal(m[i].result, n == 1 ? CAIRN_NEW : i == 3 ? CAIRN_REJECTED : CAIRN_MATCHED);
     if (n > 1) assert_int_equal(m[3].reason, CAIRN_REASON_GATE);
@@ -125,10 +125,10 @@ static void a_fix_ends_a_start_that_is_not_known(void** state) {
         }
         const int32_t sensor = add_sensor(f, vehicle); /* the filter goes on */
         for (int n = 1; n <= 8; ++n) {
-          cairn_observation frame[NEAR];
+          cairn_observation shot[NEAR];
           step(f);
-          for (uint64_t i = 0; i < NEAR; ++i) frame[i] = seen(vehicle, i, 0.1 * n);
-          assert_ok(cairn_filter_update(f, sensor, frame, NEAR, NULL));
+          for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(vehicle, i, 0.1 * n);
+          assert_ok(cairn_filter_update(f, sensor, shot, NEAR, NULL));
           assert_sound(f);
         }
         cairn_filter_destroy(f);
@@ -155,10 +155,10 @@ static void landmarks_before_the_first_fix_cost_nothing_else(void** state) {
         const int32_t sensor = add_sensor(f, vehicle);
         diagonal(noise, 3, 1e-2);
         for (int n = 1; n <= 12; ++n) {
-          cairn_observation frame[NEAR];
+          cairn_observation shot[NEAR];
           step(f);
-          for (uint64_t i = 0; i < NEAR; ++i) frame[i] = seen(vehicle, i, 0.1 * n);
-          const cairn_status status = cairn_filter_update(f, sensor, frame, NEAR, NULL);
+          for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(vehicle, i, 0.1 * n);
+          const cairn_status status = cairn_filter_update(f, sensor, shot, NEAR, NULL);
           assert_true(status == CAIRN_OK || (sigma > 5e5 && status == CAIRN_ERROR_NUMERICAL));
           assert_sound(f);
           if (n < 6) continue;
@@ -184,16 +184,16 @@ static void a_lost_vehicle_finds_its_landmarks(void** state) {
       cairn_filter* f = create(&o);
       const int32_t sensor = add_sensor(f, CAIRN_VEHICLE_SPATIAL);
       const cairn_pose stay = {{0, 0, 0}, {1, 0, 0, 0}};
-      cairn_observation frame[NEAR];
+      cairn_observation shot[NEAR];
       double noise[36], covariance[36];
-      for (uint64_t i = 0; i < NEAR; ++i) frame[i] = seen(CAIRN_VEHICLE_SPATIAL, i, 0);
-      assert_ok(cairn_filter_update(f, sensor, frame, NEAR, NULL));
+      for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(CAIRN_VEHICLE_SPATIAL, i, 0);
+      assert_ok(cairn_filter_update(f, sensor, shot, NEAR, NULL));
       diagonal(noise, 6, 1e-6);
       for (int i = 0; i < 3; ++i) noise[7 * i] = sigma * sigma;
       assert_ok(cairn_filter_predict_increment(f, &stay, noise));
       for (int n = 0; n < 4; ++n) {
         cairn_match m[NEAR];
-        assert_ok(cairn_filter_update(f, sensor, frame, NEAR, m));
+        assert_ok(cairn_filter_update(f, sensor, shot, NEAR, m));
         for (int i = 0; i < NEAR; ++i) assert_int_equal(m[i].result, CAIRN_MATCHED);
         assert_sound(f);
       }
@@ -226,12 +226,12 @@ static void a_drive_round_the_earth(void** state) {
         assert_sound(f[error]);
       }
       for (int k = 0; k < 3; ++k) { /* landmarks here, while those behind are kept */
-        cairn_observation frame[NEAR];
+        cairn_observation shot[NEAR];
         for (uint64_t i = 0; i < NEAR; ++i) {
-          frame[i] = seen(CAIRN_VEHICLE_SPATIAL, i, 0);
-          frame[i].id += 8 * ((unsigned)n / 100);
+          shot[i] = seen(CAIRN_VEHICLE_SPATIAL, i, 0);
+          shot[i].id += 8 * ((unsigned)n / 100);
         }
-        assert_ok(cairn_filter_update(f[error], sensor, frame, NEAR, NULL));
+        assert_ok(cairn_filter_update(f[error], sensor, shot, NEAR, NULL));
         assert_sound(f[error]);
       }
     }

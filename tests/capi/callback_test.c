@@ -31,7 +31,7 @@ static void a_negative_callback_aborts_the_whole_frame(void** state) {
       aborting a = {0, 0, at % 2 == 0 ? -1 : INT32_MIN};
       cairn_custom custom = test_point();
       const double lower[3] = {0, -50, -50}, upper[3] = {50, 50, 50};
-      cairn_observation frame[NEAR];
+      cairn_observation shot[NEAR];
       cairn_match m[NEAR], kept[NEAR];
       snapshot before = {0, NULL}, after = {0, NULL};
       int32_t sensor = -1;
@@ -41,16 +41,16 @@ static void a_negative_callback_aborts_the_whole_frame(void** state) {
       custom.predict = aborting_predict, custom.place = aborting_place, custom.user = &a;
       assert_ok(cairn_filter_add_custom(f, &custom, &sensor));
       assert_ok(cairn_filter_set_view(f, sensor, lower, upper));
-      for (uint64_t i = 0; i < NEAR; ++i) frame[i] = seen(CAIRN_VEHICLE_SPATIAL, 3 * i, 0);
-      assert_ok(cairn_filter_update(f, sensor, frame, 6, m));
+      for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(CAIRN_VEHICLE_SPATIAL, 3 * i, 0);
+      assert_ok(cairn_filter_update(f, sensor, shot, 6, m));
       step(f);
-      for (int i = 0; i < NEAR; ++i) frame[i].z[0] -= 0.1;
+      for (int i = 0; i < NEAR; ++i) shot[i].z[0] -= 0.1;
       snapshot_take(&before, f);
       a.calls = 0, a.abort_at = at;
       memset(m, 0xa5, sizeof m);
       memcpy(kept, m, sizeof m);
       /* one known landmark is missed, two are new */
-      const cairn_status status = cairn_filter_update(f, sensor, frame + 1, NEAR - 1, m);
+      const cairn_status status = cairn_filter_update(f, sensor, shot + 1, NEAR - 1, m);
       const bool done = a.calls < at;
       snapshot_take(&after, f);
       if (done) {
@@ -63,7 +63,7 @@ static void a_negative_callback_aborts_the_whole_frame(void** state) {
         assert_true(snapshot_same(&before, &after));
         assert_memory_equal(m, kept, sizeof m);
         a.abort_at = 0; /* the same frame, given again, is taken in as if nothing had happened */
-        assert_ok(cairn_filter_update(f, sensor, frame + 1, NEAR - 1, m));
+        assert_ok(cairn_filter_update(f, sensor, shot + 1, NEAR - 1, m));
         assert_int_equal(m[0].result, CAIRN_MATCHED);
         assert_int_equal(last_update(f).placed, 2);
       }
@@ -102,10 +102,10 @@ static void a_custom_sensor_places_like_a_built_in_one(void** state) {
     for (int i = 0; i < 3; ++i) custom.sigma[i] = 0.1;
     if (own == 1) assert_ok(cairn_filter_add_custom(f, &custom, &sensor));
     for (int n = 0; n < 6; ++n) {
-      cairn_observation frame[3];
-      for (uint64_t i = 0; i < 3; ++i) frame[i] = seen(CAIRN_VEHICLE_SPATIAL, (uint64_t)n + i, 0.1 * n + 0.05);
+      cairn_observation shot[3];
+      for (uint64_t i = 0; i < 3; ++i) shot[i] = seen(CAIRN_VEHICLE_SPATIAL, (uint64_t)n + i, 0.1 * n + 0.05);
       step(f);
-      assert_ok(cairn_filter_update(f, sensor, frame, 3, NULL));
+      assert_ok(cairn_filter_update(f, sensor, shot, 3, NULL));
     }
     assert_ok(cairn_filter_pose(f, &pose[own], NULL));
     assert_ok(cairn_map_landmark(cairn_filter_map(f), 7, &landmark[own]));

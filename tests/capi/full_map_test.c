@@ -8,17 +8,17 @@ static void a_full_map_refuses_only_new_landmarks(void** state) {
   for (int32_t vehicle = CAIRN_VEHICLE_SPATIAL; vehicle <= CAIRN_VEHICLE_PLANAR; ++vehicle)
     for (int way = 0; way < 3; ++way) {
       cairn_filter_options o = options_of(vehicle, CAIRN_ERROR_INVARIANT);
-      cairn_observation frame[7];
+      cairn_observation shot[7];
       cairn_match m[7];
       size_t size = 0;
       o.max_landmarks = 5;
       if (way == 1) o.association = CAIRN_ASSOCIATION_NEAREST;
       cairn_filter* f = create(&o);
       const int32_t sensor = add_sensor(f, vehicle);
-      for (uint64_t i = 0; i < 7; ++i) frame[i] = seen(vehicle, 2 * i, 0);
-      assert_ok(cairn_filter_update(f, sensor, frame, 3, m));
-      if (way == 2) frame[3] = sighting(70, 1e12, 0); /* places nothing, and takes no room */
-      assert_ok(cairn_filter_update(f, sensor, frame, 7, m));
+      for (uint64_t i = 0; i < 7; ++i) shot[i] = seen(vehicle, 2 * i, 0);
+      assert_ok(cairn_filter_update(f, sensor, shot, 3, m));
+      if (way == 2) shot[3] = sighting(70, 1e12, 0); /* places nothing, and takes no room */
+      assert_ok(cairn_filter_update(f, sensor, shot, 7, m));
       for (int i = 0; i < 7; ++i) {
         const bool lost = way == 2 && i == 3, room = i < (way == 2 ? 6 : 5);
         assert_int_equal(m[i].result, i < 3 ? CAIRN_MATCHED : lost || !room ? CAIRN_REJECTED : CAIRN_NEW);
@@ -29,7 +29,7 @@ static void a_full_map_refuses_only_new_landmarks(void** state) {
       assert_ok(cairn_map_size(cairn_filter_map(f), &size));
       assert_int_equal(size, 5);
       assert_ok(cairn_filter_remove_landmark(f, m[0].landmark)); /* there is room again */
-      assert_ok(cairn_filter_update(f, sensor, frame + 6, 1, m));
+      assert_ok(cairn_filter_update(f, sensor, shot + 6, 1, m));
       assert_int_equal(m[0].result, CAIRN_NEW);
       cairn_filter_destroy(f);
     }
