@@ -2,6 +2,8 @@
 // A slow, dense filter as a reference.
 #include "reference_filter.hpp"
 
+#include <Eigen/SVD>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -231,8 +233,14 @@ FrameResult ReferenceFilter::update_heading(double heading, double sigma) {
                            std::remainder(heading - std::atan2(forward.y(), forward.x()), 2 * 3.14159265358979323846)),
            true;
   };
+  // The second order of a tilt is noise: (a_z^2 / c^2 times the largest variance of the tilt)^2 (docs/sensors.md).
+  const Vector3 a = state_.pose.rotation() * Vector3::UnitX();
+  const Eigen::Matrix2d tilt = ordinary_covariance().block<2, 2>(3, 3);
+  const double level = a.x() * a.x() + a.y() * a.y();
+  const double second = a.z() * a.z() / level * Eigen::JacobiSVD<Eigen::Matrix2d>(tilt).singularValues()(0);
+  const double variance = sigma * sigma + second * second;
   return update(
-      residual, [&](const ReferenceState&) { return Dynamic::Constant(1, 1, sigma * sigma); }, 2, options_.iterations);
+      residual, [&](const ReferenceState&) { return Dynamic::Constant(1, 1, variance); }, 2, options_.iterations);
 }
 
 FrameResult ReferenceFilter::update_linear(const DynamicVector& residual, const Dynamic& covariance,

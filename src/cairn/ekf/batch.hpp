@@ -83,7 +83,8 @@ class Batch {
       for (Index c = 0; c < block.rows; ++c) {
         double* column = S + (block.row + c) * lds + block.row;
         const double least = least_noise(block.row + c, column[c], prior, count);
-        column[c] += std::max(block.value[c * (block.rows + 1)], least);
+        const double noise = block.value[c * (block.rows + 1)];
+        column[c] += noise < 0.0 ? noise : std::max(noise, least);  // a negative one shall find no factor
         for (Index r = c + 1; r < block.rows; ++r) column[r] += block.value[c * block.rows + r];
       }
     }

@@ -2,8 +2,6 @@
 // A frame before and after its update, for the health monitor.
 #include "slam/frame_witness.hpp"
 
-#include "core/error.hpp"
-
 namespace cairn {
 namespace {
 
@@ -67,6 +65,7 @@ void FrameWitness<Pose>::after(const Frame<Pose>& frame) {
 // observation was refused, as the observation itself says.
 template <class Pose>
 void FrameWitness<Pose>::remember(const Frame<Pose>& frame, Index observation) {
+  if (frame.sensor.may_abort()) return;  // the update has been committed: a callback must not be asked any more
   const Match& match = report_.matches()[observation];
   const std::optional<Index> slot = match.landmark == kNoId ? std::nullopt : map_.table().find(match.landmark);
   if (!slot || match.reason == Reason::ambiguous) return;
@@ -81,11 +80,7 @@ void FrameWitness<Pose>::remember(const Frame<Pose>& frame, Index observation) {
     landmark = placement.landmark;
   }
   Prediction<Pose> prediction;
-  try {
-    if (!frame.sensor.predict(pose, landmark, MountError<Pose>::Zero(), prediction)) return;
-  } catch (const Error&) {  // the update has been committed: a sensor that aborts now is only not remembered
-    return;
-  }
+  if (!frame.sensor.predict(pose, landmark, MountError<Pose>::Zero(), prediction)) return;
   Left<Pose> left;
   left.residual = frame.sensor.residual(frame.z(observation), prediction.z);
   left.noise = stated_noise(frame, observation, prediction);

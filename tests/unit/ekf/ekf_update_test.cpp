@@ -287,7 +287,7 @@ TEST_CASE_TEMPLATE("ekf update: a factor that does not exist is a numerical erro
     };
     sightings.noise *= -1e6;
     sightings.linearise(update);
-    CHECK(numerical([&] { (void)update.distance(0, Pose::kDim); }));
+    CHECK(update.distance(0, Pose::kDim) == std::numeric_limits<double>::infinity());  // no gate accepts it
     CHECK(numerical([&] { (void)update.invert(); }));
     CHECK(numerical([&] { update.factor(); }));
     closed();
