@@ -2,9 +2,8 @@
 // A slow, dense filter as a reference.
 #include "reference_filter.hpp"
 
-#include <Eigen/SVD>
-
 #include <Eigen/Cholesky>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
