@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/error.hpp"
 #include "geometry/angle.hpp"
 #include "numerical.hpp"
 #include "sensor/sensors.hpp"
@@ -192,11 +193,20 @@ TEST_CASE("custom: refusals") {
   CHECK(CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen));
   CHECK(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
   CHECK_FALSE(CustomSensor<SE3>(p).predict(kPose, kPose.translation(), kNoMount, seen));
-  for (int code : {1, -1}) {
-    user.refuse = code;
-    CHECK_FALSE(CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen));
-    CHECK_FALSE(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
-  }
+  user.refuse = 1;
+  CHECK_FALSE(CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen));
+  CHECK_FALSE(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
+  user.refuse = -1;
+  const auto aborts = [](const auto& call) {
+    try {
+      call();
+    } catch (const Error& caught) {
+      return caught.code() == ErrorCode::callback;
+    }
+    return false;
+  };
+  CHECK(aborts([&] { (void)CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen); }));
+  CHECK(aborts([&] { (void)CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed); }));
   user.refuse = 0;
   p.place = nullptr;
   CHECK_FALSE(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
