@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/error.hpp"
 #include "geometry/angle.hpp"
 #include "numerical.hpp"
 #include "sensor/sensors.hpp"
