@@ -133,7 +133,9 @@ static void errors_are_found(void** state) {
       assert_int_equal(errors[i].component, i % 3);
       assert_int_equal(errors[i].sensor, i < 6 ? -1 : 0);
       assert_near(errors[i].sigma, sqrt(covariance[10 * i]), 1e-15);
-      assert_true(errors[i].sigma < 0.5 * prior);
+      /* A pitch of the mount and a vertical velocity bias are one error at constant speed: both are known only as well as
+         the changes of velocity and rate on this circle tell them apart. */
+      assert_true(errors[i].sigma < (i == 7 ? 0.6 : 0.5) * prior);
       assert_near(errors[i].value, expected[i % 3], 4 * errors[i].sigma);
     }
     assert_ok(cairn_filter_pose(filter, &pose, pose_covariance));
@@ -197,6 +199,7 @@ static void bad_options_are_refused(void** state) {
   refuse_options(&o, "max_sensor_errors");
   o = test_options();
   o.vehicle = CAIRN_VEHICLE_PLANAR;
+  o.initial_pose = pose_at(5, 0, 0, 0, 0, PI / 2);
   o.velocity_bias_sigma[2] = 0.1;
   refuse_options(&o, "velocity_bias_sigma[2]");
   o.velocity_bias_sigma[2] = 0;
@@ -242,6 +245,9 @@ static void bad_calibrations_are_refused(void** state) {
   c.mount_shift_sigma[0] = NAN;
   assert_refused(&b, CAIRN_ERROR_ARGUMENT, "mount_shift_sigma[0]",
                  cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c));
+  bench_close(&b);
+
+  bench_open(&b, &o, 0); /* each refusal moves the bench, and only a filter that stands can be calibrated */
   c = good;
   c.offset_sigma[1] = 0.1;
   assert_refused(&b, CAIRN_ERROR_ARGUMENT, "offset_sigma[1]",
@@ -249,6 +255,10 @@ static void bad_calibrations_are_refused(void** state) {
   assert_refused(&b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_calibrate_sensor(b.main.filter, SENSORS, &c));
   assert_refused(&b, CAIRN_ERROR_ARGUMENT, "calibration",
                  cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], NULL));
+  bench_close(&b);
+
+  bench_open(&b, &o, 0);
+  c = good;
   for (int i = 0; i < 3; ++i) c.mount_shift_sigma[i] = c.mount_turn_sigma[i] = 0.1;
   assert_refused(&b, CAIRN_ERROR_CAPACITY, "max_sensor_errors",
                  cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c));
