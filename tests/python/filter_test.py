@@ -210,7 +210,7 @@ class ResultsTest(unittest.TestCase):
             np.testing.assert_allclose(errors["sigma"], [0.2, 0.1, 0.02, 0.3])
             np.testing.assert_allclose(one.systematic_covariance(), np.diag(errors["sigma"] ** 2))
             one.predict_wheels_gyro(0.5, 2, 2, [0, 0, 0.1])
-            self.assertGreater(one.pose()[0].position[0], 0.1)
+            self.assertGreater(one.pose()[0][0], 0.1)
         with cairn.Filter() as none:
             self.assertEqual(len(none.systematic_errors()), 0)
             self.assertEqual(none.systematic_covariance().shape, (0, 0))
