@@ -214,8 +214,9 @@ class ResultsTest(unittest.TestCase):
         with cairn.Filter() as none:
             self.assertEqual(len(none.systematic_errors()), 0)
             self.assertEqual(none.systematic_covariance().shape, (0, 0))
-        with self.assertRaisesRegex(ValueError, "velocity_bias_walk"):
+        with self.assertRaisesRegex(cairn.CairnError, "velocity_bias_walk") as caught:
             cairn.Filter(velocity_bias_walk=[0.1, 0, 0])
+        self.assertEqual(caught.exception.status, cairn.ERROR_ARGUMENT)
 
     def test_required_bytes(self):
         small, large = (cairn.Filter.required_bytes(max_landmarks=n) for n in (10, 1000))
