@@ -5,6 +5,7 @@
 #
 # PROGRAM is consistency_systematic of a build; the default is 50 worlds from seed 1. It fails if an error is more than
 # 1.5 times that of a rover without errors, or if the ANEES is outside its band at more than a tenth of the times.
+# A rover with a rate bias misses these bounds; docs/systematic_errors.md has the figures, and says why.
 set -euo pipefail
 
 if (($# < 1)); then
@@ -12,6 +13,8 @@ if (($# < 1)); then
   exit 2
 fi
 program=$1 runs=${2:-50} seed=${3:-1}
-"$program" --runs "$runs" --seed "$seed" --check
+failed=0
+"$program" --runs "$runs" --seed "$seed" --check 1.5 || failed=1
 echo
-"$program" --wheels --runs "$runs" --seed "$seed" --check
+"$program" --wheels --runs "$runs" --seed "$seed" --check 1.5 || failed=1
+exit "$failed"

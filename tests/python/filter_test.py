@@ -197,6 +197,7 @@ class ResultsTest(unittest.TestCase):
         with cairn.Filter() as none, self.assertRaises(cairn.CairnError) as caught:
             none.trajectory()
         self.assertEqual(caught.exception.status, cairn.ERROR_STATE)
+
     def test_systematic_errors(self):
         with cairn.Filter(max_landmarks=20, velocity_bias_sigma=[0, 0.2, 0.1], max_sensor_errors=2) as one:
             sensor = one.add_cartesian(sigma=[0.1, 0.1, 0.2])
@@ -209,12 +210,13 @@ class ResultsTest(unittest.TestCase):
             np.testing.assert_allclose(errors["sigma"], [0.2, 0.1, 0.02, 0.3])
             np.testing.assert_allclose(one.systematic_covariance(), np.diag(errors["sigma"] ** 2))
             one.predict_wheels_gyro(0.5, 2, 2, [0, 0, 0.1])
-            self.assertGreater(one.pose.position[0], 0.1)
+            self.assertGreater(one.pose()[0][0], 0.1)
         with cairn.Filter() as none:
             self.assertEqual(len(none.systematic_errors()), 0)
             self.assertEqual(none.systematic_covariance().shape, (0, 0))
-        with self.assertRaisesRegex(ValueError, "velocity_bias_walk"):
+        with self.assertRaisesRegex(cairn.CairnError, "velocity_bias_walk") as caught:
             cairn.Filter(velocity_bias_walk=[0.1, 0, 0])
+        self.assertEqual(caught.exception.status, cairn.ERROR_ARGUMENT)
 
     def test_required_bytes(self):
         small, large = (cairn.Filter.required_bytes(max_landmarks=n) for n in (10, 1000))
