@@ -2,13 +2,15 @@
 """The program on small STARS logs that the helper writes."""
 import unittest
 
-from support import (ALWAYS, WITH_SUBMAPS, WITH_TRUE_END, WITH_TRUE_LANDMARKS, WITH_TRUE_POSES, ProgramTest, call)
+from support import (ALWAYS, LEARNED, WITH_SUBMAPS, WITH_TRUE_END, WITH_TRUE_LANDMARKS, WITH_TRUE_POSES, ProgramTest,
+                     call)
 
 
 class StarsLog(ProgramTest):
     def test_figures(self):
         s = self.summary(self.stars_log("a.mat"))
-        self.assertEqual(set(s), ALWAYS | WITH_SUBMAPS | WITH_TRUE_POSES | WITH_TRUE_END | WITH_TRUE_LANDMARKS)
+        self.assertEqual(set(s), ALWAYS | LEARNED | WITH_SUBMAPS | WITH_TRUE_POSES | WITH_TRUE_END |
+                         WITH_TRUE_LANDMARKS)
         self.assertEqual(s["steps"], 80)
         self.assertLess(s["pose_rmse_m"], 0.05)
         self.assertLess(s["attitude_rmse_deg"], 0.5)
@@ -49,7 +51,7 @@ class StarsLog(ProgramTest):
 
     def test_without_true_landmarks(self):
         s = self.summary(self.stars_log("a.mat", "--drop", "rho_i_pj_i"))
-        self.assertEqual(set(s), ALWAYS | WITH_SUBMAPS | WITH_TRUE_POSES | WITH_TRUE_END)
+        self.assertEqual(set(s), ALWAYS | LEARNED | WITH_SUBMAPS | WITH_TRUE_POSES | WITH_TRUE_END)
 
     def test_without_some_true_poses(self):
         s = self.summary(self.stars_log("a.mat", "--set", "r_i_vk_i", "30", "nan"))

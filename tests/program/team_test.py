@@ -341,6 +341,9 @@ class Mrclam(ProgramTest):
         self.assertEqual((s["vehicles"], s["landmarks"]), (5, 15))
         self.assertLessEqual(s["pose_rmse_m"], 0.20)
         self.assertLessEqual(s["landmark_rmse_m"], 0.12)
+        # the gate of a folder of robots, which another one of the command line replaces
+        self.assertEqual(self.untimed(self.summary(folder, "--gate=0.99")), self.untimed(s))
+        self.assertLess(self.summary(folder, "--gate=0.999")["rejected"], s["rejected"])
         self.assertLessEqual(s["pose_anees_per_dof"], 3)
         alone = self.summary(folder, "--mode", "mono")
         self.assertGreater(alone["pose_rmse_m"], 2 * s["pose_rmse_m"])

@@ -64,6 +64,7 @@ class CalibratedSensor final : public Sensor<Pose> {
     return true;
   }
   Vector3 residual(const Vector3& z, const Vector3& predicted) const override { return sensor_.residual(z, predicted); }
+  bool bears_witness() const override { return sensor_.bears_witness(); }
 
  private:
   // From the error of T to that of the numbers [m; phi]: the error of T E is by_a e_T + by_b e_E, and that of E is

@@ -57,6 +57,7 @@ class ExtendedObservation final : public Sensor<SE2> {
   bool predict(const SE2& T_map_body, const Vector2& p_map, const Vector3& mount, Prediction<SE2>& out) const override;
   bool place(const SE2& T_map_body, const Vector3& z, const Vector3& mount, Placement<SE2>& out) const override;
   Vector3 residual(const Vector3& z, const Vector3& predicted) const override;
+  bool bears_witness() const override { return shared_; }  // without the correlation the noise is understated
 
  private:
   RangeBearingParameters radar_;

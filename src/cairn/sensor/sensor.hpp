@@ -81,6 +81,9 @@ class Sensor {
 
   // z - predicted, angles wrapped to (-pi, pi].
   virtual Vector3 residual(const Vector3& z, const Vector3& predicted) const { return z - predicted; }
+
+  // Whether the stated noise is all the noise. Otherwise larger residuals than stated say nothing about the motion.
+  virtual bool bears_witness() const { return true; }
 };
 
 // J_p P J_q^T: covariance between the predicted observations of two landmarks, which are number k and l in the joint

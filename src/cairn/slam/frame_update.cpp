@@ -98,6 +98,7 @@ void FrameUpdate<Pose>::hear(const EkfUpdate<Pose>& update, const Frame<Pose>& f
   const int rows = frame.sensor.rows();
   const Pose pose = map_.state().pose();
   trust_.hear_nobody();
+  if (!frame.sensor.bears_witness()) return;
   for (Index a = 0; a < sorted.candidates(); ++a) {
     const Candidate<Pose>& candidate = sorted.candidate(a);
     if (trust_.is_witness(candidate.slot))

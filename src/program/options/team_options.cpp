@@ -14,6 +14,7 @@ using options::kPositive;
 // Without ids the noise of a single observation is used to distinguish neighbouring landmarks. Errors that last count
 // only in updates. A landmark counts after three observations that are independent of each other (docs/mrclam.md).
 constexpr double kSightingRange = 0.044, kSightingBearing = 0.016, kPersistence = 18;
+constexpr double kRobotGate = 0.99;  // their barcodes are misread now and then (docs/mrclam.md)
 constexpr std::uint32_t kDeferredSightings = 54, kDeferredFrames = 2000;
 
 // A team refuses the options that it does not use.
@@ -149,6 +150,7 @@ MrclamOptions parse_mrclam_options(const std::vector<std::string>& arguments) {
     options.folder = word;
   });
   FilterChoices& filter = options.team.filter;
+  filter.gate_probability = filter.gate_probability.value_or(kRobotGate);
   if (!filter.names_known()) {
     options.noise.range = kSightingRange;
     options.noise.bearing = kSightingBearing;
