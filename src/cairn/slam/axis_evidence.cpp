@@ -50,12 +50,14 @@ bool AxisEvidence<Pose>::weigh(const ForgottenSums& bounds, const double* J, con
     axis.excess = ForgottenSums::kForget * axis.excess + (g - b);
     axis.information = ForgottenSums::kForget * axis.information + b * b;
     axis.samples = std::min(axis.samples + 1, ForgottenSums::kMost);
-    const bool doubtful = axis.ratio > bounds.doubtful(axis.samples);
-    if (!axis.wider && !doubtful) {  // what is in doubt must not spoil the record that decides about it
+    // The record of the past decides, without this frame. A frame that does not lead to a widening enters the record,
+    // whatever it says: a source that contradicts the motion again and again is not believed.
+    axis.wider = axis.wider ? axis.ratio > bounds.calm(axis.samples)
+                            : axis.trusted() && axis.ratio > bounds.doubtful(axis.samples);
+    if (!axis.wider) {
       axis.record = kForgetRecord * axis.record + g / b;
       axis.record_count = kForgetRecord * axis.record_count + 1.0;
     }
-    axis.wider = axis.wider ? axis.ratio > bounds.calm(axis.samples) : axis.trusted() && doubtful;
     if (!axis.wider || !(axis.excess > 0.0)) continue;
     widening += axis.excess / axis.information * u * u.transpose();  // (F5)
     wider = true;
