@@ -7,12 +7,8 @@
 #include <limits>
 
 namespace cairn {
-namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-// Stirling's series with a shift (Abramowitz and Stegun 6.1.41, 6.1.15). std::lgamma writes the global `signgam`, which
-// is a data race.
+// Stirling's series with a shift (Abramowitz and Stegun 6.1.41, 6.1.15).
 double log_gamma(double a) {
   double shift = 0.0;
   while (a < 12.0) shift -= std::log(a), a += 1.0;
@@ -21,6 +17,10 @@ double log_gamma(double a) {
       (1.0 / 12 - r * (1.0 / 360 - r * (1.0 / 1260 - r * (1.0 / 1680 - r * (1.0 / 1188 - r * 691.0 / 360360))))) / a;
   return shift + (a - 0.5) * std::log(a) - a + 0.91893853320467274178 + series;
 }
+
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // x^a e^-x / Gamma(a)
 double gamma_factor(double a, double x) {

@@ -4,6 +4,9 @@
 
 namespace cairn {
 
+// log Gamma(a) for a > 0. Unlike std::lgamma it writes no global, so that threads may call it at the same time.
+double log_gamma(double a);
+
 // P(X <= x) of a chi-square variable X with `dof` > 0 degrees of freedom.
 double chi_square_cdf(double dof, double x);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/chi_square.hpp"
 #include "core/error.hpp"
 
 namespace cairn {
@@ -12,7 +13,7 @@ namespace {
 // log of P(X >= refused), X binomial with the chance `refusal`, by its largest term.
 double log_chance(Index judged, Index refused, double refusal) {
   const double n = static_cast<double>(judged), q = static_cast<double>(refused);
-  return std::lgamma(n + 1) - std::lgamma(q + 1) - std::lgamma(n - q + 1) + q * std::log(refusal) +
+  return log_gamma(n + 1) - log_gamma(q + 1) - log_gamma(n - q + 1) + q * std::log(refusal) +
          (n - q) * std::log1p(-refusal);
 }
 
