@@ -44,9 +44,7 @@ bool PendingMotion<Pose>::add(const Pose& before, const Pose& next, const Increm
                               const MotionCoupling<Pose>* coupling) {
   using Rotation = typename Pose::Rotation;
   // The increment's ordinary error turned into the map's axes: e_p += R dp + G(R d) e_theta, e_theta += R dtheta.
-  Square B = Square::Zero();
-  B.template topLeftCorner<kDim, kDim>() = before.rotation().matrix();
-  B.template bottomRightCorner<kTurn, kTurn>() = before.rotation().adjoint();
+  Square B = Pose::turn_axes(before.rotation());
   Square F = F_, N = N_;
   if (model_.invariant()) {
     // xi_p = e_p - G(p) e_theta at the new position; the error itself stays: propagation is the identity.

@@ -46,6 +46,9 @@ class Rigid {
   // T Exp(tau) = Exp(adjoint() tau) T.
   Square adjoint() const { return blocks(R_.matrix(), -Rotation::turn(t_) * R_.adjoint(), R_.adjoint()); }
 
+  // Turns an ordinary error [dp; dtheta] from the axes before R to those after it: R for dp, adjoint of R for dtheta.
+  static Square turn_axes(const Rotation& R) { return blocks(R.matrix(), Rotation::Turn::Zero(), R.adjoint()); }
+
   // Exp(tau + d) = Exp(left_jacobian(tau) d) Exp(tau) to first order in d.
   static Square left_jacobian(const Tangent& tau) {
     const typename Rotation::Tangent theta = tau.template tail<kTurn>();
@@ -100,8 +103,7 @@ struct ProductJacobians {
   using Pose = Rigid<Rotation>;
   ProductJacobians(const Pose& T_a, const Pose& T_b) {
     by_a.template topRightCorner<Pose::kDim, Pose::kTurn>() = Rotation::turn(T_a.rotation() * T_b.translation());
-    by_b.template topLeftCorner<Pose::kDim, Pose::kDim>() = T_a.rotation().matrix();
-    by_b.template bottomRightCorner<Pose::kTurn, Pose::kTurn>() = T_a.rotation().adjoint();
+    by_b = Pose::turn_axes(T_a.rotation());
   }
   // Covariance of the product's error if the errors of the two factors are independent.
   typename Pose::Square covariance(const typename Pose::Square& P_a, const typename Pose::Square& P_b) const {
@@ -109,7 +111,7 @@ struct ProductJacobians {
     const typename Pose::Square lower = by_a * P_a * by_a.transpose() + own;
     return lower.template selfadjointView<Eigen::Lower>();
   }
-  typename Pose::Square by_a = Pose::Square::Identity(), by_b = Pose::Square::Zero();
+  typename Pose::Square by_a = Pose::Square::Identity(), by_b;
 };
 
 }  // namespace cairn

@@ -13,17 +13,13 @@ namespace cairn {
 template <class Pose>
 class DriftTest {
  public:
-  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  static constexpr int kDof = Pose::kDof;
   using Square = typename Pose::Square;
 
   // An update: the pose and the covariance of its ordinary error before it and after it.
   void add(const Pose& before, const Square& P_before, const Pose& after, const Square& P_after) {
-    const typename Pose::Rotation R_inverse = after.rotation().inverse();
-    typename Pose::Tangent correction = pose_error(after, before);
-    Square to_body = Square::Zero();
-    to_body.template topLeftCorner<kDim, kDim>() = R_inverse.matrix();
-    to_body.template bottomRightCorner<kTurn, kTurn>() = R_inverse.adjoint();
-    correction = to_body * correction;
+    const Square to_body = Pose::turn_axes(after.rotation().inverse());
+    const typename Pose::Tangent correction = to_body * pose_error(after, before);
     const Square learned = to_body * (P_before - P_after) * to_body.transpose();
     for (int i = 0; i < kDof; ++i) {
       const double variance = std::max(0.0, learned(i, i));

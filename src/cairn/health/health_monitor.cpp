@@ -139,10 +139,7 @@ void HealthMonitor<Pose>::correct(const Pose& before, const Square& P_before, co
 template <class Pose>
 FrameParts HealthMonitor<Pose>::split(Index stride) {
   const auto& drive = places_[now_].drives[stride];
-  const typename Pose::Rotation R_inverse = drive.T.rotation().inverse();
-  Square to_body = Square::Zero();
-  to_body.template topLeftCorner<kDim, kDim>() = R_inverse.matrix();
-  to_body.template bottomRightCorner<kTurn, kTurn>() = R_inverse.adjoint();
+  const Square to_body = Pose::turn_axes(drive.T.rotation().inverse());
   return paired_[stride].split(to_body * drive.noise * to_body.transpose(), slow_.sensor(now_).value,
                                slow_.motion().value);
 }

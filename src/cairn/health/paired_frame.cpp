@@ -33,15 +33,12 @@ void PairedFrame<Pose>::start(Index rows) {
 
 template <class Pose>
 bool PairedFrame<Pose>::add(const Vector3& difference, const Matrix3& noise, const ByMotion& J_motion) {
-  double L[9];
-  for (Index c = 0; c < rows_; ++c)
-    for (Index r = c; r < rows_; ++r) L[c * 3 + r] = noise(r, c);
-  if (!cholesky(L, 3, rows_) || !difference.allFinite() || !J_motion.allFinite()) return false;
-  Block& block = blocks_[count_++];
+  if (!difference.allFinite() || !J_motion.allFinite()) return false;
+  Block& block = blocks_[count_];
   block.difference = difference;
   block.J = J_motion;
-  solve_lower(L, 3, rows_, block.difference.data());
-  for (Index c = 0; c < kDof; ++c) solve_lower(L, 3, rows_, block.J.data() + kMostRows * c);
+  if (!whiten_block(noise.data(), 3, rows_, block.difference.data(), block.J.data(), kDof)) return false;
+  ++count_;
   return true;
 }
 

@@ -31,6 +31,18 @@ inline double squared_distance(const double* residual, const double* covariance,
   return sum;
 }
 
+// r <- L^-1 r and J <- L^-1 J for S = L L^T of up to 3 rows, from the lower triangle of S. J has `columns` columns, 3
+// rows apart. Returns false, with nothing changed, if S is not positive definite.
+inline bool whiten_block(const double* S, Index ld, Index rows, double* r, double* J, Index columns) {
+  double L[9];
+  for (Index c = 0; c < rows; ++c)
+    for (Index i = c; i < rows; ++i) L[c * 3 + i] = S[c * ld + i];
+  if (!cholesky(L, 3, rows)) return false;
+  solve_lower(L, 3, rows, r);
+  for (Index c = 0; c < columns; ++c) solve_lower(L, 3, rows, J + 3 * c);
+  return true;
+}
+
 // Removes blocks of `rows` rows from a batch of `count` blocks while the batch's distance exceeds `bound(rows left)`:
 // each time the block without which the distance falls most. Removing block i lowers the distance by
 // u_i^T (S^-1)_ii^-1 u_i. Inputs are the full S^-1, u = S^-1 r and the distance r^T u. Both arrays are overwritten.

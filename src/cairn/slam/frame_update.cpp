@@ -55,8 +55,10 @@ bool FrameUpdate<Pose>::fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
   const SystematicErrors& errors = map_.systematic();
   if (frame.calibrated != nullptr)
     frame.calibrated->set(errors.calibration<Pose>(frame.number, [&](Index i) { return update.systematic(i); }));
-  if (residual_only == nullptr) update.batch().clear();
-  if (residual_only == nullptr) settled_ = true;
+  if (residual_only == nullptr) {
+    update.batch().clear();
+    settled_ = true;
+  }
   for (Index a = 0; a < sorted.candidates(); ++a) {
     const Candidate<Pose>& candidate = sorted.candidate(a);
     Prediction<Pose> moved;
@@ -167,6 +169,7 @@ void FrameUpdate<Pose>::gate(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
 template <class Pose>
 bool FrameUpdate<Pose>::contradicted(const EkfUpdate<Pose>& update, const Frame<Pose>& frame,
                                      const SortedFrame<Pose>& sorted, typename Pose::Square& widening) {
+  if (trust_.heard() == 0) return false;
   const Index rows = frame.sensor.rows(), m = update.batch().rows();
   Index accepted = 0;  // witnesses
   for (Index a = 0; a < sorted.candidates(); ++a) {

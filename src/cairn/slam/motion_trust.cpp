@@ -77,11 +77,7 @@ bool MotionTrust<Pose>::contradicted(Index accepted, const double* J, const doub
       return witnesses_[0].distance(other.motion) > bound(witnesses_[0].rows);
     };
     if (heard_ > 1 || next_.kept == 0 || refuted()) forget(next_);
-    const typename Pose::Rotation R = pose_.rotation();
-    Square axes = Square::Zero();
-    axes.template topLeftCorner<Pose::kDim, Pose::kDim>() = R.matrix();
-    axes.template bottomRightCorner<Pose::kTurn, Pose::kTurn>() = R.adjoint();
-    return next_.evidence.weigh(sums_, J, r, rows, axes, widening);
+    return next_.evidence.weigh(sums_, J, r, rows, Pose::turn_axes(pose_.rotation()), widening);
   }
   next_.judged += heard_;
   next_.refused += heard_ - accepted;

@@ -32,6 +32,7 @@ class MotionTrust {
   // `map_frame` changes where what was heard before no longer applies: the map's frame is another one.
   void begin(std::uint64_t map_frame);
   void hear_nobody() { heard_ = 0; }
+  Index heard() const { return heard_; }  // witnesses of the frame
   void agree() { forget(record()); }  // something else supports the pose
   // The residual of a witness, with its Jacobian by the error of the vehicle's pose and the lower triangle of its
   // covariance, before the gates. `source` tells witnesses apart.

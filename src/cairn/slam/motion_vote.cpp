@@ -4,6 +4,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "linear/joint_gate.hpp"
+
 namespace cairn {
 
 template <class Pose>
@@ -12,13 +14,7 @@ bool Witness<Pose>::whiten(const double* residual, const ByPose& J_pose, const d
   J.setZero();
   std::copy_n(residual, rows, r.data());
   J.topRows(rows) = J_pose.topRows(rows);
-  double L[kMostRows * kMostRows] = {};
-  for (int c = 0; c < rows; ++c)
-    for (int i = c; i < rows; ++i) L[c * kMostRows + i] = S[c * ld + i];
-  if (!cholesky(L, kMostRows, rows)) return false;
-  solve_lower(L, kMostRows, rows, r.data());
-  for (int c = 0; c < Pose::kDof; ++c) solve_lower(L, kMostRows, rows, J.data() + c * kMostRows);
-  return true;
+  return whiten_block(S, ld, rows, r.data(), J.data(), Pose::kDof);
 }
 
 template <class Pose>

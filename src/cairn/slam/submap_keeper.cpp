@@ -201,10 +201,7 @@ bool SubmapKeeper<Pose>::find_back(Submap<Pose>& submap, ClosingReport& report) 
   const MotionVote<Pose> vote = vote_motion(witnesses.data(), count, bounds);
   if (2 * vote.agreeing <= count || kDim * vote.agreeing < kDof + kDim) return false;
   // The motion of the base in the axes of the submap.
-  typename Pose::Tangent motion;
-  const typename Pose::Rotation inverse = map_->base().rotation().inverse();
-  motion.template head<kDim>() = inverse * typename Pose::Point(vote.motion.template head<kDim>());
-  motion.template tail<Pose::kTurn>() = inverse.adjoint() * vote.motion.template tail<Pose::kTurn>();
+  const typename Pose::Tangent motion = Pose::turn_axes(map_->base().rotation().inverse()) * vote.motion;
   widen(submap, Square(motion * motion.transpose()));
   report.widened_position = motion.template head<kDim>().norm();
   report.widened_attitude = motion.template tail<Pose::kTurn>().norm();

@@ -29,10 +29,7 @@ template <class Pose>
 typename Trajectory<Pose>::Local Trajectory<Pose>::pack(std::uint64_t submap, const Pose& T_base_body,
                                                         const Square& covariance) {
   Local local{submap, T_base_body, {}};
-  // xi_p = dp - turn(p) dtheta and xi_R = dtheta (docs/notation.md).
-  Square xi_by_error = Square::Identity();
-  xi_by_error.template topRightCorner<Pose::kDim, Pose::kTurn>() = -Pose::Rotation::turn(T_base_body.translation());
-  const Square own = xi_by_error * covariance * xi_by_error.transpose();
+  const Square own = ErrorModel<Pose>(ErrorKind::invariant).own(covariance, T_base_body.translation());
   double* next = local.covariance;
   for (int r = 0; r < kDof; ++r)
     for (int c = 0; c <= r; ++c) *next++ = own(r, c);

@@ -134,10 +134,7 @@ FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
     trust_in_map_.commit();
     return first;
   }
-  const typename Pose::Rotation inverse = submaps_.map()->base().rotation().inverse();
-  Square turn = Square::Zero();  // to the axes of the submap
-  turn.template topLeftCorner<kDim, kDim>() = inverse.matrix();
-  turn.template bottomRightCorner<Pose::kTurn, Pose::kTurn>() = inverse.adjoint();
+  const Square turn = Pose::turn_axes(submaps_.map()->base().rotation().inverse());  // to the axes of the submap
   PendingRestore<Pose> restore(map_.state());
   try {
     widen(map_.state(), Square(turn * widening * turn.transpose()));
