@@ -20,6 +20,11 @@ ForgottenSums::ForgottenSums() {
   }
 }
 
+const ForgottenSums& ForgottenSums::shared() {
+  static const ForgottenSums sums;
+  return sums;
+}
+
 // The stated noise has explained the past: the mean of g / b, which should be 1.
 template <class Pose>
 bool AxisEvidence<Pose>::Axis::trusted() const {

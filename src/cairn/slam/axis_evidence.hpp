@@ -18,7 +18,8 @@ class ForgottenSums {
   static constexpr Index kMost = 64;      // the bounds do not change any more
 
   ForgottenSums();
-  double doubtful(Index samples) const { return doubtful_[samples]; }  // exceeded by chance once in 10^7 frames
+  static const ForgottenSums& shared();  // the same for all filters: computed once, by the first one
+  double doubtful(Index samples) const { return doubtful_[samples]; }  // exceeded by chance once in 700,000 frames
   double calm(Index samples) const { return calm_[samples]; }          // the median
 
  private:

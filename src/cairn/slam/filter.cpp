@@ -79,30 +79,20 @@ void Filter<Pose>::begin() {
 
 template <class Pose>
 void Filter<Pose>::predict_wheels(double dt, double left, double right) {
-  const SystematicErrors& errors = local_.systematic();
-  if (!errors.any()) return move(drive_wheels<Pose>(wheels_, left, right, dt));
-  const CorrectedStep<Pose> step = drive_wheels<Pose>(wheels_, left, right, dt, errors.motion(local_.state()));
-  const MotionCoupling<Pose> coupling = errors.coupling(step, dt);
-  move(step.increment, &coupling);
+  if (!local_.systematic().any()) return move(drive_wheels<Pose>(wheels_, left, right, dt));
+  move(drive_wheels<Pose>(wheels_, left, right, dt, local_.systematic().motion(local_.state())), dt);
 }
 
 template <class Pose>
 void Filter<Pose>::predict_wheels_gyro(double dt, double left, double right, const Vector3& w) {
-  const SystematicErrors& errors = local_.systematic();
-  const CorrectedStep<Pose> step =
-      drive_wheels_gyro<Pose>(wheels_, left, right, w, dt, twist_noise_, errors.motion(local_.state()));
-  if (!errors.any()) return move(step.increment);
-  const MotionCoupling<Pose> coupling = errors.coupling(step, dt);
-  move(step.increment, &coupling);
+  move(drive_wheels_gyro<Pose>(wheels_, left, right, w, dt, twist_noise_, local_.systematic().motion(local_.state())),
+       dt);
 }
 
 template <class Pose>
 void Filter<Pose>::predict_twist(double dt, const Vector3& v, const Vector3& w) {
-  const SystematicErrors& errors = local_.systematic();
-  if (!errors.any()) return move(integrate_twist<Pose>(v, w, dt, twist_noise_));
-  const CorrectedStep<Pose> step = integrate_twist<Pose>(v, w, dt, twist_noise_, errors.motion(local_.state()));
-  const MotionCoupling<Pose> coupling = errors.coupling(step, dt);
-  move(step.increment, &coupling);
+  if (!local_.systematic().any()) return move(integrate_twist<Pose>(v, w, dt, twist_noise_));
+  move(integrate_twist<Pose>(v, w, dt, twist_noise_, local_.systematic().motion(local_.state())), dt);
 }
 
 template <class Pose>
@@ -112,6 +102,13 @@ void Filter<Pose>::propagate(const Increment<Pose>& increment) {
                 "prediction: an increment has no duration, so that a velocity or rate bias cannot be taken out; use "
                 "cairn_filter_predict_twist, or create the filter without these biases");
   move(increment);
+}
+
+template <class Pose>
+void Filter<Pose>::move(const CorrectedStep<Pose>& step, double dt) {
+  if (!local_.systematic().any()) return move(step.increment);
+  const MotionCoupling<Pose> coupling = local_.systematic().coupling(step, dt);
+  move(step.increment, &coupling);
 }
 
 template <class Pose>

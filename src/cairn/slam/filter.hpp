@@ -131,6 +131,7 @@ class Filter {
 
  private:
   void begin();
+  void move(const CorrectedStep<Pose>& step, double dt);
   void move(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
   void note_closing();
 

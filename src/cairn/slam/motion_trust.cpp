@@ -77,7 +77,7 @@ bool MotionTrust<Pose>::contradicted(Index accepted, const double* J, const doub
       return witnesses_[0].distance(other.motion) > bound(witnesses_[0].rows);
     };
     if (heard_ > 1 || next_.kept == 0 || refuted()) forget(next_);
-    return next_.evidence.weigh(sums_, J, r, rows, Pose::turn_axes(pose_.rotation()), widening);
+    return next_.evidence.weigh(ForgottenSums::shared(), J, r, rows, Pose::turn_axes(pose_.rotation()), widening);
   }
   next_.judged += heard_;
   next_.refused += heard_ - accepted;

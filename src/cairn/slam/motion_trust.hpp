@@ -73,7 +73,6 @@ class MotionTrust {
   const LocalMap<Pose>& map_;
   const Thresholds& thresholds_;
   const Log& log_;
-  ForgottenSums sums_;
   Record* records_;           // one a vehicle
   Witness<Pose>* kept_;       // kKept a vehicle
   Witness<Pose>* witnesses_;  // of the frame; behind them room for those of a record

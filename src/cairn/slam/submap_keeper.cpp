@@ -69,7 +69,7 @@ bool FilterOptions<Pose>::sparse() const {
 template <class Pose>
 SubmapKeeper<Pose>::SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local,
                                  Trajectory<Pose>& trajectory, const Log& log)
-    : options_(options), local_(local), trajectory_(trajectory), log_(log), policy_(options, local) {}
+    : options_(options), local_(local), trajectory_(trajectory), log_(log), policy_(options, local), loss_(options.join_loss, options.join_loss_width) {}
 
 template <class Pose>
 void SubmapKeeper<Pose>::make_map() {
@@ -168,24 +168,22 @@ struct Agreement {
 // The robust loss of the options: a landmark that contradicts the map gets a larger covariance in the submap.
 template <class Pose>
 void SubmapKeeper<Pose>::soften(Submap<Pose>& submap) const {
-  if (options_.join_loss == LossKind::none) return;
+  if (!loss_.robust()) return;
   const Agreement<Pose> known(*map_, submap);
   if (!known.innovation) return;
-  const std::vector<double> factors =
-      noise_factors(*known.innovation, RobustLoss(options_.join_loss, options_.join_loss_width));
+  const std::vector<double> factors = noise_factors(*known.innovation, loss_);
   for (std::size_t a = 0; a < factors.size(); ++a) inflate(submap, known.locals[a], factors[a]);
 }
 
 // If most known landmarks contradict the map and agree on another pose of the submap's base, the motion to this base is
 // widened (docs/update.md, "Finding back").
 template <class Pose>
-bool SubmapKeeper<Pose>::find_back(Submap<Pose>& submap, ClosingReport& report) const {
+void SubmapKeeper<Pose>::find_back(Submap<Pose>& submap, ClosingReport& report) const {
   const Agreement<Pose> known(*map_, submap);
-  if (!known.innovation) return false;
+  if (!known.innovation) return;
   const SubmapInnovation<Pose>& innovation = *known.innovation;
-  const double bound = chi_square_quantile(kDim, options_.gate_probability);
   BoundsByRows bounds = {};
-  bounds[kDim] = bound;
+  bounds[kDim] = chi_square_quantile(kDim, options_.gate_probability);
   std::vector<Witness<Pose>> witnesses;
   for (Eigen::Index a = 0; a < innovation.count(); ++a) {
     Witness<Pose> witness = {};
@@ -199,7 +197,7 @@ bool SubmapKeeper<Pose>::find_back(Submap<Pose>& submap, ClosingReport& report) 
   }
   const auto count = static_cast<Index>(witnesses.size());
   const MotionVote<Pose> vote = vote_motion(witnesses.data(), count, bounds);
-  if (2 * vote.agreeing <= count || kDim * vote.agreeing < kDof + kDim) return false;
+  if (2 * vote.agreeing <= count || kDim * vote.agreeing < kDof + kDim) return;
   // The motion of the base in the axes of the submap.
   const typename Pose::Tangent motion = Pose::turn_axes(map_->base().rotation().inverse()) * vote.motion;
   widen(submap, Square(motion * motion.transpose()));
@@ -207,7 +205,6 @@ bool SubmapKeeper<Pose>::find_back(Submap<Pose>& submap, ClosingReport& report) 
   report.widened_attitude = motion.template tail<Pose::kTurn>().norm();
   log_.say("closing: %td of %td known landmarks contradict the map and agree on another pose of the submap, %g m away",
            vote.agreeing, count, report.widened_position);
-  return true;
 }
 
 // A transaction in which the submap has joined.

@@ -84,7 +84,7 @@ class SubmapKeeper {
   FixReport join(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
   std::unique_ptr<MapTransaction<Pose>> join(Submap<Pose>& submap, ClosingReport& report);
   void soften(Submap<Pose>& submap) const;
-  bool find_back(Submap<Pose>& submap, ClosingReport& report) const;
+  void find_back(Submap<Pose>& submap, ClosingReport& report) const;
   bool moved() const;
 
   const FilterOptions<Pose>& options_;
@@ -93,6 +93,7 @@ class SubmapKeeper {
   const Log& log_;
   std::unique_ptr<GlobalMap<Pose>> map_;
   SubmapPolicy<Pose> policy_;
+  RobustLoss loss_;  // of the landmarks that a submap shares with the map
   Eigen::VectorXd prior_;             // of the systematic errors, with which the open submap began
   Eigen::MatrixXd prior_covariance_;  // of the same
   Eigen::VectorXd next_prior_;        // of the next submap
