@@ -350,6 +350,11 @@ typedef struct cairn_closing_report {
                                        pair is certain: left out */
   uint32_t association_nodes;     /**< joint tests of the association with the map */
   uint32_t association_exhausted; /**< 1: it stopped at the bound `association_nodes` of the options */
+  uint32_t reserved;              /**< 0 */
+  double widened_position;        /**< most known landmarks of the submap contradicted the map and agreed on another pose
+                                       of its origin: how far from the estimate, m; 0: they did not (docs/update.md,
+                                       "Finding back") */
+  double widened_attitude;        /**< the same of the attitude, rad */
 } cairn_closing_report;
 
 /** Closes the open submap now. Allocates. A call that fails leaves the filter as it was, with the submap open.

@@ -135,10 +135,18 @@ class SlipTest(unittest.TestCase):
         for join in ("dense", "sparse"):
             with self.subTest(join=join):
                 drive = Among(submap_landmarks=20, submap_distance=0.0, join=join, max_landmarks=100)
+                widened = []
                 for k in range(60):
                     drive.step(slip=1.0 if k == 30 else 0.0)
                     if k % 15 == 14 and k > 30 or k == 29:
+                        before = drive.vehicle.health()["widenings"]
                         drive.vehicle.close_submap()
+                        closing = drive.vehicle.last_closing()
+                        widened.append(closing["widened_position"])
+                        self.assertEqual(drive.vehicle.health()["widenings"] - before, widened[-1] > 0)
+                self.assertEqual(widened[0], 0.0)  # before the slip
+                self.assertAlmostEqual(widened[1], 1.0, delta=0.2)
+                self.assertEqual(widened[2:], [0.0] * len(widened[2:]))
                 self.assertLess(drive.error().max(), 0.1)
                 closing = drive.vehicle.last_closing()
                 self.assertEqual(closing["landmarks_refused"], 0)

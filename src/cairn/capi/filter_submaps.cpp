@@ -68,6 +68,8 @@ cairn_status cairn_filter_last_closing(const cairn_filter* filter, cairn_closing
     out.landmarks_ambiguous = static_cast<std::uint32_t>(c.naming.ambiguous);
     out.association_nodes = static_cast<std::uint32_t>(c.naming.nodes);
     out.association_exhausted = c.naming.exhausted ? 1 : 0;
+    out.widened_position = c.widened_position;
+    out.widened_attitude = c.widened_attitude;
     write_report(out, report);
   });
 }

@@ -172,6 +172,7 @@ void Filter<Pose>::note_closing() {
   const ClosingReport& closing = submaps_.closing();
   if (closing.submaps == closings_) return;
   closings_ = closing.submaps;
+  if (closing.widened()) health_.widened(closing.widened_position);
   health_.closed(closing.join.refused, closing.join.refused + closing.join.fused);
 }
 

@@ -24,6 +24,7 @@ struct ClosingReport {
   JoinReport join;
   NamingReport naming;  // if observations bring no ids
   double widened_position = 0.0, widened_attitude = 0.0;  // of the motion to the submap's base, standard deviations
+  bool widened() const { return widened_position > 0.0 || widened_attitude > 0.0; }
   double seconds = 0.0;
 };
 
