@@ -146,8 +146,8 @@ FrameParts HealthMonitor<Pose>::split(Index stride) {
 
 template <class Pose>
 void HealthMonitor<Pose>::judge_jump(const FrameParts& parts) {
-  constexpr Index kWitnesses = 3;  // a single gross error must not look like a jump
-  if (parts.residual_dof < kWitnesses) return;
+  constexpr Index kLeastFreedoms = 3;  // a single gross error must not look like a jump
+  if (parts.residual_dof < kLeastFreedoms) return;
   const double alpha = slow_.sensor(now_).value, beta = slow_.motion().value;
   for (Index j = 0; j < parts.commons; ++j)
     evidence_.jump += parts.common[j].square / (alpha + beta * parts.common[j].weight);

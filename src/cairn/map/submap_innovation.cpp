@@ -96,8 +96,7 @@ void widen(Submap<Pose>& submap, const typename Pose::Square& covariance) {
   };
   set(0, submap.T_base_end.translation());
   U.block<kTurn, kTurn>(kDim, kDim).setIdentity();
-  for (Eigen::Index i = 0; i < submap.size(); ++i)
-    set(kDof + kDim * i, submap.landmarks[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < submap.size(); ++i) set(kDof + kDim * i, submap.landmarks[static_cast<std::size_t>(i)]);
   submap.covariance += U * covariance * U.transpose();
 }
 

@@ -140,8 +140,14 @@ void Filter<Pose>::update(int sensor, const Observation* observations, Index lan
   log_.watch([&] {
     const Sensor<Pose>& own = sensors_.at(sensor);
     const SystematicErrors& errors = local_.systematic();
-    Frame<Pose> frame{own,       sensors_.view(sensor), sensors_.loss(sensor), observations, landmarks,
-                      companions, sensor,               health_.applied_to_sensor(sensor)};
+    Frame<Pose> frame{own,
+                      sensors_.view(sensor),
+                      sensors_.loss(sensor),
+                      observations,
+                      landmarks,
+                      companions,
+                      sensor,
+                      health_.applied_to_sensor(sensor)};
     if (!errors.calibrates(sensor)) return frames_.run(frame);
     CalibratedSensor<Pose> calibrated(
         own, errors.calibration<Pose>(sensor, [&](Index i) { return local_.state().systematic(i); }));

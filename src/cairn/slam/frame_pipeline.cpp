@@ -17,7 +17,7 @@ FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& opti
       associator_(arena, options, map, thresholds, report, log),
       updater_(arena, options, map, thresholds, trust, report, log),
       placer_(arena, options, map, report, log),
-      witness_(arena, options, map, report, health),
+      health_feed_(arena, options, map, report, health),
       review_(options, map, report) {}
 
 template <class Pose>
@@ -42,7 +42,7 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
   trust_.commit();
   placer_.place(*update, frame, sorted_);
   report_.finish();
-  witness_.after(frame);
+  health_feed_.after(frame);
   review_.run(frame);
 }
 
@@ -51,7 +51,7 @@ template <class Pose>
 void FramePipeline<Pose>::attempt(const Frame<Pose>& frame, std::optional<EkfUpdate<Pose>>& update, bool again) {
   report_.start(frame.count());
   sort(frame);
-  if (!again) witness_.before(frame, sorted_);
+  if (!again) health_feed_.before(frame, sorted_);
   updater_.begin(update, frame, sorted_);
 }
 

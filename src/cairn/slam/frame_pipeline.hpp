@@ -8,7 +8,7 @@
 #include "slam/frame_placer.hpp"
 #include "slam/frame_sorter.hpp"
 #include "slam/frame_update.hpp"
-#include "slam/frame_witness.hpp"
+#include "slam/health_feed.hpp"
 #include "slam/landmark_review.hpp"
 
 namespace cairn {
@@ -36,7 +36,7 @@ class FramePipeline {
   FrameAssociator<Pose> associator_;
   FrameUpdate<Pose> updater_;
   FramePlacer<Pose> placer_;
-  FrameWitness<Pose> witness_;
+  HealthFeed<Pose> health_feed_;
   LandmarkReview<Pose> review_;
 };
 

@@ -31,8 +31,8 @@ struct UpdateReport {
   Index association_nodes = 0;
   bool association_exhausted = false;
   double association_seconds = 0.0;
-  Index deferred = 0;  // landmarks that do not count yet after the update
-  Index removed = 0;   // removed landmarks: missed, or deferred for too long
+  Index deferred = 0;                                     // landmarks that do not count yet after the update
+  Index removed = 0;                                      // removed landmarks: missed, or deferred for too long
   double widened_position = 0.0, widened_attitude = 0.0;  // standard deviations by which the motion was widened
   bool widened() const { return widened_position > 0.0 || widened_attitude > 0.0; }
 };

@@ -33,7 +33,7 @@ class MotionTrust {
   void begin(std::uint64_t map_frame);
   void hear_nobody() { heard_ = 0; }
   Index heard() const { return heard_; }  // witnesses of the frame
-  void agree() { forget(record()); }  // something else supports the pose
+  void agree() { forget(record()); }      // something else supports the pose
   // The residual of a witness, with its Jacobian by the error of the vehicle's pose and the lower triangle of its
   // covariance, before the gates. `source` tells witnesses apart.
   void hear(int rows, std::uint64_t source, const Pose& pose, const double* residual, const ByPose& J_pose,

@@ -69,7 +69,12 @@ bool FilterOptions<Pose>::sparse() const {
 template <class Pose>
 SubmapKeeper<Pose>::SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Pose>& local,
                                  Trajectory<Pose>& trajectory, const Log& log)
-    : options_(options), local_(local), trajectory_(trajectory), log_(log), policy_(options, local), loss_(options.join_loss, options.join_loss_width) {}
+    : options_(options),
+      local_(local),
+      trajectory_(trajectory),
+      log_(log),
+      policy_(options, local),
+      loss_(options.join_loss, options.join_loss_width) {}
 
 template <class Pose>
 void SubmapKeeper<Pose>::make_map() {

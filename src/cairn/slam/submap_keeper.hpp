@@ -22,7 +22,7 @@ struct ClosingReport {
   ClosedBy reason = ClosedBy::none;
   Index landmarks = 0;
   JoinReport join;
-  NamingReport naming;  // if observations bring no ids
+  NamingReport naming;                                    // if observations bring no ids
   double widened_position = 0.0, widened_attitude = 0.0;  // of the motion to the submap's base, standard deviations
   bool widened() const { return widened_position > 0.0 || widened_attitude > 0.0; }
   double seconds = 0.0;
@@ -94,7 +94,7 @@ class SubmapKeeper {
   const Log& log_;
   std::unique_ptr<GlobalMap<Pose>> map_;
   SubmapPolicy<Pose> policy_;
-  RobustLoss loss_;  // of the landmarks that a submap shares with the map
+  RobustLoss loss_;                   // of the landmarks that a submap shares with the map
   Eigen::VectorXd prior_;             // of the systematic errors, with which the open submap began
   Eigen::MatrixXd prior_covariance_;  // of the same
   Eigen::VectorXd next_prior_;        // of the next submap

@@ -35,9 +35,7 @@ class WholeBatchUpdate {
   void test(EkfUpdate<Pose>& update, Index rows, std::uint64_t landmark, Fill&& fill);
   template <class Fill>
   void finish(EkfUpdate<Pose>& update, int iterations, Fill&& fill);
-  bool accepted() {
-    return report_.match(0).distance <= std::min(report_.match(0).threshold, kAbsurdDistance);
-  }
+  bool accepted() { return report_.match(0).distance <= std::min(report_.match(0).threshold, kAbsurdDistance); }
   void fix_single(const AbsoluteFix<Pose>& fix);
   void fix_map(const AbsoluteFix<Pose>& fix);
   void finish_report(Index rows);

@@ -31,7 +31,7 @@ struct FilterChoices {
 #define FILTER_REAL(field, initial, bounds, flag) std::optional<double> field;
 #include "options/filter_options.def"
 
-  std::uint64_t forget_after = 0;  // frames; 0: never
+  std::uint64_t forget_after = 0;    // frames; 0: never
   std::optional<std::int32_t> loss;  // of the log's sensor
   std::optional<double> loss_width;
   SystematicChoices systematic;

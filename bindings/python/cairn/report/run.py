@@ -35,6 +35,15 @@ def _plain_table(header, body):
     return dict(zip(header, values.T.copy()))
 
 
+def read_columns(path, columns):
+    """The same as read_table(). A table that lacks one of these columns is refused."""
+    table = read_table(path)
+    for column in columns if table is not None else []:
+        if column not in table:
+            raise ReportError(f"{path}: it has no column {column}")
+    return table
+
+
 def read_table(path):
     """A CSV file as a dictionary of columns (NaN for an empty field), or None if there is no such file."""
     try:

@@ -17,13 +17,8 @@ SCENE = ["kind", "id", "x", "y", "radius"]
 
 def _table(folder, name, columns):
     path = os.path.join(folder, name)
-    table = run.read_table(path)
-    if table is None:
-        return None
-    for column in columns:
-        if column not in table:
-            raise ReportError(f"{path}: it has no column {column}")
-    if len(table[columns[0]]) == 0 and columns is not LANDMARKS:
+    table = run.read_columns(path, columns)
+    if table is not None and len(table[columns[0]]) == 0 and columns is not LANDMARKS:
         raise ReportError(f"{path}: it has no lines")
     return table
 

@@ -13,14 +13,8 @@ VERDICTS = ["good", "doubtful", "lost"]
 
 
 def _table(folder, name, columns):
-    path = os.path.join(folder, name)
-    table = run_files.read_table(path)
-    if table is None:
-        return None
-    for column in columns:
-        if column not in table:
-            raise ReportError(f"{path}: it has no column {column}")
-    return table if len(table[columns[0]]) else None
+    table = run_files.read_columns(os.path.join(folder, name), columns)
+    return table if table is not None and len(table[columns[0]]) else None
 
 
 def _clock(table, column, start):

@@ -7,43 +7,13 @@
 #include <memory>
 
 #include "map/join/dense/dense_map.hpp"
+#include "map/join/ring.hpp"
 #include "map/join/sparse/sparse_map.hpp"
-#include "numerical.hpp"
-#include "slam/filter.hpp"
 
 namespace {
 
 using namespace cairn;
-using cairn::test::Random;
-
-template <class Pose>
-struct Vehicle {
-  explicit Vehicle(const FilterOptions<Pose>& options)
-      : arena(Filter<Pose>::arena_bytes(options)), filter(arena, options) {
-    Cartesian<Pose> sensor;
-    filter.add(sensor);
-  }
-  Arena arena;
-  Filter<Pose> filter;
-};
-
-template <class Pose>
-FilterOptions<Pose> options_of(ErrorKind error, Index submap_landmarks, JoinKind join) {
-  using Space = Embedding<Pose>;
-  FilterOptions<Pose> options;
-  options.error = error;
-  options.max_landmarks = 60;
-  options.max_observations = 16;
-  options.submap_landmarks = submap_landmarks;
-  options.join = join;
-  options.gate_probability = 1.0;
-  options.batch_gate_probability = 1.0;
-  options.step_tolerance = 1e-12;
-  options.initial_pose = Space::down(SE3(SO3::exp(Vector3(0.1, -0.2, 0.7)), Vector3(10, -5, 2)));
-  options.initial_covariance.template topLeftCorner<Pose::kDim, Pose::kDim>() =
-      Space::down(Vector3(0.04, 0.01, 0.09)).asDiagonal();
-  return options;
-}
+using namespace cairn::test;
 
 // A drive of two rounds on a ring of landmarks; both filters get the same data.
 template <class Pose, class Visit>
@@ -52,13 +22,10 @@ void drive(double turn_sigma, Visit&& visit) {
   using Point = typename Pose::Point;
   using Space = Embedding<Pose>;
   Random random(7);
-  std::vector<Point> landmarks;
-  for (int i = 0; i < 30; ++i)
-    landmarks.push_back(
-        Space::down(Vector3(12 * std::cos(0.21 * i), 12 * std::sin(0.21 * i), 0.5 * std::sin(1.3 * i))));
+  const std::vector<typename Pose::Point> landmarks = ring_landmarks<Pose>();
   Pose truth;
   const Pose step = Space::down(SE3(SO3::exp(Vector3(0.01, 0.005, 0.105)), Vector3(1.0, 0, 0.01)));
-  for (int k = 0; k < 120; ++k) {
+  for (int k = 0; k < kRingSteps; ++k) {
     Increment<Pose> increment;
     const Point noise = 0.05 * random.normal_vector<kDim>();
     const typename Pose::Rotation::Tangent turn = turn_sigma * random.normal_vector<kTurn>();
@@ -67,19 +34,7 @@ void drive(double turn_sigma, Visit&& visit) {
     increment.covariance.diagonal().template head<kDim>().setConstant(0.0025);
     increment.covariance.diagonal().template tail<kTurn>().setConstant(turn_sigma * turn_sigma);
     truth = truth * step;
-    std::vector<Observation> seen;
-    for (std::size_t i = 0; i < landmarks.size(); ++i) {
-      const Point y = truth.inverse() * landmarks[i];
-      if (y.norm() > 9.0 || seen.size() == 16) continue;
-      Observation observation{i, {}, {}};
-      const Point z = y + 0.1 * random.normal_vector<kDim>();
-      for (int d = 0; d < kDim; ++d) {
-        observation.z[d] = z(d);
-        observation.covariance[(kDim + 1) * d] = 0.01;
-      }
-      seen.push_back(observation);
-    }
-    visit(increment, seen);
+    visit(increment, see_ring(truth, landmarks, random));
   }
 }
 
@@ -89,13 +44,9 @@ void feed(Filter<Pose>& filter, const Increment<Pose>& increment, const std::vec
   filter.update(0, seen.data(), static_cast<Index>(seen.size()));
 }
 
-double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return (a - b).norm() / (1e-300 + b.norm());
-}
-
 template <class Pose>
 void compare(ErrorKind error, JoinKind join, double tolerance) {
-  Vehicle<Pose> single(options_of<Pose>(error, 0, join)), submaps(options_of<Pose>(error, 9, join));
+  RingVehicle<Pose> single(ring_options<Pose>(error, 0, join)), submaps(ring_options<Pose>(error, 9, join));
   drive<Pose>(0.0, [&](const Increment<Pose>& increment, const std::vector<Observation>& seen) {
     feed(single.filter, increment, seen);
     feed(submaps.filter, increment, seen);
@@ -118,7 +69,7 @@ void compare(ErrorKind error, JoinKind join, double tolerance) {
   Eigen::MatrixXd P(size, size), Q(size, size);
   single.filter.pose_joint_covariance(in_a.data(), in_a.size(), P.data());
   submaps.filter.pose_joint_covariance(in_b.data(), in_b.size(), Q.data());
-  CHECK(relative(Q, P) <= tolerance);
+  CHECK(relative_difference(Q, P) <= tolerance);
   CHECK((single.filter.pose().translation() - submaps.filter.pose().translation()).norm() <= tolerance * 20);
 }
 

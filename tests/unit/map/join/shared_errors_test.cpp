@@ -8,44 +8,26 @@
 #include <cmath>
 #include <vector>
 
-#include "numerical.hpp"
-#include "slam/filter.hpp"
+#include "map/join/ring.hpp"
 
 namespace {
 
 using namespace cairn;
-using cairn::test::Random;
+using namespace cairn::test;
 
 template <class Pose>
-struct Vehicle {
-  explicit Vehicle(const FilterOptions<Pose>& options)
-      : arena(Filter<Pose>::arena_bytes(options)), filter(arena, options) {
-    Cartesian<Pose> sensor;
-    filter.add(sensor);
+struct Vehicle : RingVehicle<Pose> {
+  explicit Vehicle(const FilterOptions<Pose>& options) : RingVehicle<Pose>(options) {
     TwistNoise noise;
     noise.velocity_sigma.setConstant(0.05);
     noise.rate_sigma.setZero();
-    filter.set_twist_noise(noise);
+    this->filter.set_twist_noise(noise);
   }
-  Arena arena;
-  Filter<Pose> filter;
 };
 
 template <class Pose>
 FilterOptions<Pose> options_of(ErrorKind error, Index submap_landmarks, JoinKind join, double walk) {
-  using Space = Embedding<Pose>;
-  FilterOptions<Pose> options;
-  options.error = error;
-  options.max_landmarks = 60;
-  options.max_observations = 16;
-  options.submap_landmarks = submap_landmarks;
-  options.join = join;
-  options.gate_probability = 1.0;
-  options.batch_gate_probability = 1.0;
-  options.step_tolerance = 1e-12;
-  options.initial_pose = Space::down(SE3(SO3::exp(Vector3(0.1, -0.2, 0.7)), Vector3(10, -5, 2)));
-  options.initial_covariance.template topLeftCorner<Pose::kDim, Pose::kDim>() =
-      Space::down(Vector3(0.04, 0.01, 0.09)).asDiagonal();
+  FilterOptions<Pose> options = ring_options<Pose>(error, submap_landmarks, join);
   options.systematic.motion_sigma[0] = 0.1;
   options.systematic.motion_sigma[1] = 0.3;
   options.systematic.motion_walk[1] = walk;
@@ -55,40 +37,19 @@ FilterOptions<Pose> options_of(ErrorKind error, Index submap_landmarks, JoinKind
 // A drive of two rounds on a ring of landmarks by measured twists whose velocity is biased.
 template <class Pose, class Visit>
 void drive(double walk, Visit&& visit) {
-  constexpr int kDim = Pose::kDim;
-  using Point = typename Pose::Point;
   using Space = Embedding<Pose>;
   Random random(7);
-  std::vector<Point> landmarks;
-  for (int i = 0; i < 30; ++i)
-    landmarks.push_back(
-        Space::down(Vector3(12 * std::cos(0.21 * i), 12 * std::sin(0.21 * i), 0.5 * std::sin(1.3 * i))));
+  const std::vector<typename Pose::Point> landmarks = ring_landmarks<Pose>();
   Pose truth;
   Vector6 twist;
   twist << 1.0, 0, 0.01, 0.01, 0.005, 0.105;
   Vector3 bias(0.08, -0.2, 0);
-  for (int k = 0; k < 120; ++k) {
+  for (int k = 0; k < kRingSteps; ++k) {
     truth = truth * Pose::exp(Space::down(twist));
     const Vector3 measured = twist.head<3>() + bias + 0.05 * random.normal_vector<3>();
     bias.y() += walk * random.normal();
-    std::vector<Observation> seen;
-    for (std::size_t i = 0; i < landmarks.size(); ++i) {
-      const Point y = truth.inverse() * landmarks[i];
-      if (y.norm() > 9.0 || seen.size() == 16) continue;
-      Observation observation{i, {}, {}};
-      const Point z = y + 0.1 * random.normal_vector<kDim>();
-      for (int d = 0; d < kDim; ++d) {
-        observation.z[d] = z(d);
-        observation.covariance[(kDim + 1) * d] = 0.01;
-      }
-      seen.push_back(observation);
-    }
-    visit(measured, Vector3(twist.tail<3>()), seen);
+    visit(measured, Vector3(twist.tail<3>()), see_ring(truth, landmarks, random));
   }
-}
-
-double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return (a - b).norm() / (1e-300 + b.norm());
 }
 
 template <class Pose>
@@ -104,10 +65,10 @@ struct Errors {
 template <class Pose>
 void check_pose(const Filter<Pose>& single, const Filter<Pose>& submaps, double tolerance) {
   CHECK((single.pose().translation() - submaps.pose().translation()).norm() <= tolerance * 20);
-  CHECK(relative(submaps.pose_covariance(), single.pose_covariance()) <= tolerance);
+  CHECK(relative_difference(submaps.pose_covariance(), single.pose_covariance()) <= tolerance);
   const Errors<Pose> a(single), b(submaps);
   CHECK((a.values - b.values).norm() <= tolerance * a.values.norm());
-  CHECK(relative(b.covariance, a.covariance) <= tolerance);
+  CHECK(relative_difference(b.covariance, a.covariance) <= tolerance);
 }
 
 template <class Pose>
@@ -145,7 +106,7 @@ void compare(ErrorKind error, JoinKind join, double walk, double tolerance) {
   Eigen::MatrixXd P(size, size), Q(size, size);
   single.filter.pose_joint_covariance(in_a.data(), in_a.size(), P.data());
   submaps.filter.pose_joint_covariance(in_b.data(), in_b.size(), Q.data());
-  CHECK(relative(Q, P) <= tolerance);
+  CHECK(relative_difference(Q, P) <= tolerance);
 }
 
 }  // namespace
@@ -188,7 +149,7 @@ TEST_CASE("shared errors: the posterior without its prior") {
   errors.value = errors.prior + errors.covariance * rows.transpose() * (values - rows * errors.prior);
   const ErrorRows found = found_out(errors);
   REQUIRE(found.rows.rows() == 2);
-  CHECK(relative(found.rows.transpose() * found.rows, rows.transpose() * rows) < 1e-10);
+  CHECK(relative_difference(found.rows.transpose() * found.rows, rows.transpose() * rows) < 1e-10);
   CHECK((found.rows.transpose() * found.values - rows.transpose() * values).norm() < 1e-9);
   // A submap that found out nothing.
   errors.covariance = prior;

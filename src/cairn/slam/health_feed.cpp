@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A frame before and after its update, for the health monitor.
-#include "slam/frame_witness.hpp"
+#include "slam/health_feed.hpp"
 
 namespace cairn {
 namespace {
@@ -17,15 +17,15 @@ Matrix3 stated_noise(const Frame<Pose>& frame, Index observation, const Predicti
 }  // namespace
 
 template <class Pose>
-FrameWitness<Pose>::FrameWitness(Arena& arena, const FilterOptions<Pose>& options, const LocalMap<Pose>& map,
-                                 const FrameReport& report, HealthMonitor<Pose>& health)
+HealthFeed<Pose>::HealthFeed(Arena& arena, const FilterOptions<Pose>& options, const LocalMap<Pose>& map,
+                             const FrameReport& report, HealthMonitor<Pose>& health)
     : map_(map),
       report_(report),
       health_(health),
       seen_(arena.take<Seen>(static_cast<std::size_t>(options.max_observations))) {}
 
 template <class Pose>
-void FrameWitness<Pose>::before(const Frame<Pose>& frame, const SortedFrame<Pose>& sorted) {
+void HealthFeed<Pose>::before(const Frame<Pose>& frame, const SortedFrame<Pose>& sorted) {
   count_ = 0;
   before_ = map_.state().pose();
   covariance_before_ = map_.state().pose_covariance();
@@ -46,7 +46,7 @@ void FrameWitness<Pose>::before(const Frame<Pose>& frame, const SortedFrame<Pose
 }
 
 template <class Pose>
-void FrameWitness<Pose>::after(const Frame<Pose>& frame) {
+void HealthFeed<Pose>::after(const Frame<Pose>& frame) {
   if (report_.last().widened()) health_.widened(report_.last().widened_position);
   health_.start(frame.number, frame.sensor.rows(), frame.sensor.relative());
   for (Index i = 0; i < count_; ++i) {
@@ -64,7 +64,7 @@ void FrameWitness<Pose>::after(const Frame<Pose>& frame) {
 // The place of an observed landmark in the body frame: as the filter estimates it after the update, or, if the
 // observation was refused, as the observation itself says.
 template <class Pose>
-void FrameWitness<Pose>::remember(const Frame<Pose>& frame, Index observation) {
+void HealthFeed<Pose>::remember(const Frame<Pose>& frame, Index observation) {
   if (frame.sensor.may_abort()) return;  // the update has been committed: a callback must not be asked any more
   const Match& match = report_.matches()[observation];
   const std::optional<Index> slot = match.landmark == kNoId ? std::nullopt : map_.table().find(match.landmark);
@@ -92,7 +92,7 @@ void FrameWitness<Pose>::remember(const Frame<Pose>& frame, Index observation) {
   health_.remember(match.landmark, left);
 }
 
-template class FrameWitness<SE2>;
-template class FrameWitness<SE3>;
+template class HealthFeed<SE2>;
+template class HealthFeed<SE3>;
 
 }  // namespace cairn

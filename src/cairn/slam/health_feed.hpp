@@ -10,10 +10,10 @@
 namespace cairn {
 
 template <class Pose>
-class FrameWitness {
+class HealthFeed {
  public:
-  FrameWitness(Arena& arena, const FilterOptions<Pose>& options, const LocalMap<Pose>& map, const FrameReport& report,
-               HealthMonitor<Pose>& health);
+  HealthFeed(Arena& arena, const FilterOptions<Pose>& options, const LocalMap<Pose>& map, const FrameReport& report,
+             HealthMonitor<Pose>& health);
 
   // After the sorting: notes the innovations. Changes nothing of the monitor, for the update may still throw.
   void before(const Frame<Pose>& frame, const SortedFrame<Pose>& sorted);
@@ -36,7 +36,7 @@ class FrameWitness {
   typename Pose::Square covariance_before_ = Pose::Square::Zero();
 };
 
-extern template class FrameWitness<SE2>;
-extern template class FrameWitness<SE3>;
+extern template class HealthFeed<SE2>;
+extern template class HealthFeed<SE3>;
 
 }  // namespace cairn
