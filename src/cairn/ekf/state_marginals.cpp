@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Marginal covariances of a state: of the pose and of chosen points.
+#include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
 
 #include "ekf/ekf_update.hpp"
 #include "ekf/state.hpp"
@@ -8,22 +12,24 @@
 namespace cairn {
 namespace {
 
-// error^T covariance^-1 error, negative if the covariance is singular.
+// error^T covariance^-1 error, negative if the covariance is singular: if what is left of it in some direction is no more
+// than rounding. `rounded` holds the sizes of the numbers of which the variances are sums: they carry its rounding.
 template <class Pose>
-double normalised(typename Pose::Square covariance, typename Pose::Tangent error) {
-  constexpr int kDof = Pose::kDof;
-  typename Pose::Square& L = covariance;
+double normalised(const typename Pose::Square& covariance, const typename Pose::Tangent& rounded,
+                  const typename Pose::Tangent& error) {
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  using Square = typename Pose::Square;
   // The covariance is scaled to unit diagonal first: units (metres, radians) must not decide whether it is singular.
-  for (Index i = 0; i < kDof; ++i)
-    if (!(L(i, i) > 0.0)) return -1.0;
-  const typename Pose::Tangent scale = L.diagonal().cwiseSqrt().cwiseInverse();
-  L = (scale.asDiagonal() * L * scale.asDiagonal()).eval();
-  error = scale.cwiseProduct(error);
-  if (!cholesky(L.data(), kDof, kDof)) return -1.0;
-  for (Index i = 0; i < kDof; ++i)
-    if (L(i, i) < 1e-7) return -1.0;  // pivots that are only rounding error
-  solve_lower(L.data(), kDof, kDof, error.data());
-  return error.squaredNorm();
+  const typename Pose::Tangent variances = covariance.diagonal();
+  if (!(variances.array() > 0.0).all()) return -1.0;
+  const typename Pose::Tangent scale = variances.cwiseSqrt().cwiseInverse();
+  // Rounding moves no eigenvalue by more than its own norm, however many directions are singular (Weyl). Pivots of a
+  // Cholesky factor have no such bound: a small one makes the rounding of the next larger.
+  const Eigen::SelfAdjointEigenSolver<Square> eigen((scale.asDiagonal() * covariance * scale.asDiagonal()).eval());
+  const double own = std::max(1.0, rounded.cwiseQuotient(variances).maxCoeff());
+  if (!(eigen.eigenvalues()(0) > rounding * own)) return -1.0;
+  const typename Pose::Tangent along = eigen.eigenvectors().transpose() * scale.cwiseProduct(error);
+  return along.cwiseAbs2().cwiseQuotient(eigen.eigenvalues()).sum();
 }
 
 }  // namespace
@@ -227,7 +233,8 @@ typename State<Pose>::PointSquare State<Pose>::relative_covariance(Index slot) c
 template <class Pose>
 double State<Pose>::pose_nees(const Pose& truth) const {
   const Pose local_truth(truth.rotation(), truth.translation() - origin_);
-  return normalised<Pose>(pose_block(), model_.error(local_truth, pose_));
+  const Square covariance = pose_block();
+  return normalised<Pose>(covariance, covariance.diagonal(), model_.error(local_truth, pose_));
 }
 
 template <class Pose>
@@ -236,7 +243,11 @@ double State<Pose>::nees(ErrorKind error, const Point& origin, const Pose& truth
   const Pose from_origin(truth.rotation(), truth.translation() - origin);
   const Pose pose(estimate.rotation(), estimate.translation() - origin);
   const ErrorModel<Pose> model(error);
-  return normalised<Pose>(model.own(ordinary_covariance, pose.translation()), model.error(from_origin, pose));
+  // The ordinary covariance is a sum with the turn of the arm, and its own covariance a difference with it.
+  Tangent rounded = ordinary_covariance.diagonal();
+  rounded.template head<kDim>().array() +=
+      pose.translation().squaredNorm() * ordinary_covariance.diagonal().template tail<kTurn>().sum();
+  return normalised<Pose>(model.own(ordinary_covariance, pose.translation()), rounded, model.error(from_origin, pose));
 }
 
 template <class Pose>

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "core/error.hpp"
@@ -169,6 +170,45 @@ TEST_CASE("state: NEES of the pose in the filter's own coordinates") {
     singular(4, 4) = 0;
     bare.state.start(start, singular);
     CHECK(bare.state.pose_nees(truth) < 0);
+  }
+}
+
+// Rounding decides nothing: a covariance of low rank is singular wherever the vehicle stands, whatever its units.
+template <class Pose>
+void check_nees_of_low_rank(ErrorKind error) {
+  constexpr int dof = Pose::kDof;
+  std::mt19937_64 engine(7);
+  std::normal_distribution<double> normal;
+  const auto random = [&](int columns) {
+    Eigen::Matrix<double, dof, Eigen::Dynamic> m(dof, columns);
+    for (Index i = 0; i < m.size(); ++i) m(i) = normal(engine);
+    for (int i = 0; i < dof; ++i) m.row(i) *= std::pow(10.0, normal(engine));
+    return m;
+  };
+  int accepted = 0;
+  for (int n = 0; n < 2000; ++n) {
+    typename Pose::Tangent at = random(1);
+    at.template head<Pose::kDim>() *= std::pow(10.0, n % 5);
+    const Pose estimate = Pose::exp(at);
+    const Pose truth = Pose::exp(1e-3 * random(1)) * estimate;
+    const typename Pose::Point origin = Pose::Point::Zero();
+    const auto J = random(1 + n % (dof - 1));  // of rank 1 to dof - 1
+    accepted += State<Pose>::nees(error, origin, truth, estimate, J * J.transpose()) >= 0;
+    const auto full = random(2 * dof);
+    const typename Pose::Square P = full * full.transpose();
+    const ErrorModel<Pose> model(error);
+    const auto xi = model.error(truth, estimate);
+    const auto own = model.own(P, estimate.translation());
+    CHECK(State<Pose>::nees(error, origin, truth, estimate, P) ==
+          doctest::Approx(xi.dot(own.ldlt().solve(xi))).epsilon(1e-3));
+  }
+  CHECK(accepted == 0);
+}
+
+TEST_CASE("state: NEES of a covariance of low rank") {
+  for (ErrorKind error : kBoth) {
+    check_nees_of_low_rank<SE2>(error);
+    check_nees_of_low_rank<SE3>(error);
   }
 }
 
