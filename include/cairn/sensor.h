@@ -198,7 +198,9 @@ enum {
                                     large beside its noise, or the sensor never places landmarks */
   CAIRN_REASON_AMBIGUOUS = 5,  /**< unknown ids: it passed its own gate, but the best set of pairs does not contain
                                     it */
-  CAIRN_REASON_NO_ROOM = 6     /**< the observation could place a landmark, but the map is full */
+  CAIRN_REASON_NO_ROOM = 6,    /**< the observation could place a landmark, but the map is full */
+  CAIRN_REASON_CONTRADICTED = 7 /**< the observation could place a landmark, but most of what is seen contradicts the
+                                     pose: nothing is placed until it is decided what is wrong. \since 0.2.0 */
 };
 
 /** Match of one observation: what it was paired with, and whether it was used. Layout frozen. */

@@ -48,6 +48,7 @@ static void enumerations_are_pinned(void** state) {
   assert_int_equal(CAIRN_REJECTED, 3);
   assert_int_equal(CAIRN_REASON_NO_PLACE, 4);
   assert_int_equal(CAIRN_REASON_NO_ROOM, 6);
+  assert_int_equal(CAIRN_REASON_CONTRADICTED, 7);
   assert_int_equal(sizeof(cairn_landmark), 16 + 12 * 8);
   assert_int_equal(sizeof(cairn_observation), 8 + 12 * 8);
   assert_int_equal(sizeof(cairn_match), 32);

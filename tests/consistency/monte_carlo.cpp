@@ -61,9 +61,14 @@ Options read(int argc, char** argv) {
       o.check = true;
     } else if (std::strcmp(argv[i], "--gated") == 0) {
       o.setup.gated = true;
+    } else if (std::strcmp(argv[i], "--huber") == 0 || std::strcmp(argv[i], "--cauchy") == 0) {
+      o.setup.loss = argv[i][2] == 'h' ? CAIRN_LOSS_HUBER : CAIRN_LOSS_CAUCHY;
+      o.setup.loss_width = i + 1 < argc ? std::atof(argv[++i]) : 0.0;  // the library refuses 0
     } else if (!number("--seed", 0, seed) && !(number("--row", 1, o.row) && o.row <= 4) &&
                !number("--runs", 1, o.runs) && !number("--iterations", 1, iterations)) {
-      std::fprintf(stderr, "usage: %s [--row 1..4] [--runs N] [--seed N] [--iterations N] [--gated] [--check]\n",
+      std::fprintf(stderr,
+                   "usage: %s [--row 1..4] [--runs N] [--seed N] [--iterations N] [--gated] [--huber K] [--cauchy C] "
+                   "[--check]\n",
                    argv[0]);
       std::exit(2);
     }

@@ -38,6 +38,7 @@ void Tracker::start(const Noise& noise, const cairn_pose& pose, const Setup& set
   head.range_sigma = noise.range;
   head.azimuth_sigma = head.elevation_sigma = noise.bearing;
   CHECK(cairn_filter_add_stereo_head(filter_, &head, &sensor_));
+  CHECK(cairn_filter_set_loss(filter_, sensor_, setup.loss, setup.loss_width));
   submaps_ = 0;
 }
 

@@ -40,6 +40,8 @@ struct Kind {
 struct Setup {
   uint32_t iterations = 0;  // 0: the default of the library
   bool gated = false;       // the gates of the library instead of open gates
+  int32_t loss = CAIRN_LOSS_NONE;
+  double loss_width = 1.0;
 };
 
 class Tracker {

@@ -37,6 +37,9 @@ void write_match(const Match& match, cairn_match* out) {
     case Reason::no_room:
       out->reason = CAIRN_REASON_NO_ROOM;
       break;
+    case Reason::contradicted:
+      out->reason = CAIRN_REASON_CONTRADICTED;
+      break;
   }
   out->distance = match.distance;
   out->threshold = match.threshold;

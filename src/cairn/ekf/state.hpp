@@ -66,8 +66,18 @@ class State {
   bool propagate(const Increment<Pose>& increment, const MotionCoupling<Pose>* coupling = nullptr);
   // Adds an independent error of the pose, with this covariance of the ordinary error, to the motion that is held back.
   bool widen(const Square& ordinary_covariance);
-  typename PendingMotion<Pose>::Snapshot pending() const { return motion_.snapshot(); }
-  void restore_pending(const typename PendingMotion<Pose>::Snapshot& pending) { motion_.restore(pending); }
+  // Moves the vehicle by this ordinary error. The covariance of the state's own errors stays.
+  void shift(const Tangent& ordinary_error) { pose_ = retract(pose_, ordinary_error); }
+  // What widen() and shift() change.
+  struct Held {
+    Pose pose;
+    typename PendingMotion<Pose>::Snapshot motion;
+  };
+  Held held() const { return {pose_, motion_.snapshot()}; }
+  void restore(const Held& held) {
+    pose_ = held.pose;
+    motion_.restore(held.motion);
+  }
 
   // --- update --- of the pose, of a mount if `mount_noise` is given, and of the chosen points; O(states window).
   struct Window {

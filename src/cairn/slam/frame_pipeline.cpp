@@ -15,6 +15,7 @@ FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& opti
       sorted_(arena, options.max_observations),
       sorter_(arena, options, map, report),
       associator_(arena, options, map, thresholds, report, log),
+      slip_(arena, options, map, thresholds, trust),
       updater_(arena, options, map, thresholds, trust, report, log),
       placer_(arena, options, map, report, log),
       health_feed_(arena, options, map, report, health),
@@ -24,14 +25,19 @@ template <class Pose>
 void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
   PendingRestore<Pose> restore(map_.state());
   std::optional<EkfUpdate<Pose>> update;
-  typename Pose::Square widening = Pose::Square::Zero();
+  Widening<Pose> widening;
   trust_.begin(map_.starts());
   attempt(frame, update, false);
   if (updater_.contradicted(*update, frame, sorted_, widening)) {
     widen(map_.state(), widening);
     attempt(frame, update, true);
-    report_.widened<Pose>(widening);
+    report_.widened<Pose>(widening.covariance);
   }
+  if (trust_.undecided())
+    sorted_.keep_new([&](Index observation) {
+      report_.match(observation).reason = Reason::contradicted;
+      return false;
+    });
   updater_.finish(*update, frame, sorted_);
   if (frame.sensor.may_abort()) {
     placer_.prepare(*update, frame, sorted_);
@@ -42,6 +48,7 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
   trust_.commit();
   placer_.place(*update, frame, sorted_);
   report_.finish();
+  slip_.commit(frame, report_);
   health_feed_.after(frame);
   review_.run(frame);
 }
@@ -50,18 +57,20 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
 template <class Pose>
 void FramePipeline<Pose>::attempt(const Frame<Pose>& frame, std::optional<EkfUpdate<Pose>>& update, bool again) {
   report_.start(frame.count());
-  sort(frame);
+  sort(frame, again);
   if (!again) health_feed_.before(frame, sorted_);
   updater_.begin(update, frame, sorted_);
 }
 
 template <class Pose>
-void FramePipeline<Pose>::sort(const Frame<Pose>& frame) {
+void FramePipeline<Pose>::sort(const Frame<Pose>& frame, bool again) {
   sorted_.clear();
-  if (options_.association == AssociationKind::known)
+  if (options_.association == AssociationKind::known) {
     sorter_.sort_landmarks(frame, sorted_);
-  else
+  } else if (!again || !slip_.repeat(frame, sorted_, report_)) {
     associator_.sort_landmarks(frame, sorted_);
+    if (!again) slip_.find(frame, sorted_, report_);
+  }
   sorter_.sort_companions(frame, sorted_);
 }
 

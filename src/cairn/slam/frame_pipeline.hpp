@@ -10,6 +10,7 @@
 #include "slam/frame_update.hpp"
 #include "slam/health_feed.hpp"
 #include "slam/landmark_review.hpp"
+#include "slam/slip_pairs.hpp"
 
 namespace cairn {
 
@@ -25,7 +26,7 @@ class FramePipeline {
 
  private:
   void attempt(const Frame<Pose>& frame, std::optional<EkfUpdate<Pose>>& update, bool again);
-  void sort(const Frame<Pose>& frame);
+  void sort(const Frame<Pose>& frame, bool again);
 
   const FilterOptions<Pose>& options_;
   LocalMap<Pose>& map_;
@@ -34,6 +35,7 @@ class FramePipeline {
   SortedFrame<Pose> sorted_;
   FrameSorter<Pose> sorter_;
   FrameAssociator<Pose> associator_;
+  SlipPairs<Pose> slip_;
   FrameUpdate<Pose> updater_;
   FramePlacer<Pose> placer_;
   HealthFeed<Pose> health_feed_;

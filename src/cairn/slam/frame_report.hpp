@@ -12,7 +12,7 @@
 namespace cairn {
 
 enum class Decision { matched, placed, rejected };
-enum class Reason { none, gate, batch_gate, no_image, no_place, ambiguous, no_room };
+enum class Reason { none, gate, batch_gate, no_image, no_place, ambiguous, no_room, contradicted };
 
 // The landmark that an observation was paired with, and whether the observation was used.
 struct Match {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ekf/update_gates.hpp"
+#include "slam/placed_point.hpp"
 
 namespace cairn {
 
@@ -20,6 +21,7 @@ FrameUpdate<Pose>::FrameUpdate(Arena& arena, const FilterOptions<Pose>& options,
       log_(log),
       window_(arena.take<Index>(static_cast<std::size_t>(options.max_observations))),
       by_pose_(arena.take<double>(static_cast<std::size_t>(Pose::kDof * kMostRows * options.max_observations))),
+      heard_(arena.take<Heard>(static_cast<std::size_t>(options.max_observations))),
       noise_factors_(arena.take<double>(static_cast<std::size_t>(options.max_observations))) {}
 
 template <class Pose>
@@ -103,10 +105,22 @@ void FrameUpdate<Pose>::hear(const EkfUpdate<Pose>& update, const Frame<Pose>& f
   if (!frame.sensor.bears_witness()) return;
   for (Index a = 0; a < sorted.candidates(); ++a) {
     const Candidate<Pose>& candidate = sorted.candidate(a);
-    if (trust_.is_witness(candidate.slot))
-      trust_.hear(rows, map_.table().id(candidate.slot), pose, update.batch().residual() + a * rows,
-                  candidate.prediction.J_z_pose, update.covariance(a * rows), update.batch().rows());
+    if (!trust_.is_witness(candidate.slot)) continue;
+    heard_[trust_.heard()] = {candidate.observation, candidate.slot};
+    trust_.hear(rows, map_.table().id(candidate.slot), pose, update.batch().residual() + a * rows,
+                candidate.prediction.J_z_pose, update.covariance(a * rows), update.batch().rows());
   }
+}
+
+// The witnesses as placed points.
+template <class Pose>
+void FrameUpdate<Pose>::place_witnesses(const Frame<Pose>& frame) {
+  const State<Pose>& state = map_.state();
+  PlacedPoint<Pose> placed;
+  for (Index w = 0; w < trust_.heard(); ++w)
+    if (placed.place(frame, heard_[w].observation, state.pose(), options_.error_persistence))
+      trust_.place(w, state.landmark(heard_[w].slot) - state.pose().translation() - placed.arm, placed.arm,
+                   state.relative_covariance(heard_[w].slot) + placed.noise);
 }
 
 // The batch as the gates see it: block number a is candidate number a.
@@ -168,7 +182,7 @@ void FrameUpdate<Pose>::gate(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
 
 template <class Pose>
 bool FrameUpdate<Pose>::contradicted(const EkfUpdate<Pose>& update, const Frame<Pose>& frame,
-                                     const SortedFrame<Pose>& sorted, typename Pose::Square& widening) {
+                                     const SortedFrame<Pose>& sorted, Widening<Pose>& widening) {
   if (trust_.heard() == 0) return false;
   const Index rows = frame.sensor.rows(), m = update.batch().rows();
   Index accepted = 0;  // witnesses
@@ -179,6 +193,7 @@ bool FrameUpdate<Pose>::contradicted(const EkfUpdate<Pose>& update, const Frame<
       for (Index r = 0; r < rows; ++r)
         by_pose_[c * m + a * rows + r] = witness ? sorted.candidate(a).prediction.J_z_pose(r, c) : 0.0;
   }
+  if (trust_.contradicts(accepted)) place_witnesses(frame);
   for (int c = 0; c < Pose::kDof && accepted > 0; ++c) update.whiten(by_pose_ + c * m);
   return trust_.contradicted(accepted, by_pose_, update.innovation(), accepted > 0 ? m : 0, widening);
 }

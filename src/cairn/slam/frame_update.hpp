@@ -22,9 +22,9 @@ class FrameUpdate {
   // Opens an update whose window holds the candidates, linearises and gates it. The candidates that the gates accept
   // are left in `sorted`.
   void begin(std::optional<EkfUpdate<Pose>>& update, const Frame<Pose>& frame, SortedFrame<Pose>& sorted);
-  // Whether the motion has to be widened before the frame is used; then by which covariance of [dp; dtheta].
+  // Whether the motion has to be widened before the frame is used, and how.
   bool contradicted(const EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted,
-                    typename Pose::Square& widening);
+                    Widening<Pose>& widening);
   // Weighs and iterates.
   void finish(EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted);
   void commit(EkfUpdate<Pose>& update, const SortedFrame<Pose>& sorted);
@@ -35,6 +35,7 @@ class FrameUpdate {
   bool fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted, double* residual_only);
   Matrix3 noise(const Frame<Pose>& frame, const Candidate<Pose>& candidate, const Prediction<Pose>& prediction) const;
   void hear(const EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted);
+  void place_witnesses(const Frame<Pose>& frame);
   void gate(EkfUpdate<Pose>& update, const Frame<Pose>& frame, SortedFrame<Pose>& sorted);
   void weigh(EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted);
 
@@ -47,6 +48,10 @@ class FrameUpdate {
   Index* window_;  // slots
   MountSquare<Pose> mount_;
   double* by_pose_;        // Jacobian of the accepted rows by the pose, kDof columns
+  struct Heard {
+    Index observation, slot;
+  };
+  Heard* heard_;           // by witness
   double* noise_factors_;  // of a robust loss, by candidate
   bool settled_ = true;    // the last linearisation changed none of them much
 };

@@ -28,7 +28,9 @@ MotionTrust<Pose>::MotionTrust(Arena& arena, const FilterOptions<Pose>& options,
       log_(log),
       records_(arena.take<Record>(static_cast<std::size_t>(options.max_companions + 1))),
       kept_(arena.take<Witness<Pose>>(static_cast<std::size_t>(kKept * (options.max_companions + 1)))),
-      witnesses_(arena.take<Witness<Pose>>(static_cast<std::size_t>(options.max_observations + kKept))) {}
+      kept_placed_(arena.take<Witness<Pose>>(static_cast<std::size_t>(kKept * (options.max_companions + 1)))),
+      witnesses_(arena.take<Witness<Pose>>(static_cast<std::size_t>(options.max_observations + kKept))),
+      placed_(arena.take<Witness<Pose>>(static_cast<std::size_t>(options.max_observations + kKept))) {}
 
 template <class Pose>
 typename MotionTrust<Pose>::Record& MotionTrust<Pose>::record() {
@@ -45,6 +47,7 @@ template <class Pose>
 void MotionTrust<Pose>::begin(std::uint64_t map_frame) {
   heard_ = 0;
   own_ = nullptr;
+  undecided_ = false;
   ++frame_;
   if (map_frame == map_frame_) return;
   map_frame_ = map_frame;
@@ -52,7 +55,7 @@ void MotionTrust<Pose>::begin(std::uint64_t map_frame) {
 }
 
 template <class Pose>
-void MotionTrust<Pose>::hear(int rows, std::uint64_t source, const Pose& pose, const double* residual,
+bool MotionTrust<Pose>::hear(int rows, std::uint64_t source, const Pose& pose, const double* residual,
                              const ByPose& J_pose, const double* S, Index ld) {
   pose_ = pose;
   Witness<Pose>& witness = witnesses_[heard_];
@@ -60,28 +63,43 @@ void MotionTrust<Pose>::hear(int rows, std::uint64_t source, const Pose& pose, c
   witness.frame = frame_;
   witness.source = source;
   witness.position = pose.translation();
-  if (witness.whiten(residual, J_pose, S, ld)) ++heard_;
+  witness.placed = placed_[heard_].placed = false;
+  if (!witness.whiten(residual, J_pose, S, ld)) return false;
+  ++heard_;
+  return true;
 }
 
 template <class Pose>
-bool MotionTrust<Pose>::contradicted(Index accepted, const double* J, const double* r, Index rows, Square& widening) {
-  widening.setZero();
+void MotionTrust<Pose>::place(Index heard, const Point& difference, const Point& arm, const PointSquare& covariance) {
+  Witness<Pose> witness = witnesses_[heard];
+  if (witness.place(difference, arm, covariance)) placed_[heard] = witness;
+}
+
+template <class Pose>
+bool MotionTrust<Pose>::contradicted(Index accepted, const double* J, const double* r, Index rows,
+                                     Widening<Pose>& widening) {
+  widening = {};
   if (heard_ == 0) return false;
   own_ = &record();
   next_ = *own_;
   keeping_ = false;
-  if (2 * accepted >= heard_) {  // agreement
+  if (!contradicts(accepted)) {  // agreement
     const auto refuted = [&] {
       // A witness that agrees with the contradicting ones as well supports nothing: a heading says nothing of a slip.
-      const MotionVote<Pose> other = vote_motion(move_kept(), next_.kept, bounds());
+      const MotionVote<Pose> other = vote_motion(move_kept(kept(), witnesses_), next_.kept, bounds());
       return witnesses_[0].distance(other.motion) > bound(witnesses_[0].rows);
     };
     if (heard_ > 1 || next_.kept == 0 || refuted()) forget(next_);
-    return next_.evidence.weigh(ForgottenSums::shared(), J, r, rows, Pose::turn_axes(pose_.rotation()), widening);
+    return next_.evidence.weigh(ForgottenSums::shared(), J, r, rows, Pose::turn_axes(pose_.rotation()),
+                                widening.covariance);
   }
   next_.judged += heard_;
   next_.refused += heard_ - accepted;
-  keeping_ = !vote(widening);
+  for (Index a = 0; a < heard_; ++a)
+    if (!placed_[a].placed) placed_[a] = witnesses_[a];
+  // Linear first: placed points are exact in the motion, but less so in their noise.
+  keeping_ = !unlikely() || !(vote(witnesses_, kept(), widening) || vote(placed_, kept_placed(), widening));
+  undecided_ = keeping_ && unlikely() && next_.kept + kKeptOfFrame <= kKept;
   return !keeping_;
 }
 
@@ -99,18 +117,22 @@ void MotionTrust<Pose>::keep() {
   const Index step = (heard_ + kKeptOfFrame - 1) / kKeptOfFrame, more = (heard_ + step - 1) / step;
   const Index drop = std::max<Index>(0, own.kept + more - kKept);  // the oldest
   std::move(kept() + drop, kept() + own.kept, kept());
+  std::move(kept_placed() + drop, kept_placed() + own.kept, kept_placed());
   own.kept -= drop;
-  for (Index a = 0; a < heard_; a += step) kept()[own.kept++] = witnesses_[a];
+  for (Index a = 0; a < heard_; a += step) {
+    kept()[own.kept] = witnesses_[a];
+    kept_placed()[own.kept++] = placed_[a];
+  }
 }
 
 // Copies the kept witnesses behind those of the frame, as witnesses of the pose where it is now.
 template <class Pose>
-Witness<Pose>* MotionTrust<Pose>::move_kept() {
+Witness<Pose>* MotionTrust<Pose>::move_kept(const Witness<Pose>* kept, Witness<Pose>* witnesses) const {
   for (Index k = 0; k < next_.kept; ++k) {
-    witnesses_[heard_ + k] = kept()[k];
-    witnesses_[heard_ + k].move_to(pose_.translation());
+    witnesses[heard_ + k] = kept[k];
+    witnesses[heard_ + k].move_to(pose_.translation());
   }
-  return witnesses_ + heard_;
+  return witnesses + heard_;
 }
 
 template <class Pose>
@@ -120,18 +142,23 @@ BoundsByRows MotionTrust<Pose>::bounds() const {
   return bounds;
 }
 
+// (F1): whether so many refusals are unlikely if the estimate is right.
 template <class Pose>
-bool MotionTrust<Pose>::vote(Square& widening) {
-  Record& own = next_;
-  constexpr double kChance = 1e-5;  // of so many refusals if the estimate is right
+bool MotionTrust<Pose>::unlikely() const {
+  constexpr double kChance = 1e-5;
   const double refusal = 1.0 - options_.gate_probability;
-  if (!(refusal > 0.0) || log_chance(own.judged, own.refused, refusal) > std::log(kChance)) return false;
-  const Index count = heard_ + own.kept;
-  move_kept();
-  const MotionVote<Pose> best = vote_motion(witnesses_, count, bounds());
-  if (!enough(witnesses_, count, best)) return false;
-  widening = best.motion * best.motion.transpose();  // (F2): this motion is one standard deviation
-  forget(own);
+  return refusal > 0.0 && log_chance(next_.judged, next_.refused, refusal) <= std::log(kChance);
+}
+
+template <class Pose>
+bool MotionTrust<Pose>::vote(Witness<Pose>* witnesses, const Witness<Pose>* kept, Widening<Pose>& widening) {
+  const Index count = heard_ + next_.kept;
+  move_kept(kept, witnesses);
+  const MotionVote<Pose> best = vote_motion(witnesses, count, bounds());
+  if (!enough(witnesses, count, best)) return false;
+  widening.motion = best.motion;
+  widening.covariance = best.motion * best.motion.transpose();  // (F2): this motion is one standard deviation
+  forget(next_);
   log_.say("update: %td of %td observations contradict the pose and agree on another one, %g m away", best.agreeing,
            count, best.motion.template head<Pose::kDim>().norm());
   return true;

@@ -18,10 +18,49 @@ bool Witness<Pose>::whiten(const double* residual, const ByPose& J_pose, const d
 }
 
 template <class Pose>
+bool Witness<Pose>::place(const typename Pose::Point& difference, const typename Pose::Point& from_vehicle,
+                          const Eigen::Matrix<double, Pose::kDim, Pose::kDim>& covariance) {
+  rows = Pose::kDim;
+  placed = true;
+  arm = from_vehicle;
+  ByPose J_pose = ByPose::Zero();
+  J_pose.template topLeftCorner<Pose::kDim, Pose::kDim>().setIdentity();
+  J_pose.template topRightCorner<Pose::kDim, Pose::kTurn>() = Pose::Rotation::turn(arm);
+  return whiten(difference.data(), J_pose, covariance.data(), Pose::kDim);
+}
+
+template <class Pose>
 void Witness<Pose>::move_to(const typename Pose::Point& where) {
   // A turn about `where` moves a point at `position` by turn(position - where) dtheta.
   J.template rightCols<Pose::kTurn>() += J.template leftCols<Pose::kDim>() * Pose::Rotation::turn(position - where);
+  if (placed) arm += position - where;
   position = where;
+}
+
+template <class Pose>
+typename Witness<Pose>::Rows Witness<Pose>::residual(const typename Pose::Tangent& motion) const {
+  if (!placed) return r - J * motion;
+  const typename Pose::Point moved =
+      motion.template head<Pose::kDim>() + Pose::Rotation::exp(motion.template tail<Pose::kTurn>()) * arm - arm;
+  return r - J.template leftCols<Pose::kDim>() * moved;
+}
+
+template <class Pose>
+typename Witness<Pose>::ByPose Witness<Pose>::jacobian(const typename Pose::Tangent& motion) const {
+  ByPose at = J;
+  if (placed)
+    at.template rightCols<Pose::kTurn>() =
+        J.template leftCols<Pose::kDim>() *
+        Pose::Rotation::turn(Pose::Rotation::exp(motion.template tail<Pose::kTurn>()) * arm);
+  return at;
+}
+
+template <class Pose>
+typename Pose::Tangent weak_prior(const Witness<Pose>* witnesses, Index count) {
+  constexpr double kWeak = 1e-6;
+  typename Pose::Tangent prior = Pose::Tangent::Zero();
+  for (Index a = 0; a < count; ++a) prior += witnesses[a].J.colwise().squaredNorm().transpose();
+  return (kWeak / static_cast<double>(count) * prior).cwiseMax(1e-300);
 }
 
 namespace {
@@ -31,28 +70,13 @@ class Ballot {
  public:
   static constexpr int kDof = Pose::kDof;
   using Tangent = typename Pose::Tangent;
-  using Square = typename Pose::Square;
 
   Ballot(const Witness<Pose>* witnesses, Index count, const BoundsByRows& bounds)
-      : witnesses_(witnesses), count_(count), bounds_(bounds) {
-    // A direction that the chosen witnesses do not see gets no motion: a weak prior, scaled by what all of them know.
-    constexpr double kWeak = 1e-6;
-    prior_.setZero();
-    for (Index a = 0; a < count; ++a) prior_ += witnesses[a].J.colwise().squaredNorm().transpose();
-    prior_ = (kWeak / static_cast<double>(count) * prior_).cwiseMax(1e-300).eval();
-  }
+      : witnesses_(witnesses), count_(count), bounds_(bounds), prior_(weak_prior(witnesses, count)) {}
 
-  // The least-squares motion of the witnesses that `chosen` accepts.
   template <class Chosen>
   Tangent motion(Chosen&& chosen) const {
-    Square A = prior_.asDiagonal();
-    Tangent b = Tangent::Zero();
-    for (Index a = 0; a < count_; ++a) {
-      if (!chosen(a)) continue;
-      A += witnesses_[a].J.transpose() * witnesses_[a].J;
-      b += witnesses_[a].J.transpose() * witnesses_[a].r;
-    }
-    return A.ldlt().solve(b);
+    return fit_motion(witnesses_, count_, prior_, chosen);
   }
   bool agrees(Index a, const Tangent& motion) const {
     return witnesses_[a].distance(motion) <= bounds_[static_cast<std::size_t>(witnesses_[a].rows)];
@@ -96,6 +120,8 @@ MotionVote<Pose> vote_motion(const Witness<Pose>* witnesses, Index count, const 
 
 template struct Witness<SE2>;
 template struct Witness<SE3>;
+template SE2::Tangent weak_prior(const Witness<SE2>*, Index);
+template SE3::Tangent weak_prior(const Witness<SE3>*, Index);
 template MotionVote<SE2> vote_motion(const Witness<SE2>*, Index, const BoundsByRows&);
 template MotionVote<SE3> vote_motion(const Witness<SE3>*, Index, const BoundsByRows&);
 

@@ -70,7 +70,7 @@ void WholeBatchUpdate<Pose>::finish_report(Index rows) {
 // Whether the motion has to be widened because of this fix, of a vehicle at `pose`.
 template <class Pose>
 bool WholeBatchUpdate<Pose>::contradicted(MotionTrust<Pose>& trust, const AbsoluteFix<Pose>& fix, const Pose& pose,
-                                          const Square& covariance, bool accepted, Square& widening) {
+                                          const Square& covariance, bool accepted, Widening<Pose>& widening) {
   const Index rows = fix.rows();
   const Vector3 residual = fix.residual(pose);
   typename Witness<Pose>::ByPose J = fix.jacobian(pose);
@@ -106,10 +106,10 @@ void WholeBatchUpdate<Pose>::fix_single(const AbsoluteFix<Pose>& fix) {
     test(*update, fix.rows(), kNoId, fill);
   };
   attempt();
-  Square widening;
+  Widening<Pose> widening;
   if (contradicted(trust_, fix, state.pose(), state.pose_covariance(), accepted(), widening)) {
-    widen(state, widening);
-    report_.widened<Pose>(widening);
+    widen(state, widening.covariance);
+    report_.widened<Pose>(widening.covariance);
     attempt();
   }
   finish(*update, options_.iterations, fill);
@@ -127,7 +127,7 @@ FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
   const JoinReport& join = submaps_.closing().join;
   const bool supported = join.fused > 0 && join.fused > join.refused;  // by the landmarks of the closing
   if (supported) trust_in_map_.agree();
-  Square widening;
+  Widening<Pose> widening;
   const bool wider =
       contradicted(trust_in_map_, fix, submaps_.pose(), submaps_.pose_covariance(), first.accepted, widening);
   if (!wider || first.accepted) {  // an accepted fix has been used: a second time would count it twice
@@ -137,11 +137,11 @@ FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
   const Square turn = Pose::turn_axes(submaps_.map()->base().rotation().inverse());  // to the axes of the submap
   PendingRestore<Pose> restore(map_.state());
   try {
-    widen(map_.state(), Square(turn * widening * turn.transpose()));
+    widen(map_.state(), Square(turn * widening.covariance * turn.transpose()));
     const FixReport second = submaps_.fix(fix, threshold);
     restore.release();
     trust_in_map_.commit();
-    report_.widened<Pose>(widening);
+    report_.widened<Pose>(widening.covariance);
     return second;
   } catch (const std::exception&) {  // the submap has closed already: the fix stays refused
     return first;

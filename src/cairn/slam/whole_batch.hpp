@@ -41,7 +41,7 @@ class WholeBatchUpdate {
   void finish_report(Index rows);
   FixReport try_fix(const AbsoluteFix<Pose>& fix);
   bool contradicted(MotionTrust<Pose>& trust, const AbsoluteFix<Pose>& fix, const Pose& pose, const Square& covariance,
-                    bool accepted, Square& widening);
+                    bool accepted, Widening<Pose>& widening);
   void find_window(const LinearRows& rows);
   bool matched() const { return report_.matches()[0].decision == Decision::matched; }
 

@@ -56,6 +56,8 @@ const char* reason_name(std::int32_t reason) {
       return "ambiguous";
     case CAIRN_REASON_NO_ROOM:
       return "no_room";
+    case CAIRN_REASON_CONTRADICTED:
+      return "contradicted";
     default:
       return "unknown";
   }
