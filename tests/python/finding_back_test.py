@@ -73,6 +73,24 @@ class SlipTest(unittest.TestCase):
                         self.lost_and_found(drive, turn=turn)
                         self.assertAlmostEqual(max(drive.widened), 1.0, delta=0.4)
 
+    def test_after_a_turn_that_bends_the_residuals(self):
+        for size in (PLANAR, SPATIAL):
+            drive = Among(2 * size)
+            self.lost_and_found(drive, turn=0.4)
+
+    def test_nothing_is_placed_while_the_frame_contradicts(self):
+        drive = Among(np.vstack([PLANAR, [[-2, 2]]]))
+        for k in range(60):
+            drive.move(1.0 if k == 30 else 0.0)
+            matches = drive.see() if k >= 30 else drive.see(range(6))
+            if k == 30:
+                self.assertEqual(matches["result"][6], cairn.REJECTED)
+                self.assertEqual(matches["reason"][6], 7)
+                self.assertEqual(len(drive.vehicle.map), 6)
+        self.assertEqual(len(drive.vehicle.map), 7)
+        self.assertLess(sum(drive.refused[31:]), 10)
+        self.assertLess(np.linalg.norm(drive.vehicle.map.landmark(6)["position"][:2] - [-2, 2]), 0.1)
+
     def test_the_report_says_when_and_how_far(self):
         drive = Among()
         for _ in range(60):
@@ -150,6 +168,87 @@ class SlipTest(unittest.TestCase):
                 self.assertLess(drive.error().max(), 0.1)
                 closing = drive.vehicle.last_closing()
                 self.assertEqual(closing["landmarks_refused"], 0)
+
+
+class Scattered:
+    """A vehicle that stands still among landmarks without ids; its sensor sees a sector."""
+
+    def __init__(self, landmarks, association, reach=8.0, sector=4.0, seed=1, kind="range_bearing"):
+        self.landmarks, self.reach, self.sector, self.random = np.asarray(landmarks), reach, sector, support.random(seed)
+        self.vehicle = cairn.Filter(vehicle="planar", association=association)
+        self.sensor = (self.vehicle.add_range_bearing(range_sigma=0.05, bearing_sigma=0.01)
+                       if kind == "range_bearing" else self.vehicle.add_cartesian(sigma=[0.05] * 3))
+        self.cartesian = kind != "range_bearing"
+        self.motion = np.diag([1e-4, 1e-4, 0, 0, 0, 1e-6])
+        self.place, self.yaw, self.refused, self.widened, self.placed = np.zeros(2), 0.0, [], [], []
+
+    def step(self, slip=(0.0, 0.0), turn=0.0, told=0.0):
+        self.place = self.place + self.random.normal(0, 0.01, 2) + np.asarray(slip)
+        self.yaw += turn + self.random.normal(0, 0.001)
+        self.vehicle.predict_increment(((0, 0, 0), (np.cos(told / 2), 0, 0, np.sin(told / 2))), self.motion)
+        c, s = np.cos(self.yaw), np.sin(self.yaw)
+        body = (self.landmarks - self.place) @ np.array([[c, -s], [s, c]])
+        polar = np.column_stack([np.hypot(*body.T), np.arctan2(body[:, 1], body[:, 0])])
+        seen = self.random.permutation(np.flatnonzero((polar[:, 0] < self.reach) & (np.abs(polar[:, 1]) < self.sector)))
+        z = body[seen] + self.random.normal(0, 0.05, (len(seen), 2)) if self.cartesian \
+            else polar[seen] + self.random.normal(0, 1, (len(seen), 2)) * [0.05, 0.01]
+        matches = self.vehicle.update(self.sensor, np.zeros(len(seen), int), z)
+        report = self.vehicle.last_update()
+        self.refused.append(report["rejected"])
+        self.placed.append(report["placed"])
+        self.widened.append(report["widened_position"])
+        return matches
+
+    def error(self):
+        return np.linalg.norm(self.vehicle.pose()[0][:2] - self.place)
+
+
+class UnknownIdsTest(unittest.TestCase):
+    def test_a_slip_is_found_back_and_no_landmark_placed_twice(self):
+        for association in ("nearest", "joint"):
+            for kind in ("range_bearing", "cartesian"):
+                for slip, turn, sector in ((0.3, 0, 4), (1, 0, 4), (2.5, 0, 4), (1, 0.3, 4), (1, 0.2, 1)):
+                    with self.subTest(association=association, kind=kind, slip=slip, turn=turn, sector=sector):
+                        count = 40 if sector > 3 else 120
+                        drive = Scattered(support.random(5).uniform(-12, 12, (count, 2)), association, sector=sector, kind=kind)
+                        for _ in range(50):
+                            drive.step()
+                        self.assertEqual(max(drive.widened), 0.0)
+                        drive.step((slip, 0), turn)
+                        self.assertEqual(drive.placed[-1], 0)
+                        for _ in range(30):
+                            drive.step()
+                        refused = np.array(drive.refused[50:])
+                        self.assertGreaterEqual(refused[0], 3)
+                        self.assertLessEqual(np.flatnonzero(refused == 0)[0], 10)
+                        self.assertLess(drive.error(), 0.1)
+                        # Landmarks closer to each other than the noise may be placed twice without any slip.
+                        near = np.linalg.norm(drive.landmarks - drive.place, axis=1) < 12
+                        self.assertLessEqual(len(drive.vehicle.map), near.sum())
+
+    def test_new_ground_is_no_slip(self):
+        # It turns as it was told, and what it saw before is out of its sight.
+        for association in ("nearest", "joint"):
+            drive = Scattered(support.random(6).uniform(-12, 12, (120, 2)), association, sector=0.7)
+            for _ in range(30):
+                drive.step()
+            drive.step(turn=1.6, told=1.6)
+            self.assertGreater(drive.placed[-1], 3)
+            for _ in range(30):
+                drive.step()
+            self.assertEqual(max(drive.widened), 0.0)
+            self.assertLess(drive.error(), 0.2)
+
+    def test_a_world_that_repeats_itself_moves_nothing(self):
+        # After the slip one motion explains as much as the next: where the vehicle is cannot be known.
+        grid = np.stack(np.meshgrid(np.arange(-20, 21, 2.0), np.arange(-20, 21, 2.0)), -1).reshape(-1, 2)
+        drive = Scattered(grid, "joint", reach=6.0)
+        for _ in range(30):
+            drive.step()
+        drive.step((1.0, 1.0))
+        for _ in range(10):
+            drive.step()
+        self.assertEqual(max(drive.widened), 0.0)
 
 
 class DoorTest(unittest.TestCase):

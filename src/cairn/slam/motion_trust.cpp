@@ -97,8 +97,7 @@ bool MotionTrust<Pose>::contradicted(Index accepted, const double* J, const doub
   next_.refused += heard_ - accepted;
   for (Index a = 0; a < heard_; ++a)
     if (!placed_[a].placed) placed_[a] = witnesses_[a];
-  // Linear first: placed points are exact in the motion, but less so in their noise.
-  keeping_ = !unlikely() || !(vote(witnesses_, kept(), widening) || vote(placed_, kept_placed(), widening));
+  keeping_ = !(unlikely() && vote(widening));
   undecided_ = keeping_ && unlikely() && next_.kept + kKeptOfFrame <= kKept;
   return !keeping_;
 }
@@ -150,12 +149,18 @@ bool MotionTrust<Pose>::unlikely() const {
   return refusal > 0.0 && log_chance(next_.judged, next_.refused, refusal) <= std::log(kChance);
 }
 
+// Placed points are exact in the motion, but less so in their noise: both forms vote, and the one with more agreement
+// decides.
 template <class Pose>
-bool MotionTrust<Pose>::vote(Witness<Pose>* witnesses, const Witness<Pose>* kept, Widening<Pose>& widening) {
+bool MotionTrust<Pose>::vote(Widening<Pose>& widening) {
   const Index count = heard_ + next_.kept;
-  move_kept(kept, witnesses);
-  const MotionVote<Pose> best = vote_motion(witnesses, count, bounds());
-  if (!enough(witnesses, count, best)) return false;
+  move_kept(kept(), witnesses_);
+  move_kept(kept_placed(), placed_);
+  const MotionVote<Pose> linear = vote_motion(witnesses_, count, bounds());
+  const MotionVote<Pose> placed = vote_motion(placed_, count, bounds());
+  const bool is_placed = placed.agreeing > linear.agreeing;
+  const MotionVote<Pose>& best = is_placed ? placed : linear;
+  if (!enough(is_placed ? placed_ : witnesses_, count, best)) return false;
   widening.motion = best.motion;
   widening.covariance = best.motion * best.motion.transpose();  // (F2): this motion is one standard deviation
   forget(next_);

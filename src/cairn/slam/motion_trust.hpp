@@ -85,7 +85,7 @@ class MotionTrust {
   Witness<Pose>* move_kept(const Witness<Pose>* kept, Witness<Pose>* witnesses) const;
   BoundsByRows bounds() const;
   bool unlikely() const;
-  bool vote(Witness<Pose>* witnesses, const Witness<Pose>* kept, Widening<Pose>& widening);
+  bool vote(Widening<Pose>& widening);
   bool enough(const Witness<Pose>* witnesses, Index count, const MotionVote<Pose>& vote) const;
   double bound(int rows) const { return thresholds_.single(rows); }
 
