@@ -243,11 +243,14 @@ double State<Pose>::nees(ErrorKind error, const Point& origin, const Pose& truth
   const Pose from_origin(truth.rotation(), truth.translation() - origin);
   const Pose pose(estimate.rotation(), estimate.translation() - origin);
   const ErrorModel<Pose> model(error);
-  // The ordinary covariance is a sum with the turn of the arm, and its own covariance a difference with it.
+  // e = A xi, so that xi^T (A^-1 P A^-T)^-1 xi = e^T P^-1 e. P itself was a sum with the turn of the arm.
   Tangent rounded = ordinary_covariance.diagonal();
   rounded.template head<kDim>().array() +=
       pose.translation().squaredNorm() * ordinary_covariance.diagonal().template tail<kTurn>().sum();
-  return normalised<Pose>(model.own(ordinary_covariance, pose.translation()), rounded, model.error(from_origin, pose));
+  Tangent e = model.error(from_origin, pose);
+  if (model.invariant())
+    e.template head<kDim>() += ErrorModel<Pose>::arm(pose.translation()) * e.template tail<kTurn>();
+  return normalised<Pose>(ordinary_covariance, rounded, e);
 }
 
 template <class Pose>
