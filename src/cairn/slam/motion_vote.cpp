@@ -81,11 +81,12 @@ class Ballot {
   bool agrees(Index a, const Tangent& motion) const {
     return witnesses_[a].distance(motion) <= bounds_[static_cast<std::size_t>(witnesses_[a].rows)];
   }
-  void judge(const Tangent& motion) {
+  // Keeps the motion if more witnesses agree with it than with the best one, or if it is `refined` and as many do.
+  void judge(const Tangent& motion, bool refined = false) {
     if (!motion.allFinite()) return;
     Index agreeing = 0;
     for (Index a = 0; a < count_; ++a) agreeing += agrees(a, motion) ? 1 : 0;
-    if (agreeing > best_.agreeing) best_ = {motion, agreeing};
+    if (agreeing > best_.agreeing || (refined && agreeing == best_.agreeing)) best_ = {motion, agreeing};
   }
   const MotionVote<Pose>& best() const { return best_; }
 
@@ -113,7 +114,7 @@ MotionVote<Pose> vote_motion(const Witness<Pose>* witnesses, Index count, const 
       ballot.judge(ballot.motion([&](Index other) { return other == a || other == a + apart; }));
   for (int i = 0; ballot.best().agreeing > 0 && i < kRefinements; ++i) {
     const typename Pose::Tangent motion = ballot.best().motion;
-    ballot.judge(ballot.motion([&](Index a) { return ballot.agrees(a, motion); }));
+    ballot.judge(ballot.motion([&](Index a) { return ballot.agrees(a, motion); }), true);
   }
   return ballot.best();
 }

@@ -56,7 +56,8 @@ typename Pose::Tangent weak_prior(const Witness<Pose>* witnesses, Index count);
 template <class Pose, class Chosen>
 typename Pose::Tangent fit_motion(const Witness<Pose>* witnesses, Index count, const typename Pose::Tangent& prior,
                                   Chosen&& chosen) {
-  constexpr int kSteps = 4;  // Gauss and Newton; one step, if all witnesses are linear
+  constexpr int kSteps = 12;         // Gauss and Newton; one step, if all witnesses are linear
+  constexpr double kSettled = 1e-6;  // standard deviations, squared
   typename Pose::Tangent motion = Pose::Tangent::Zero();
   for (int step = 0; step < kSteps; ++step) {
     typename Pose::Square A = prior.asDiagonal();
@@ -75,6 +76,7 @@ typename Pose::Tangent fit_motion(const Witness<Pose>* witnesses, Index count, c
                                          Pose::Rotation::exp(motion.template tail<Pose::kTurn>());
     motion += change;
     motion.template tail<Pose::kTurn>() = turn.log();
+    if (change.dot(A * change) < kSettled) break;
   }
   return motion;
 }

@@ -140,3 +140,61 @@ TEST_CASE_TEMPLATE("motion vote: a witness at another position, against numerica
     CHECK(witness.position == after.translation());
   }
 }
+
+// A known point, seen from a vehicle whose pose is `motion` off; without noise.
+template <class Pose>
+Witness<Pose> placed_witness(const Pose& estimate, const typename Pose::Tangent& motion,
+                             const typename Pose::Point& point) {
+  const Pose truth = retract(estimate, motion);
+  Witness<Pose> witness = {};
+  witness.position = estimate.translation();
+  const typename Pose::Point arm = estimate.rotation() * (truth.rotation().inverse() * (point - truth.translation()));
+  const typename Pose::Point difference = point - estimate.translation() - arm;
+  const double sigma = 0.05;
+  REQUIRE(witness.place(difference, arm, sigma * sigma * Eigen::Matrix<double, Pose::kDim, Pose::kDim>::Identity()));
+  return witness;
+}
+
+TEST_CASE_TEMPLATE("motion vote: placed points are exact for motions of any size", Pose, SE2, SE3) {
+  Random random(11);
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    const Pose estimate = Pose::exp(random.normal_vector<Pose::kDof>());
+    typename Pose::Tangent motion = random.normal_vector<Pose::kDof>();
+    motion.template tail<Pose::kTurn>() *= 0.4;
+    std::vector<Witness<Pose>> placed, linear;
+    for (int a = 0; a < 12; ++a) {
+      placed.push_back(
+          placed_witness(estimate, motion, typename Pose::Point(8.0 * random.normal_vector<Pose::kDim>())));
+      linear.push_back(placed.back());
+      linear.back().placed = false;
+      CHECK(placed.back().distance(motion) < 1e-18 * 64 * 64 / (0.05 * 0.05));
+    }
+    const BoundsByRows bounds = {0, 10.8, 13.8, 16.3};
+    const MotionVote<Pose> vote = vote_motion(placed.data(), 12, bounds);
+    CHECK(vote.agreeing == 12);
+    CHECK((vote.motion - motion).norm() < 1e-4);
+    if (motion.template tail<Pose::kTurn>().norm() > 0.4) CHECK(vote_motion(linear.data(), 12, bounds).agreeing < 12);
+  }
+}
+
+TEST_CASE_TEMPLATE("motion vote: a placed point at another position, and its Jacobian", Pose, SE2, SE3) {
+  Random random(12);
+  const Pose estimate = Pose::exp(random.normal_vector<Pose::kDof>());
+  typename Pose::Tangent motion = 0.3 * random.normal_vector<Pose::kDof>();
+  Witness<Pose> witness = placed_witness(estimate, motion, typename Pose::Point(random.normal_vector<Pose::kDim>()));
+  for (int i = 0; i < Pose::kDof; ++i) {  // the Jacobian takes turns on the left
+    const double h = 1e-6;
+    typename Pose::Tangent step = Pose::Tangent::Zero();
+    step[i] = h;
+    const Pose at = retract(Pose(), motion);
+    const auto plus = pose_error(retract(at, step), Pose());
+    const auto minus = pose_error(retract(at, typename Pose::Tangent(-step)), Pose());
+    const typename Witness<Pose>::Rows slope = (witness.residual(minus) - witness.residual(plus)) / (2 * h);
+    CHECK((slope - witness.jacobian(motion).col(i)).norm() < 1e-6);
+  }
+  // The same error of a vehicle that has moved on by `move`: what it turns, it turns about the place of the sighting.
+  const Pose move = Pose::exp(random.normal_vector<Pose::kDof>());
+  const Pose after = estimate * move, truth_after = retract(estimate, motion) * move;
+  witness.move_to(after.translation());
+  CHECK(witness.distance(pose_error(truth_after, after)) < 1e-18 / (0.05 * 0.05));
+}
