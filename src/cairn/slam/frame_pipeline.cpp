@@ -17,6 +17,7 @@ FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& opti
       associator_(arena, options, map, thresholds, report, log),
       updater_(arena, options, map, thresholds, trust, report, log),
       placer_(arena, options, map, report, log),
+      other_places_(arena, options, map, thresholds, trust, report),
       health_feed_(arena, options, map, report, health),
       review_(options, map, report) {}
 
@@ -33,6 +34,7 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
     report_.widened<Pose>(widening);
   }
   updater_.finish(*update, frame, sorted_);
+  if (!report_.update().widened()) other_places_.judge(frame, sorted_);
   if (frame.sensor.may_abort()) {
     placer_.prepare(*update, frame, sorted_);
     review_.prepare(frame);
@@ -43,6 +45,10 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
   placer_.place(*update, frame, sorted_);
   report_.finish();
   health_feed_.after(frame);
+  if (report_.last().widened())
+    other_places_.forget();
+  else
+    other_places_.commit();
   review_.run(frame);
 }
 

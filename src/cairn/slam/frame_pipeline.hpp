@@ -10,6 +10,7 @@
 #include "slam/frame_update.hpp"
 #include "slam/health_feed.hpp"
 #include "slam/landmark_review.hpp"
+#include "slam/other_places.hpp"
 
 namespace cairn {
 
@@ -21,6 +22,7 @@ class FramePipeline {
 
   // Throws with nothing changed.
   void run(const Frame<Pose>& frame);
+  void moved(const Increment<Pose>& increment) { other_places_.moved(increment); }
   void reserve_id(std::uint64_t id) { placer_.reserve_id(id); }
 
  private:
@@ -36,6 +38,7 @@ class FramePipeline {
   FrameAssociator<Pose> associator_;
   FrameUpdate<Pose> updater_;
   FramePlacer<Pose> placer_;
+  OtherPlaces<Pose> other_places_;
   HealthFeed<Pose> health_feed_;
   LandmarkReview<Pose> review_;
 };
