@@ -405,13 +405,17 @@ typedef struct cairn_update_report {
   uint32_t association_exhausted; /**< 1: it stopped at the bound `association_nodes` of the options; a better set of
                                        pairs may exist */
   double association_seconds;     /**< duration of the association, s */
-  uint32_t deferred;              /**< deferred landmarks after the update (`deferred_sightings`) */
+  uint32_t deferred;              /**< landmarks that do not count after the update: seen too rarely
+                                       (`deferred_sightings`), or as many observations contradict them as agree */
   uint32_t removed;               /**< landmarks removed after the update: missed too often, or not seen again in
                                        time */
   double widened_position;        /**< most of what was seen contradicted the estimate: standard deviation by which the
                                        motion since the last agreement was widened, m; 0: it was not (docs/update.md,
                                        "Finding back") */
   double widened_attitude;        /**< the same of the attitude, rad */
+  uint32_t placed_again;          /**< landmarks among `placed` that had been placed wrongly before (docs/update.md,
+                                       "A landmark that was placed wrongly") */
+  uint32_t reserved;              /**< 0 */
 } cairn_update_report;
 
 /** Reports on the last successful update of any kind; zeros before the first update. Set `report->struct_size` first.

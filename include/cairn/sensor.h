@@ -182,7 +182,8 @@ typedef struct cairn_observation {
 /** Result of an observation. */
 enum {
   CAIRN_MATCHED = 1, /**< it updated the landmark */
-  CAIRN_NEW = 2,     /**< it placed a new landmark */
+  CAIRN_NEW = 2,     /**< it placed a new landmark, or placed a landmark again that had been placed wrongly; then
+                          `distance` and `threshold` are those of its test against the former place */
   CAIRN_REJECTED = 3 /**< it was refused and changed nothing; `reason` says why */
 };
 

@@ -284,9 +284,45 @@ static void options_are_checked(void** state) {
   }
 }
 
+/* The first observation of the last landmark is a gross error. Two later ones outvote it; one does not. */
+static void a_landmark_that_was_placed_wrongly_is_placed_again(void** state) {
+  (void)state;
+  scene s = open_scene(NULL);
+  cairn_match matches[4];
+  double wrong[4][2];
+  memcpy(wrong, places, sizeof wrong);
+  wrong[3][0] += 5;
+  look(&s, names, places, 3, NULL);
+  look(&s, names, (const double(*)[2])wrong, 4, NULL);
+  assert_int_equal(map_size(&s), 4);
+  look(&s, names, places, 4, matches);
+  assert_int_equal(matches[3].result, CAIRN_REJECTED);
+  assert_int_equal(matches[3].reason, CAIRN_REASON_GATE);
+  assert_int_equal(map_size(&s), 3); /* nobody knows which is right: it does not count */
+  assert_int_equal(last_update(s.filter).deferred, 1);
+  look(&s, names, places, 4, matches);
+  assert_int_equal(matches[3].result, CAIRN_NEW);
+  assert_int_equal(matches[3].reason, CAIRN_REASON_NONE);
+  assert_int_equal(matches[3].landmark, names[3]);
+  assert_true(matches[3].distance > matches[3].threshold && matches[3].threshold > 0);
+  const cairn_update_report report = last_update(s.filter);
+  assert_int_equal(report.matched, 3);
+  assert_int_equal(report.placed, 1);
+  assert_int_equal(report.placed_again, 1);
+  assert_int_equal(report.rejected, 0);
+  assert_int_equal(report.deferred, 0);
+  assert_int_equal(map_size(&s), 4);
+  for (int i = 0; i < 4; ++i) assert_near(landmark(&s, names[i]).position[0], places[i][0], 1e-9);
+  look(&s, names, places, 4, matches);
+  assert_int_equal(matches[3].result, CAIRN_MATCHED);
+  assert_int_equal(last_update(s.filter).placed_again, 0);
+  cairn_filter_destroy(s.filter);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_deferred_landmark_counts_after_enough_sightings),
+      cmocka_unit_test(a_landmark_that_was_placed_wrongly_is_placed_again),
       cmocka_unit_test(a_deferred_landmark_that_is_not_seen_again_is_removed),
       cmocka_unit_test(a_landmark_in_view_that_is_missed_is_removed),
       cmocka_unit_test(merging_equals_observing_a_difference_of_zero),

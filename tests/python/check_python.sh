@@ -50,7 +50,7 @@ say "The installed package: its tests"
 export CAIRN_PROGRAM=$work/prefix/bin/cairn CAIRN_SHOTS=$work/shots
 where=$(cd / && python3 -c 'import cairn, cairn._abi; print(cairn.__file__)')
 [[ $where == "$work/venv/"* ]] || fail "cairn was imported from $where, not from where pip installed it"
-for name in declarations filter finding_back map report team team_report team_time trust; do
+for name in declarations filter finding_back map placed_again report team team_report team_time trust; do
   python3 "$root/tests/python/${name}_test.py"
 done
 

@@ -211,6 +211,7 @@ cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_r
       out.removed = static_cast<std::uint32_t>(r.removed);
       out.widened_position = r.widened_position;
       out.widened_attitude = r.widened_attitude;
+      out.placed_again = static_cast<std::uint32_t>(r.placed_again);
       write_report(out, report);
     });
   });

@@ -239,6 +239,10 @@ void State<Pose>::exchange_landmarks(Index a, Index b) {
   if (a == b) return;
   const Index at_a = layout_.point(a).offset, at_b = layout_.point(b).offset;
   for (Index d = 0; d < kDim; ++d) P_.exchange(at_a + d, at_b + d, states());
+  for (Index c = 0; c < kMount; ++c) {  // of an update that places landmarks
+    double* cross = workspace_.mount_cross + c * ld_;
+    std::swap_ranges(cross + at_a, cross + at_a + kDim, cross + at_b);
+  }
   const Point kept = local(a);
   place_of(a) = local(b);
   place_of(b) = kept;
@@ -256,6 +260,10 @@ void State<Pose>::remove(Index slot) {
       for (Index r = c; r < kDim; ++r) P_(to + r, to + c) = P_(from + r, from + c);
     for (Index c = to + kDim; c < from; ++c)
       for (Index r = 0; r < kDim; ++r) P_(c, to + r) = P_(from + r, c);
+    for (Index c = 0; c < kMount; ++c) {  // of an update that places landmarks
+      double* cross = workspace_.mount_cross + c * ld_;
+      std::copy_n(cross + from, kDim, cross + to);
+    }
     place_of(slot) = local(last);
   }
   layout_.remove_last_point();

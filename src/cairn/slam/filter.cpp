@@ -130,6 +130,7 @@ void Filter<Pose>::move(const Increment<Pose>& increment, const MotionCoupling<P
     throw Error(ErrorCode::numerical,
                 "prediction: the pose or its covariance would not be finite; nothing was changed");
   health_.moved(increment);
+  frames_.moved(scaled);
   started_ = true;
   submaps_.drive(increment.T_before_after.translation().norm());
 }

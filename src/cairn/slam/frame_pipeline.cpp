@@ -18,6 +18,7 @@ FramePipeline<Pose>::FramePipeline(Arena& arena, const FilterOptions<Pose>& opti
       slip_(arena, options, map, thresholds, trust),
       updater_(arena, options, map, thresholds, trust, report, log),
       placer_(arena, options, map, report, log),
+      other_places_(arena, options, map, thresholds, trust, report),
       health_feed_(arena, options, map, report, health),
       review_(options, map, report) {}
 
@@ -39,6 +40,7 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
       return false;
     });
   updater_.finish(*update, frame, sorted_);
+  if (!report_.update().widened()) other_places_.judge(frame, sorted_);
   if (frame.sensor.may_abort()) {
     placer_.prepare(*update, frame, sorted_);
     review_.prepare(frame);
@@ -50,6 +52,10 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
   report_.finish();
   slip_.commit(frame, report_);
   health_feed_.after(frame);
+  if (report_.last().widened())
+    other_places_.forget();
+  else
+    other_places_.commit();
   review_.run(frame);
 }
 

@@ -10,6 +10,7 @@
 #include "slam/frame_update.hpp"
 #include "slam/health_feed.hpp"
 #include "slam/landmark_review.hpp"
+#include "slam/other_places.hpp"
 #include "slam/slip_pairs.hpp"
 
 namespace cairn {
@@ -22,6 +23,7 @@ class FramePipeline {
 
   // Throws with nothing changed.
   void run(const Frame<Pose>& frame);
+  void moved(const Increment<Pose>& increment) { other_places_.moved(increment); }
   void reserve_id(std::uint64_t id) { placer_.reserve_id(id); }
 
  private:
@@ -38,6 +40,7 @@ class FramePipeline {
   SlipPairs<Pose> slip_;
   FrameUpdate<Pose> updater_;
   FramePlacer<Pose> placer_;
+  OtherPlaces<Pose> other_places_;
   HealthFeed<Pose> health_feed_;
   LandmarkReview<Pose> review_;
 };

@@ -60,6 +60,7 @@ void FramePlacer<Pose>::reserve_id(std::uint64_t id) {
 // A new landmark is placed next to an existing one only if that one was accepted in this frame.
 template <class Pose>
 void FramePlacer<Pose>::drop_unsupported(SortedFrame<Pose>& sorted) const {
+  if (options_.association == AssociationKind::known) return;
   const auto accepted = [&](std::uint64_t id) {
     return std::any_of(sorted.begin(), sorted.end(), [&](const Candidate<Pose>& candidate) {
       return candidate.slot >= map_.table().companions() && map_.table().id(candidate.slot) == id;
@@ -72,7 +73,8 @@ void FramePlacer<Pose>::drop_unsupported(SortedFrame<Pose>& sorted) const {
 }
 
 template <class Pose>
-bool FramePlacer<Pose>::place_one(EkfUpdate<Pose>& update, const Frame<Pose>& frame, Index observation) {
+bool FramePlacer<Pose>::place_one(EkfUpdate<Pose>& update, const Frame<Pose>& frame, Index observation,
+                                  std::optional<Index> old) {
   using PointSquare = typename LocalMap<Pose>::PointSquare;
   const Sensor<Pose>& sensor = frame.sensor;
   const MountNoise mode = sensor.mount_noise_mode();
@@ -93,6 +95,7 @@ bool FramePlacer<Pose>::place_one(EkfUpdate<Pose>& update, const Frame<Pose>& fr
   ErrorColumns<Pose::kDim> by_errors;
   if (frame.calibrated != nullptr)
     by_errors = errors.columns(frame.number, frame.calibrated->by_calibration(state.pose(), placement));
+  if (old) map_.forget(*old);  // nothing but numbers that are not finite can fail now
   return update.place(placement.landmark, placement.J_landmark_pose,
                       mode == MountNoise::per_frame ? &placement.J_landmark_mount : nullptr, noise, sensor.relative(),
                       frame.calibrated != nullptr ? &by_errors : nullptr);
@@ -105,13 +108,24 @@ void FramePlacer<Pose>::place(EkfUpdate<Pose>& update, const Frame<Pose>& frame,
   for (Index k = 0; k < sorted.new_ones(); ++k) {
     const Index observation = sorted.new_one(k);
     Match& match = report_.match(observation);
+    const std::optional<Index> old = match.landmark == kNoId || options_.association != AssociationKind::known
+                                         ? std::nullopt
+                                         : map_.table().find(match.landmark);
+    if (old) {  // the match keeps its distance from the place that the landmark had
+      if (!place_one(update, frame, observation, old)) continue;
+      map_.name_placed(match.landmark);
+      match.decision = Decision::placed;
+      match.reason = Reason::none;
+      ++report_.update().placed_again;
+      continue;
+    }
     match = {kNoId, Decision::rejected, Reason::no_place, 0.0, 0.0};
     if (map_.table().landmarks() >= options_.local_landmarks()) {
       match.reason = Reason::no_room;
       ++no_room;
       continue;
     }
-    if (!place_one(update, frame, observation)) continue;
+    if (!place_one(update, frame, observation, std::nullopt)) continue;
     const std::uint64_t id =
         options_.association == AssociationKind::known ? frame.observations[observation].id : next_id_++;
     map_.name_placed(id);

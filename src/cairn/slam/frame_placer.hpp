@@ -32,7 +32,8 @@ class FramePlacer {
   void drop_unsupported(SortedFrame<Pose>& sorted) const;
   bool find_place(const EkfUpdate<Pose>& update, const Frame<Pose>& frame, Index observation,
                   Placement<Pose>& placement) const;
-  bool place_one(EkfUpdate<Pose>& update, const Frame<Pose>& frame, Index observation);
+  // `old`: the landmark is in this slot already, and is placed again.
+  bool place_one(EkfUpdate<Pose>& update, const Frame<Pose>& frame, Index observation, std::optional<Index> old);
 
   const FilterOptions<Pose>& options_;
   LocalMap<Pose>& map_;

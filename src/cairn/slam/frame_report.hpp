@@ -33,6 +33,7 @@ struct UpdateReport {
   double association_seconds = 0.0;
   Index deferred = 0;                                     // landmarks that do not count yet after the update
   Index removed = 0;                                      // removed landmarks: missed, or deferred for too long
+  Index placed_again = 0;                                 // landmarks among `placed` that were placed wrongly before
   double widened_position = 0.0, widened_attitude = 0.0;  // standard deviations by which the motion was widened
   bool widened() const { return widened_position > 0.0 || widened_attitude > 0.0; }
 };

@@ -24,12 +24,13 @@ template <class Pose>
 void LandmarkReview<Pose>::run(const Frame<Pose>& frame) {
   const bool defers = options_.deferred_sightings > 1, misses = options_.missed_frames > 0;
   map_.table().next_frame();
-  if (!defers && !misses) return;
+  if (!defers && !misses && map_.table().deferred() == 0) return;
   note_sightings(frame.landmarks);
   promote();
-  remove_contradicted(frame.landmarks);
-  remove_unconfirmed();
-  report_.last().deferred = map_.table().deferred();
+  if (defers) {
+    remove_contradicted(frame.landmarks);
+    remove_unconfirmed();
+  }
   if (misses && frame.view != nullptr) remove_missed(frame);
   report_.last().deferred = map_.table().deferred();
 }
@@ -50,9 +51,11 @@ void LandmarkReview<Pose>::note_sightings(Index observations) {
 
 template <class Pose>
 void LandmarkReview<Pose>::promote() {
-  const LandmarkTable& table = map_.table();
+  LandmarkTable& table = map_.table();
   for (Index slot = table.first_deferred(); slot < table.size(); ++slot)
-    if (table.observations(slot) >= static_cast<std::uint64_t>(options_.deferred_sightings)) map_.count_from_now(slot);
+    if (table.observations(slot) >= static_cast<std::uint64_t>(options_.deferred_sightings) &&
+        table.observations(slot) > table.sightings(slot).elsewhere)
+      map_.count_from_now(slot);
 }
 
 template <class Pose>

@@ -40,7 +40,7 @@ void LandmarkTable::append(std::uint64_t id, bool deferred) {
   const Index slot = size_++;
   ids_[slot] = id;
   counts_[slot] = 1;
-  sightings_[slot] = {frames_, frames_, 0, false};
+  sightings_[slot] = {frames_, frames_, 0, false, 0};
   slots_.set(id, static_cast<std::int32_t>(slot));
   if (deferred) ++deferred_;
 }

@@ -21,6 +21,7 @@ class LandmarkTable {
     std::uint64_t placed, seen;  // numbers of frames
     Index missed;                // frames in a row
     bool in_view;                // LandmarkReview::prepare() has found it in the view
+    std::uint64_t elsewhere;     // observations that agree on another place, if the landmark is contested
   };
 
   LandmarkTable(Arena& arena, Index slots, Index landmarks);
@@ -55,6 +56,7 @@ class LandmarkTable {
   void remove(Index slot);
   void exchange(Index a, Index b);
   void count_first_deferred() { --deferred_; }
+  void defer_last_counting() { ++deferred_; }
   void add_companion(std::uint64_t id);  // the first landmark moves behind the last one
   void remove_companion(Index number);   // the last companion gets the number, the last landmark becomes the first one
   void look_from(Index companion);       // the companion and the active vehicle change places

@@ -36,13 +36,23 @@ void LocalMap<Pose>::exchange(Index a, Index b) {
 
 template <class Pose>
 void LocalMap<Pose>::name_placed(std::uint64_t id) {
-  table_.append(id, options_.deferred_sightings > 1);
+  const bool deferred = options_.deferred_sightings > 1;
+  table_.append(id, deferred);
+  if (!deferred && table_.deferred() > 0) exchange(table_.size() - 1, table_.first_deferred() - 1);
 }
 
 template <class Pose>
 void LocalMap<Pose>::count_from_now(Index deferred_slot) {
   exchange(deferred_slot, table_.first_deferred());
   table_.count_first_deferred();
+}
+
+template <class Pose>
+void LocalMap<Pose>::contest(Index slot, std::uint64_t elsewhere) {
+  table_.sightings(slot).elsewhere = elsewhere;
+  if (!table_.counts(slot)) return;
+  exchange(slot, table_.first_deferred() - 1);
+  table_.defer_last_counting();
 }
 
 // The landmarks that count must stay contiguous. The last landmark that counts moves to the slot of the removed
@@ -77,7 +87,7 @@ void LocalMap<Pose>::split(std::uint64_t id, std::uint64_t fresh, const PointSqu
   state_.duplicate(slot, covariance);
   name_placed(fresh);
   // The new landmark counts if the landmark from which it is split counts.
-  const Index placed = table_.size() - 1;
+  const Index placed = slot_at(fresh);
   if (counts && !table_.counts(placed)) count_from_now(placed);
 }
 

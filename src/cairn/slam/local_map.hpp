@@ -40,6 +40,8 @@ class LocalMap final : public Landmarks {
   // --- landmarks ---
   void name_placed(std::uint64_t id);  // names the landmark that the state got last
   void count_from_now(Index deferred_slot);
+  // So many observations agree on another place: the landmark does not count before more of them agree with it.
+  void contest(Index slot, std::uint64_t elsewhere);
   void forget(Index slot);
   // Places a landmark `fresh` at the position of `id`, with an additional independent error.
   void split(std::uint64_t id, std::uint64_t fresh, const PointSquare& covariance);

@@ -34,6 +34,7 @@ class SortedFrame {
   const Candidate<Pose>* end() const { return candidates_ + candidate_count_; }
   void keep(const Index* kept, Index count);  // these candidates, in rising order
 
+  void add_again(Index observation) { new_ones_[new_count_++] = observation; }  // places its landmark again
   Index new_ones() const { return new_count_; }
   Index new_one(Index k) const { return new_ones_[k]; }  // its observation
   template <class Keep>

@@ -15,6 +15,9 @@ ClosedBy SubmapPolicy<Pose>::limit() const {
   const Index counting = map_.table().counting();
   if (counting >= options_.submap_landmarks) return ClosedBy::landmarks;
   if (counting == 0) return ClosedBy::none;
+  // Contested landmarks do not count, but they take room.
+  if (options_.deferred_sightings <= 1 && map_.table().landmarks() >= options_.local_landmarks())
+    return ClosedBy::landmarks;
   if (options_.submap_distance > 0.0 && driven_ >= options_.submap_distance) return ClosedBy::distance;
   if (options_.submap_extent > 0.0)
     for (Index slot = 0; slot < state.size(); ++slot)

@@ -135,8 +135,32 @@ void SparseChange<Pose>::finish(JoinReport& report) {
     report.moved_max = std::max(report.moved_max, std::sqrt(way));
   }
   if (landmarks_ > 0) report.moved_rms = std::sqrt(sum / landmarks_);
+  hide();
   note_moves();
   kept_ = true;
+}
+
+template <class Pose>
+void SparseChange<Pose>::hide() noexcept {
+  for (const auto& [old, next] : hidden_) {
+    const Number slot = state_.landmarks[old].slot;
+    const auto name = state_.ids.find(state_.landmarks[old].id);
+    state_.landmarks[old].slot = State::kNone;
+    if (next != State::kNone) {
+      state_.landmarks[next].id = name->first;
+      state_.landmarks[next].slot = slot;
+      state_.visible[slot] = next;
+      name->second = next;
+    } else {
+      state_.ids.erase(name);
+      state_.visible[slot] = state_.visible.back();
+      state_.landmarks[state_.visible[slot]].slot = slot;
+      state_.landmarks[old].slot = State::kNone;
+      state_.visible.pop_back();
+      index_.remove(state_.visible.size());
+    }
+  }
+  if (!hidden_.empty()) index_.moved_all();
 }
 
 // Reports the motions to the spatial index. The index may allocate for single moves, but moved_all() needs no memory.

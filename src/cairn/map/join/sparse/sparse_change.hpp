@@ -36,6 +36,9 @@ class SparseChange {
   // The points of systematic errors that walk, at the newest base.
   void add_errors(const Eigen::VectorXd& values);
   void show_landmark(Number landmark, std::uint64_t id);
+  // Once the change is kept: callers do not see an existing landmark any more; they see `next` under its id.
+  void hide_landmark(Number landmark) { hidden_.emplace_back(landmark, State::kNone); }
+  void supersede_landmark(Number landmark, Number next) { hidden_.emplace_back(landmark, next); }
   typename State::Leaf new_leaf(std::shared_ptr<const SubmapData<Pose>> data) const;  // of the next number
   // Another submap holds an existing landmark, with this number of observations.
   void extend(Number landmark, Number submap, std::uint64_t count);
@@ -53,6 +56,7 @@ class SparseChange {
  private:
   void roll_back() noexcept;
   void note_moves() noexcept;
+  void hide() noexcept;
 
   State& state_;
   SpatialIndex& index_;
@@ -66,6 +70,7 @@ class SparseChange {
   std::vector<std::pair<Number, typename State::Leaf>> leaves_;
   std::vector<std::pair<Number, Rotation>> turned_;         // leaves that were carried before they were saved, in order
   std::vector<std::pair<Number, std::uint64_t>> extended_;  // landmarks, and the observations added
+  std::vector<std::pair<Number, Number>> hidden_;           // landmarks, and those that supersede them
 };
 
 extern template class SparseChange<SE2>;

@@ -131,21 +131,48 @@ class KnownLandmarks {
 
 }  // namespace
 
+namespace {
+
+// A landmark that was placed wrongly contradicts every later submap (docs/update.md, "A landmark that was placed
+// wrongly").
+Fusing weigh(std::uint64_t in_map, std::uint64_t in_submap, bool gross) {
+  constexpr std::uint64_t kYoung = 10;  // observations, as MotionTrust::is_witness() has it
+  if (in_map >= kYoung || in_submap < in_map) return Fusing::leave_out;
+  if (in_submap > in_map) return Fusing::supersede;
+  return gross ? Fusing::remove_both : Fusing::leave_out;
+}
+
+}  // namespace
+
 template <class Pose>
-std::vector<char> find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap) {
-  std::vector<char> left_out(submap.ids.size(), 0);
+std::vector<Fusing> find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap) {
+  constexpr double kHonest = 1e-6;  // chance of an honest landmark whose contradiction is gross
+  std::vector<Fusing> fusing(submap.ids.size(), Fusing::fuse);
+  std::vector<std::pair<Index, bool>> contradicting;  // gross or not
   KnownLandmarks<Pose> landmarks(state, submap);
+  const Index known = landmarks.count();
+  const double gross = chi_square_quantile(Pose::kDim, 1.0 - kHonest);
   const auto bound = [&](Index rows) {
     return chi_square_quantile(static_cast<double>(rows), state.options.joint_gate_probability);
   };
   gate_blocks(landmarks, Pose::kDim, chi_square_quantile(Pose::kDim, state.options.gate_probability), bound,
-              [&](Gate, Index block, double, double) { left_out[landmarks.local(block)] = 1; });
-  return left_out;
+              [&](Gate gate, Index block, double distance, double) {
+                contradicting.emplace_back(landmarks.local(block), gate == Gate::single && distance > gross);
+              });
+  const auto count_in_map = [&](Index i) { return state.landmarks[state.ids.find(submap.ids[i])->second].count; };
+  // Where most landmarks contradict, the pose of the submap may be what is wrong. A landmark that was seen once says
+  // nothing about it.
+  Index against = 0;
+  for (const auto& [i, contradicts] : contradicting) against += count_in_map(i) > 1 && submap.counts[i] > 1 ? 1 : 0;
+  const bool agrees = known - static_cast<Index>(contradicting.size()) > against;
+  for (const auto& [i, contradicts] : contradicting)
+    fusing[i] = agrees ? weigh(count_in_map(i), submap.counts[i], contradicts) : Fusing::leave_out;
+  return fusing;
 }
 
 template bool may_contradict(const SparseState<SE2>&, std::uint32_t, const JoinReport&);
 template bool may_contradict(const SparseState<SE3>&, std::uint32_t, const JoinReport&);
-template std::vector<char> find_contradicting(const SparseState<SE2>&, const Submap<SE2>&);
-template std::vector<char> find_contradicting(const SparseState<SE3>&, const Submap<SE3>&);
+template std::vector<Fusing> find_contradicting(const SparseState<SE2>&, const Submap<SE2>&);
+template std::vector<Fusing> find_contradicting(const SparseState<SE3>&, const Submap<SE3>&);
 
 }  // namespace cairn

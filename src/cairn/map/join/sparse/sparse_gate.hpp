@@ -12,13 +12,21 @@ namespace cairn {
 template <class Pose>
 bool may_contradict(const SparseState<Pose>& state, std::uint32_t leaf, const JoinReport& report);
 
-// The exact gates, for a submap that has not joined. Returns for each of its landmarks whether it is to be left out.
+// What becomes of a landmark of a submap whose id the map knows.
+enum class Fusing : char {
+  fuse,
+  leave_out,   // it contradicts the map
+  supersede,   // it contradicts a young landmark of the map, and more observations support it: it takes its id
+  remove_both  // it contradicts a young landmark of the map, and nothing says which of them is wrong
+};
+
+// The exact gates, for a submap that has not joined.
 template <class Pose>
-std::vector<char> find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap);
+std::vector<Fusing> find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap);
 
 extern template bool may_contradict(const SparseState<SE2>&, std::uint32_t, const JoinReport&);
 extern template bool may_contradict(const SparseState<SE3>&, std::uint32_t, const JoinReport&);
-extern template std::vector<char> find_contradicting(const SparseState<SE2>&, const Submap<SE2>&);
-extern template std::vector<char> find_contradicting(const SparseState<SE3>&, const Submap<SE3>&);
+extern template std::vector<Fusing> find_contradicting(const SparseState<SE2>&, const Submap<SE2>&);
+extern template std::vector<Fusing> find_contradicting(const SparseState<SE3>&, const Submap<SE3>&);
 
 }  // namespace cairn

@@ -8,7 +8,6 @@
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
-#include "map/join/sparse/sparse_gate.hpp"
 #include "map/join/sparse/sparse_solver.hpp"
 
 namespace cairn {
@@ -20,22 +19,22 @@ SparseTransaction<Pose>::SparseTransaction(SparseState<Pose>& state, SpatialInde
 template <class Pose>
 JoinReport SparseTransaction<Pose>::join(const Submap<Pose>& submap) {
   solved_ = true;
-  const Number leaf = try_join(submap, std::vector<char>(submap.ids.size(), 0));
+  const Number leaf = try_join(submap, std::vector<Fusing>(submap.ids.size(), Fusing::fuse));
   if (report_.rows == 0 || !may_contradict(state_, leaf, report_)) return report_;
   // Some landmark does not fit: the exact gates, which cost more, find out which.
   change_.reset();
-  const std::vector<char> left_out = find_contradicting(state_, submap);
+  const std::vector<Fusing> fusing = find_contradicting(state_, submap);
   report_ = JoinReport();
   change_.emplace(state_, index_);
-  try_join(submap, left_out);
+  try_join(submap, fusing);
   return report_;
 }
 
 // Adds the submap and solves; the report tells how well the fused landmarks agree.
 template <class Pose>
 typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::try_join(const Submap<Pose>& submap,
-                                                                           const std::vector<char>& left_out) {
-  const Number leaf = append(submap, left_out);
+                                                                           const std::vector<Fusing>& fusing) {
+  const Number leaf = append(submap, fusing);
   SparseSolver<Pose> solver(state_, *change_);
   solver.optimise(report_);
   report_.rows = kDim * report_.fused;
@@ -55,7 +54,7 @@ typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::try_join(const
 // Appends the submap, its end and its new landmarks, and makes the affected part of the factor anew.
 template <class Pose>
 typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::append(const Submap<Pose>& submap,
-                                                                         const std::vector<char>& left_out) {
+                                                                         const std::vector<Fusing>& fusing) {
   const auto number = static_cast<Number>(state_.leaves.size());
   const Pose base = state_.bases.back();
   change_->add_base(base * submap.T_base_end);
@@ -66,9 +65,16 @@ typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::append(const S
   EliminationTree<Pose>& tree = state_.solution.tree;
   for (std::size_t i = 0; i < submap.ids.size(); ++i) {
     const auto known = state_.ids.find(submap.ids[i]);
-    if (known != state_.ids.end() && left_out[i] != 0) {
-      leaf.landmarks.push_back(State::kNone);
+    if (known != state_.ids.end() && fusing[i] != Fusing::fuse) {
       ++report_.refused;
+      leaf.landmarks.push_back(State::kNone);
+      if (fusing[i] == Fusing::remove_both) change_->hide_landmark(known->second);
+      if (fusing[i] != Fusing::supersede) continue;
+      const Number landmark = change_->add_landmark(base * submap.landmarks[i]);
+      state_.landmarks[landmark].count = submap.counts[i];
+      state_.landmarks[landmark].submaps = {number};
+      change_->supersede_landmark(known->second, landmark);
+      leaf.landmarks.back() = landmark;
       continue;
     }
     if (known == state_.ids.end()) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "map/join/sparse/sparse_change.hpp"
+#include "map/join/sparse/sparse_gate.hpp"
 
 namespace cairn {
 
@@ -25,8 +26,8 @@ class SparseTransaction final : public MapTransaction<Pose> {
   static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
   using PointSquare = typename Pose::Rotation::Matrix;
 
-  Number try_join(const Submap<Pose>& submap, const std::vector<char>& left_out);
-  Number append(const Submap<Pose>& submap, const std::vector<char>& left_out);
+  Number try_join(const Submap<Pose>& submap, const std::vector<Fusing>& fusing);
+  Number append(const Submap<Pose>& submap, const std::vector<Fusing>& fusing);
   void hold_errors(typename State::Leaf& leaf, Number number);
   void set_error_degree(Number point);
   void set_scales(const Submap<Pose>& submap);
