@@ -9,6 +9,7 @@
 #include "core/chi_square.hpp"
 #include "linear/joint_gate.hpp"
 #include "map/join/sparse/sparse_queries.hpp"
+#include "map/refusals.hpp"
 #include "map/submap_innovation.hpp"
 
 namespace cairn {
@@ -132,20 +133,25 @@ class KnownLandmarks {
 }  // namespace
 
 template <class Pose>
-std::vector<char> find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap) {
-  std::vector<char> left_out(submap.ids.size(), 0);
+Contradicting find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap) {
+  Contradicting found{std::vector<char>(submap.ids.size(), 0), 0.0};
+  Refusals refusals;
   KnownLandmarks<Pose> landmarks(state, submap);
   const auto bound = [&](Index rows) {
     return chi_square_quantile(static_cast<double>(rows), state.options.joint_gate_probability);
   };
   gate_blocks(landmarks, Pose::kDim, chi_square_quantile(Pose::kDim, state.options.gate_probability), bound,
-              [&](Gate, Index block, double, double) { left_out[landmarks.local(block)] = 1; });
-  return left_out;
+              [&](Gate gate, Index block, double distance, double most) {
+                found.left_out[landmarks.local(block)] = 1;
+                refusals.add(gate, distance, most);
+              });
+  found.worst = refusals.worst();
+  return found;
 }
 
 template bool may_contradict(const SparseState<SE2>&, std::uint32_t, const JoinReport&);
 template bool may_contradict(const SparseState<SE3>&, std::uint32_t, const JoinReport&);
-template std::vector<char> find_contradicting(const SparseState<SE2>&, const Submap<SE2>&);
-template std::vector<char> find_contradicting(const SparseState<SE3>&, const Submap<SE3>&);
+template Contradicting find_contradicting(const SparseState<SE2>&, const Submap<SE2>&);
+template Contradicting find_contradicting(const SparseState<SE3>&, const Submap<SE3>&);
 
 }  // namespace cairn
