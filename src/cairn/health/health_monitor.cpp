@@ -26,21 +26,24 @@ HealthMonitor<Pose>::HealthMonitor(Arena& arena, const HealthOptions& options)
 
 template <class Pose>
 void HealthMonitor<Pose>::moved(const Increment<Pose>& increment) {
-  const ProductJacobians J(since_.T_before_after, increment.T_before_after);
-  since_.covariance = J.covariance(since_.covariance, increment.covariance);
-  since_.T_before_after = since_.T_before_after * increment.T_before_after;
+  const ChainedMotion<Pose> step(increment);
+  if (moved_)
+    since_.append(step);
+  else
+    since_ = step;
+  moved_ = true;
 }
 
 template <class Pose>
 void HealthMonitor<Pose>::interrupt() {
   for (Index s = 0; s < sensors_; ++s)
-    for (auto& drive : places_[s].drives) drive.chained = false;
-  since_ = Increment<Pose>();
+    for (auto& chain : places_[s].chains) chain.unbroken = false;
+  moved_ = false;
 }
 
 template <class Pose>
-void HealthMonitor<Pose>::closed(std::size_t refused, std::size_t known) {
-  verdict_.closing(static_cast<double>(refused), static_cast<double>(known));
+void HealthMonitor<Pose>::closed(std::size_t refused, std::size_t known, double worst) {
+  verdict_.closing(static_cast<double>(refused), static_cast<double>(known), worst, kDim);
 }
 
 template <class Pose>
@@ -54,35 +57,45 @@ void HealthMonitor<Pose>::fixed(Index rows, double distance, bool refused) {
 
 // The motion since the last frame of any sensor goes to every sensor.
 template <class Pose>
-void HealthMonitor<Pose>::drive_all() {
+void HealthMonitor<Pose>::move_all() {
+  if (!moved_) return;
+  moved_ = false;
   for (Index s = 0; s < sensors_; ++s)
-    for (auto& drive : places_[s].drives) {
-      if (!drive.chained) continue;
-      drive.noise = ProductJacobians(drive.T, since_.T_before_after).covariance(drive.noise, since_.covariance);
-      drive.T = drive.T * since_.T_before_after;
-      drive.chained = drive.noise.allFinite();
+    for (auto& chain : places_[s].chains) {
+      if (!chain.unbroken) continue;
+      if (chain.begins)
+        chain.motion = since_;
+      else
+        chain.motion.append(since_);
+      chain.begins = false;
+      chain.unbroken = chain.motion.noise.allFinite();
     }
-  since_ = Increment<Pose>();
 }
 
 template <class Pose>
 void HealthMonitor<Pose>::start(Index sensor, Index rows, bool relative) {
-  drive_all();
+  move_all();
   now_ = sensor;
   rows_ = rows;
   relative_ = relative;
   ++places_[sensor].frame;
-  for (PairedFrame<Pose>& paired : paired_) paired.start(rows);
+  for (Index stride = 0; stride < kStrides; ++stride) {
+    paired_[stride].start(rows);
+    auto& chain = places_[sensor].chains[stride];
+    if (!due(stride) || !chain.unbroken) continue;
+    chain.back = chain.motion.T.inverse();
+    chain.R_back = chain.back.rotation().matrix();
+  }
   evidence_ = UpdateEvidence();
 }
 
 // The difference to a sighting before, and its covariance (docs/trust.md, eq. 1 and 2).
 template <class Pose>
 bool HealthMonitor<Pose>::pair(const Sighted<Pose>& sighted, bool refused, const Left<Pose>& last, Index stride) {
-  const auto& drive = places_[now_].drives[stride];
-  if (!drive.chained || last.sensor != now_ || last.frame != drive.frame) return false;
+  const auto& chain = places_[now_].chains[stride];
+  if (!chain.unbroken || last.sensor != now_ || last.frame != chain.frame) return false;
   // Where the estimate saw the landmark then, moved by the odometry: other updates between the frames drop out.
-  const typename Pose::Point y = drive.T.inverse() * last.y;
+  const typename Pose::Point y = chain.R_back * last.y + chain.back.translation();
   Vector3 innovation = sighted.innovation + sighted.J_z_y * (sighted.y - y);
   auto J_z_y = sighted.J_z_y;
   if (refused) {  // the estimate may be far off
@@ -92,14 +105,15 @@ bool HealthMonitor<Pose>::pair(const Sighted<Pose>& sighted, bool refused, const
     J_z_y = there.J_z_landmark;
   }
   // The error of y counts by the change of the Jacobian. The residual before has the covariance R - J P J^T, and the
-  // error of y the covariance P - 0 with it: together they are those of the two terms below.
-  const typename Prediction<Pose>::ByLandmark J_now = J_z_y * drive.T.rotation().inverse().matrix();
-  const Matrix3 before = last.noise - last.J_z_y * last.P * last.J_z_y.transpose();
-  const Matrix3 noise = sighted.noise + before + J_now * last.P * J_now.transpose();
+  // error of y the covariance P - 0 with it: together they are those of `last.noise` and of the term below.
+  const typename Prediction<Pose>::ByLandmark J_now = J_z_y.lazyProduct(chain.R_back);
+  const typename Prediction<Pose>::ByLandmark by_P = J_now.lazyProduct(last.P);
+  Matrix3 noise = sighted.noise + last.noise;
+  noise.noalias() += by_P.lazyProduct(J_now.transpose());
   // By the motion's error in the axes of the body after it: dy = -dp - turn(y) dtheta.
   typename PairedFrame<Pose>::ByMotion J;
   J.template leftCols<kDim>() = -J_z_y;
-  J.template rightCols<kTurn>() = -J_z_y * Pose::Rotation::turn(y);
+  J.template rightCols<kTurn>() = J.template leftCols<kDim>().lazyProduct(Pose::Rotation::turn(y));
   return paired_[stride].add(innovation - last.residual, noise, J);
 }
 
@@ -138,9 +152,7 @@ void HealthMonitor<Pose>::correct(const Pose& before, const Square& P_before, co
 
 template <class Pose>
 FrameParts HealthMonitor<Pose>::split(Index stride) {
-  const auto& drive = places_[now_].drives[stride];
-  const Square to_body = Pose::turn_axes(drive.T.rotation().inverse());
-  return paired_[stride].split(to_body * drive.noise * to_body.transpose(), slow_.sensor(now_).value,
+  return paired_[stride].split(places_[now_].chains[stride].motion.noise, slow_.sensor(now_).value,
                                slow_.motion().value);
 }
 
@@ -204,8 +216,14 @@ void HealthMonitor<Pose>::finish(double nis, Index rows) {
   evidence_.sensor = over(fast_.sensor(now_), applied_to_sensor(now_));
   evidence_.motion = over(fast_.motion(), applied_to_motion());
   verdict_.add(evidence_);
-  for (Index stride = 0; stride < kStrides; ++stride)
-    if (due(stride)) places_[now_].drives[stride] = {relative_, places_[now_].frame, Pose(), Square::Zero()};
+  for (Index stride = 0; stride < kStrides; ++stride) {
+    if (!due(stride)) continue;
+    auto& chain = places_[now_].chains[stride];
+    chain.unbroken = relative_;
+    chain.begins = true;
+    chain.frame = places_[now_].frame;
+    chain.motion = ChainedMotion<Pose>();
+  }
 }
 
 template <class Pose>

@@ -3,11 +3,11 @@
 // each motion and each update; the monitor changes nothing of the filter. O(observations) an update, no allocation.
 #pragma once
 
+#include "health/chained_motion.hpp"
 #include "health/drift_test.hpp"
 #include "health/paired_frame.hpp"
 #include "health/sighting_memory.hpp"
 #include "health/verdict.hpp"
-#include "motion/motion.hpp"
 
 namespace cairn {
 
@@ -51,7 +51,8 @@ class HealthMonitor {
   void moved(const Increment<Pose>& increment);  // with the stated noise
   void interrupt();                              // another vehicle moves and sees from now on
   void widened(double amount) { verdict_.widened(amount); }
-  void closed(std::size_t refused, std::size_t known);
+  // `worst`: squared distance of the refused landmark that contradicts the map most.
+  void closed(std::size_t refused, std::size_t known, double worst);
   void fixed(Index rows, double distance, bool refused);
 
   // --- a frame --- start, compare each sighting, correct, finish; then remember what it leaves
@@ -76,16 +77,18 @@ class HealthMonitor {
   // A sensor, and the motion since its last frame.
   struct Place {
     SensorHealth health;
-    std::uint64_t frame;    // number of its frame
-    struct Drive {          // since the anchor of a stride
-      bool chained;         // it is known
+    std::uint64_t frame;  // number of its frame
+    struct Chain {        // the motion since the anchor of a stride
+      bool unbroken;
+      bool begins;          // at the last frame of any sensor: the motion is zero
       std::uint64_t frame;  // of the anchor
-      Pose T;
-      Square noise;
-    } drives[kStrides];
+      ChainedMotion<Pose> motion;
+      Pose back;  // the inverse of the motion, in the frame at hand
+      typename Pose::Rotation::Matrix R_back;
+    } chains[kStrides];
   };
   static double applied(const NoiseFactor& factor);
-  void drive_all();
+  void move_all();
   bool due(Index stride) const { return places_[now_].frame % kStride[stride] == 0; }
   bool pair(const Sighted<Pose>& sighted, bool refused, const Left<Pose>& last, Index stride);
   FrameParts split(Index stride);
@@ -96,7 +99,8 @@ class HealthMonitor {
   bool apply_;
   Index sensors_;
   Place* places_;
-  Increment<Pose> since_;  // the last frame of any sensor
+  ChainedMotion<Pose> since_;  // the last frame of any sensor
+  bool moved_ = false;         // since then
   SightingMemory<Pose> memory_;
   PairedFrame<Pose> paired_[kStrides];
   typename SightingMemory<Pose>::Sighting** steps_;  // landmarks of the differences to the frame before

@@ -2,15 +2,35 @@
 // Splits the differences of a frame into the motion's part and the sensor's part.
 #include "health/paired_frame.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 
 #include "core/chi_square.hpp"
 #include "health/semidefinite.hpp"
-#include "linear/joint_gate.hpp"
+#include "health/small_factor.hpp"
+#include "health/spectrum.hpp"
 
 namespace cairn {
+namespace {
+
+// L^T M L for a lower factor L.
+template <class Square>
+Square by_factor(const Square& M, const Square& L) {
+  constexpr int n = Square::RowsAtCompileTime;
+  Square product = Square::Zero(), W;
+  for (int c = 0; c < n; ++c)
+    for (int k = c; k < n; ++k)
+      for (int r = 0; r < n; ++r) product(r, c) += M(r, k) * L(k, c);
+  for (int c = 0; c < n; ++c)
+    for (int r = c; r < n; ++r) {
+      double sum = 0.0;
+      for (int k = r; k < n; ++k) sum += L(k, r) * product(k, c);
+      W(r, c) = W(c, r) = sum;
+    }
+  return W;
+}
+
+}  // namespace
 
 template <class Pose>
 PairedFrame<Pose>::PairedFrame(Arena& arena, Index max_observations)
@@ -34,22 +54,33 @@ void PairedFrame<Pose>::start(Index rows) {
 template <class Pose>
 bool PairedFrame<Pose>::add(const Vector3& difference, const Matrix3& noise, const ByMotion& J_motion) {
   if (!difference.allFinite() || !J_motion.allFinite()) return false;
-  Block& block = blocks_[count_];
+  const SmallFactor factor(noise, rows_);
+  if (!factor.definite()) return false;
+  Block& block = blocks_[count_++];
   block.difference = difference;
   block.J = J_motion;
-  if (!whiten_block(noise.data(), 3, rows_, block.difference.data(), block.J.data(), kDof)) return false;
-  ++count_;
+  for (Index r = rows_; r < kMostRows; ++r) {
+    block.difference(r) = 0.0;
+    block.J.row(r).setZero();
+  }
+  factor.solve(block.difference);
+  factor.solve(block.J);
   return true;
 }
 
 // Of one difference by itself, from the covariance alpha + beta J N J^T (eq. 3).
 template <class Pose>
-double PairedFrame<Pose>::distance(const Block& block, const Square& L, double alpha, double beta) const {
-  const ByMotion B = block.J * L;
-  Matrix3 S = beta * B * B.transpose();
+double PairedFrame<Pose>::distance(const Block& block, const Square& L, double alpha, double beta) {
+  const ByMotion B = block.J.lazyProduct(L);
+  Matrix3 S;
+  for (int c = 0; c < kMostRows; ++c)
+    for (int r = c; r < kMostRows; ++r) S(r, c) = beta * B.row(r).dot(B.row(c));
   S.diagonal().array() += alpha;
-  const double distance = squared_distance(block.difference.data(), S.data(), 3, rows_);
-  return distance >= 0.0 ? distance : std::numeric_limits<double>::infinity();
+  const SmallFactor factor(S, kMostRows);
+  if (!factor.definite()) return std::numeric_limits<double>::infinity();
+  Vector3 whitened = block.difference;
+  factor.solve(whitened);
+  return whitened.squaredNorm();
 }
 
 // Up to half of a frame may be gross errors, and its motion may be far off: the median sets the scale.
@@ -83,26 +114,26 @@ FrameParts PairedFrame<Pose>::split(const Square& motion, double alpha, double b
     const Block& block = blocks_[i];
     if (!(block.distance <= largest_)) continue;
     ++parts.blocks;
-    const auto J = block.J.topRows(rows_);
-    const auto d = block.difference.head(rows_);
-    M.noalias() += J.transpose().lazyProduct(J);
-    g.noalias() += J.transpose().lazyProduct(d);
-    whole += d.squaredNorm();
+    for (int c = 0; c < kDof; ++c) {
+      for (int r = c; r < kDof; ++r) M(r, c) += block.J.col(r).dot(block.J.col(c));
+      g(c) += block.J.col(c).dot(block.difference);
+    }
+    whole += block.difference.squaredNorm();
   }
+  for (int c = 0; c < kDof; ++c)
+    for (int r = c + 1; r < kDof; ++r) M(c, r) = M(r, c);
   int rank = 0;
   const double explained = semidefinite_square(semidefinite_factor(M, &rank), g);  // by any motion of the pose
   information_ = M;
-  const Square weights = L.transpose() * M * L;
-  const typename Pose::Tangent h = L.transpose() * g;
-  const Eigen::SelfAdjointEigenSolver<Square> eigen(weights);
-  const double largest_weight = eigen.eigenvalues()(kDof - 1);
+  const Spectrum<Square> spectrum(by_factor(M, L), L.transpose() * g);
+  const double largest_weight = spectrum.values.maxCoeff();
   double by_noise = 0.0;
   for (Index j = 0; j < kDof; ++j) {
-    const double weight = eigen.eigenvalues()(j);
+    const double weight = spectrum.values(j);
     if (!(weight > 1e-9 * largest_weight && weight > 1e-12) || parts.commons == rank) continue;
-    const double along = eigen.eigenvectors().col(j).dot(h);
-    parts.common[parts.commons++] = {weight, along * along / weight};
-    by_noise += along * along / weight;
+    const double square = spectrum.along(j) * spectrum.along(j) / weight;
+    parts.common[parts.commons++] = {weight, square};
+    by_noise += square;
   }
   parts.rest = std::max(0.0, explained - by_noise);
   parts.rest_dof = rank - parts.commons;

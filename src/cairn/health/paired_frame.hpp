@@ -37,11 +37,11 @@ class PairedFrame {
 
  private:
   struct Block {
-    Vector3 difference;  // whitened by the stated noise
+    Vector3 difference;  // whitened by the stated noise; rows that the sensor does not have are zero
     ByMotion J;          // whitened
     double distance;
   };
-  double distance(const Block& block, const Square& L, double alpha, double beta) const;
+  static double distance(const Block& block, const Square& L, double alpha, double beta);
   double largest_distance();
 
   static constexpr double kKeep = 0.995;  // of honest observations

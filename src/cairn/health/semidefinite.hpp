@@ -2,6 +2,7 @@
 // Small covariances that may be singular: a vehicle that cannot slip sideways has no noise there.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/types.hpp"
@@ -14,8 +15,11 @@ template <class Square>
 Square semidefinite_factor(const Square& S, int* rank = nullptr, double* smallest = nullptr) {
   constexpr int n = Square::RowsAtCompileTime;
   constexpr double kZero = 1e-10;
-  Eigen::Matrix<double, n, 1> scale;
-  for (int i = 0; i < n; ++i) scale(i) = S(i, i) > 0.0 ? std::sqrt(S(i, i)) : 0.0;
+  Eigen::Matrix<double, n, 1> scale, per_scale;
+  for (int i = 0; i < n; ++i) {
+    scale(i) = S(i, i) > 0.0 ? std::sqrt(S(i, i)) : 0.0;
+    per_scale(i) = scale(i) > 0.0 ? 1.0 / scale(i) : 0.0;
+  }
   Square L = Square::Zero();
   int count = 0;
   double least = 1.0;
@@ -27,11 +31,12 @@ Square semidefinite_factor(const Square& S, int* rank = nullptr, double* smalles
     if (!(pivot > kZero)) continue;
     ++count;
     L(c, c) = std::sqrt(pivot);
+    const double per_pivot = 1.0 / L(c, c);
     for (int r = c + 1; r < n; ++r) {
       if (scale(r) == 0.0) continue;
-      double value = S(r, c) / (scale(r) * scale(c));
+      double value = S(r, c) * per_scale(r) * per_scale(c);
       for (int k = 0; k < c; ++k) value -= L(r, k) * L(c, k);
-      L(r, c) = value / L(c, c);
+      L(r, c) = value * per_pivot;
     }
   }
   if (rank != nullptr) *rank = count;

@@ -18,7 +18,6 @@ constexpr std::uint64_t kStride[kStrides] = {1, 4, 16};
 template <class Pose>
 class SightingMemory {
  public:
-  using ByLandmark = typename Prediction<Pose>::ByLandmark;
   using PointSquare = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
 
   // What an update left of an observation.
@@ -26,10 +25,9 @@ class SightingMemory {
     Index sensor = 0;
     std::uint64_t frame = 0;  // of the sensor; 0: there is none
     Vector3 residual = Vector3::Zero();
-    Matrix3 noise = Matrix3::Zero();               // as stated
+    Matrix3 noise = Matrix3::Zero();               // R - J P J^T: of the residual, for the stated noise R
     typename Pose::Point y = Pose::Point::Zero();  // the landmark in the body frame
-    ByLandmark J_z_y = ByLandmark::Zero();
-    PointSquare P = PointSquare::Zero();  // of y
+    PointSquare P = PointSquare::Zero();           // of y
   };
   struct Sighting {
     std::uint64_t landmark = 0;

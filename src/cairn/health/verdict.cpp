@@ -17,6 +17,7 @@ constexpr double kNisRatio = 1.3;       // less is no reason, however significan
 constexpr double kSensorFactor = 2.25;  // of a variance: a standard deviation that is 1.5 times what is stated
 constexpr double kMotionFactor = 3.0;   // the motion's shows less clearly
 constexpr double kJumpProbability = 1e-6;
+constexpr double kMovedProbability = 1e-8;  // of a landmark that a closing refuses: a closing compares many
 constexpr double kLostShare = 0.5, kLostCompared = 6.0;  // most of what is seen is refused
 
 }  // namespace
@@ -32,6 +33,7 @@ double NisWindow::half_width(double sigmas) const {
 }
 
 Verdict::Verdict(double gate_probability) : honest_refusals_(1.0 - gate_probability) {
+  for (int rows = 1; rows <= 3; ++rows) moved_bound_[rows] = chi_square_quantile(rows, 1.0 - kMovedProbability);
   for (int dof = 1; dof <= 6; ++dof) jump_bound_[dof] = chi_square_quantile(dof, 1.0 - kJumpProbability);
 }
 
@@ -97,8 +99,9 @@ void Verdict::widened(double amount) {
   doubt(kDoubtWidened, kHold + 1);  // the update that widened takes one
 }
 
-void Verdict::closing(double refused, double known) {
+void Verdict::closing(double refused, double known, double worst, Index rows) {
   constexpr double kMostShare = 0.1;
+  if (refused > 0.0 && worst > moved_bound_[rows]) doubt(kDoubtLandmarks, 2 * kHold);
   if (refused >= 3.0 && refused > kMostShare * known) doubt(kDoubtClosing, 2 * kHold);
 }
 

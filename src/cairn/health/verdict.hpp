@@ -54,7 +54,8 @@ class Verdict {
 
   void add(const UpdateEvidence& evidence);
   void widened(double amount);
-  void closing(double refused, double known);
+  // `worst`: squared distance, of `rows` values, of the refused landmark that contradicts the map most.
+  void closing(double refused, double known, double worst, Index rows);
 
   Trust trust() const { return trust_; }
   std::uint32_t reasons() const { return reasons_; }
@@ -78,6 +79,7 @@ class Verdict {
   NisWindow nis_;
   double compared_ = 0.0, refused_ = 0.0, excess_ = 0.0;
   double jump_ = 0.0, jump_bound_[7] = {};
+  double moved_bound_[4] = {};
   double widenings_ = 0.0, last_widening_ = 0.0;
   int hold_[kKinds] = {};
   std::uint32_t reasons_ = 0;

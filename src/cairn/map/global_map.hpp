@@ -18,6 +18,7 @@ struct JoinReport {
   int iterations = 0;
   std::size_t rows = 0;  // of the joint test of the fused landmarks
   double distance = 0.0, threshold = 0.0;
+  double worst_refused = 0.0;  // squared distance of the refused landmark that contradicts most
   double moved_max = 0.0, moved_rms = 0.0;  // of landmarks that the map held before
 };
 

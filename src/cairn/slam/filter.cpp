@@ -180,7 +180,7 @@ void Filter<Pose>::note_closing() {
   if (closing.submaps == closings_) return;
   closings_ = closing.submaps;
   if (closing.widened()) health_.widened(closing.widened_position);
-  health_.closed(closing.join.refused, closing.join.refused + closing.join.fused);
+  health_.closed(closing.join.refused, closing.join.refused + closing.join.fused, closing.join.worst_refused);
 }
 
 template <class Pose>

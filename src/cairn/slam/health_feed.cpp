@@ -29,7 +29,7 @@ void HealthFeed<Pose>::before(const Frame<Pose>& frame, const SortedFrame<Pose>&
   count_ = 0;
   before_ = map_.state().pose();
   covariance_before_ = map_.state().pose_covariance();
-  const auto R = before_.rotation().matrix();
+  const typename Pose::Rotation::Matrix R = before_.rotation().matrix();
   for (const Candidate<Pose>& candidate : sorted) {
     if (candidate.observation >= frame.landmarks) continue;  // another vehicle, which moves
     Seen& seen = seen_[count_++];
@@ -40,8 +40,8 @@ void HealthFeed<Pose>::before(const Frame<Pose>& frame, const SortedFrame<Pose>&
     sighted.z = frame.z(candidate.observation);
     sighted.innovation = frame.sensor.residual(frame.z(candidate.observation), candidate.prediction.z);
     sighted.noise = stated_noise(frame, candidate.observation, candidate.prediction);
-    sighted.J_z_y = candidate.prediction.J_z_landmark * R;
-    sighted.y = before_.rotation().inverse() * (map_.state().landmark(candidate.slot) - before_.translation());
+    sighted.J_z_y.noalias() = candidate.prediction.J_z_landmark.lazyProduct(R);
+    sighted.y = R.transpose() * (map_.state().landmark(candidate.slot) - before_.translation());
   }
 }
 
@@ -58,37 +58,55 @@ void HealthFeed<Pose>::after(const Frame<Pose>& frame) {
   }
   health_.correct(before_, covariance_before_, map_.state().pose(), map_.state().pose_covariance());
   health_.finish(report_.last().nis, report_.last().rows);
-  for (Index i = 0; i < frame.landmarks; ++i) remember(frame, i);
+  if (frame.sensor.may_abort()) return;  // the update has been committed: a callback must not be asked any more
+  after_ = map_.state().pose();
+  turn_after_ = after_.rotation().matrix();
+  Index next = 0;
+  for (Index i = 0; i < frame.landmarks; ++i)
+    remember(frame, i, next < count_ && seen_[next].observation == i ? &seen_[next++].sighted : nullptr);
 }
 
 // The place of an observed landmark in the body frame: as the filter estimates it after the update, or, if the
-// observation was refused, as the observation itself says.
+// observation was refused, as the observation itself says. `sighted`: of the same observation, or null.
 template <class Pose>
-void HealthFeed<Pose>::remember(const Frame<Pose>& frame, Index observation) {
-  if (frame.sensor.may_abort()) return;  // the update has been committed: a callback must not be asked any more
+void HealthFeed<Pose>::remember(const Frame<Pose>& frame, Index observation, const Sighted<Pose>* sighted) {
+  // If the update moves the point y by less than this part of its distance, the Jacobians from before it still hold:
+  // the second order is 1e-5 of a value. They save a call of the sensor.
+  constexpr double kSlightMove = 0.005;
+  using PointSquare = typename SightingMemory<Pose>::PointSquare;
+  using ByLandmark = typename Prediction<Pose>::ByLandmark;
   const Match& match = report_.matches()[observation];
   const std::optional<Index> slot = match.landmark == kNoId ? std::nullopt : map_.table().find(match.landmark);
   if (!slot || match.reason == Reason::ambiguous) return;
-  const State<Pose>& state = map_.state();
-  const Pose pose = state.pose();
-  const typename Pose::Rotation::Matrix R = pose.rotation().matrix();
   const bool refused = match.decision == Decision::rejected;
-  typename Pose::Point landmark = state.landmark(*slot);
+  Point landmark = map_.state().landmark(*slot);
   Placement<Pose> placement;
   if (refused) {
-    if (!frame.sensor.place(pose, frame.z(observation), MountError<Pose>::Zero(), placement)) return;
+    if (!frame.sensor.place(after_, frame.z(observation), MountError<Pose>::Zero(), placement)) return;
     landmark = placement.landmark;
   }
-  Prediction<Pose> prediction;
-  if (!frame.sensor.predict(pose, landmark, MountError<Pose>::Zero(), prediction)) return;
+  const Matrix& R = turn_after_;
   Left<Pose> left;
-  left.residual = frame.sensor.residual(frame.z(observation), prediction.z);
-  left.noise = stated_noise(frame, observation, prediction);
-  left.y = pose.rotation().inverse() * (landmark - pose.translation());
-  left.J_z_y = prediction.J_z_landmark * R;
-  left.P = refused ? placement.J_landmark_z * left.noise * placement.J_landmark_z.transpose()
-                   : state.relative_covariance(*slot);
-  left.P = (R.transpose() * left.P * R).eval();
+  ByLandmark J_z_y;
+  left.y = R.transpose() * (landmark - after_.translation());
+  if (sighted != nullptr && !refused && frame.sensor.relative() &&
+      (left.y - sighted->y).squaredNorm() < kSlightMove * kSlightMove * sighted->y.squaredNorm()) {
+    J_z_y = sighted->J_z_y;
+    left.noise = sighted->noise;
+    left.residual = sighted->innovation - J_z_y * (left.y - sighted->y);
+  } else {
+    Prediction<Pose> prediction;
+    if (!frame.sensor.predict(after_, landmark, MountError<Pose>::Zero(), prediction)) return;
+    J_z_y.noalias() = prediction.J_z_landmark.lazyProduct(R);
+    left.noise = stated_noise(frame, observation, prediction);
+    left.residual = frame.sensor.residual(frame.z(observation), prediction.z);
+  }
+  const PointSquare P = refused ? placement.J_landmark_z * left.noise * placement.J_landmark_z.transpose()
+                                : map_.state().relative_covariance(*slot);
+  const PointSquare turned = R.transpose().lazyProduct(P);
+  left.P.noalias() = turned.lazyProduct(R);
+  const ByLandmark by_P = J_z_y.lazyProduct(left.P);
+  left.noise.noalias() -= by_P.lazyProduct(J_z_y.transpose());
   health_.remember(match.landmark, left);
 }
 

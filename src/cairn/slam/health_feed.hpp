@@ -12,6 +12,9 @@ namespace cairn {
 template <class Pose>
 class HealthFeed {
  public:
+  using Point = typename Pose::Point;
+  using Matrix = typename Pose::Rotation::Matrix;
+
   HealthFeed(Arena& arena, const FilterOptions<Pose>& options, const LocalMap<Pose>& map, const FrameReport& report,
              HealthMonitor<Pose>& health);
 
@@ -25,14 +28,15 @@ class HealthFeed {
     Index observation;
     Sighted<Pose> sighted;
   };
-  void remember(const Frame<Pose>& frame, Index observation);
+  void remember(const Frame<Pose>& frame, Index observation, const Sighted<Pose>* sighted);
 
   const LocalMap<Pose>& map_;
   const FrameReport& report_;
   HealthMonitor<Pose>& health_;
   Seen* seen_;
   Index count_ = 0;
-  Pose before_;
+  Pose before_, after_;
+  Matrix turn_after_ = Matrix::Identity();  // the rotation of after_
   typename Pose::Square covariance_before_ = Pose::Square::Zero();
 };
 

@@ -66,9 +66,21 @@ TEST_CASE("verdict: each reason is named") {
   CHECK(after([](UpdateEvidence& e, Verdict&) { e.drift = 6.0; }, 1) == kDoubtBias);
   CHECK(after([](UpdateEvidence& e, Verdict&) { e.jump = 100.0; }, 1) == kDoubtJump);
   CHECK(after([](UpdateEvidence& e, Verdict&) { e.contradicting = 1; }, 1) == kDoubtLandmarks);
-  CHECK(after([](UpdateEvidence&, Verdict& v) { v.closing(5, 20); }, 1) == kDoubtClosing);
+  CHECK(after([](UpdateEvidence&, Verdict& v) { v.closing(5, 20, 20.0, 2); }, 1) == kDoubtClosing);
+  CHECK(after([](UpdateEvidence&, Verdict& v) { v.closing(1, 20, 50.0, 2); }, 1) == kDoubtLandmarks);
+  CHECK(after([](UpdateEvidence&, Verdict& v) { v.closing(5, 20, 50.0, 3); }, 1) == (kDoubtClosing | kDoubtLandmarks));
   CHECK(after([](UpdateEvidence& e, Verdict&) { e.blind = 1; }, 1) == kDoubtBlind);
   CHECK(after([](UpdateEvidence& e, Verdict&) { e.pivot = -0.1; }, 1) == kDoubtDefinite);
+}
+
+TEST_CASE("verdict: a landmark that a closing refuses by chance is no reason") {
+  Verdict verdict(kGate);
+  Source source;
+  verdict.closing(1, 20, 30.0, 2);  // beyond the gate, and not impossible for an honest one
+  verdict.closing(2, 20, 30.0, 3);
+  verdict.closing(0, 20, 0.0, 3);
+  verdict.add(source.honest());
+  CHECK(verdict.reasons() == 0);
 }
 
 TEST_CASE("verdict: a factor that is not known, and one that is too small, are no reason") {

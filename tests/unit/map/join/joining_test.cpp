@@ -125,5 +125,6 @@ TEST_CASE_TEMPLATE("joining: a single landmark's gate is that of so many coordin
         const JoinReport report = map->join(second);
         CHECK(report.refused == (squared_distance < (Pose::kDim == 3 ? 11.3 : 9.2) ? 0 : 1));
         CHECK(report.fused == 1 - report.refused);
+        CHECK(report.worst_refused == doctest::Approx(report.refused > 0 ? squared_distance : 0.0).epsilon(0.01));
       }
 }

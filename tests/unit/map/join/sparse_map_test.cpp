@@ -231,6 +231,7 @@ TEST_CASE_TEMPLATE("sparse map: a landmark that contradicts the map is left out,
     const Vector3 before = position_of(map, liar);
     const JoinReport report = map.join(bad);
     CHECK(report.refused == 1);
+    CHECK(report.worst_refused > 50.0);
     CHECK(report.fused == 6);
     CHECK(report.rows == 6 * Pose::kDim);
     CHECK(report.distance <= report.threshold);

@@ -7,6 +7,7 @@
 
 #include "core/chi_square.hpp"
 #include "ekf/fix_rows.hpp"
+#include "map/refusals.hpp"
 #include "sensor/sensor.hpp"
 
 namespace cairn {
@@ -237,8 +238,10 @@ JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
     const auto bound = [&](Index rows) {
       return chi_square_quantile(static_cast<double>(rows), options.joint_gate_probability);
     };
+    Refusals refusals;
     gate_blocks(*fusing, kDim, chi_square_quantile(kDim, options.gate_probability), bound,
-                [](Gate, Index, double, double) {});
+                [&](Gate gate, Index, double distance, double most) { refusals.add(gate, distance, most); });
+    report_.worst_refused = refusals.worst();
     report_.rows = kDim * pairs_.size();
     report_.distance = fusing->nis();
     report_.threshold = report_.rows > 0 ? bound(static_cast<Index>(report_.rows)) : 0.0;

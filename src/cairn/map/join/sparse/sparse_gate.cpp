@@ -9,6 +9,7 @@
 #include "core/chi_square.hpp"
 #include "linear/joint_gate.hpp"
 #include "map/join/sparse/sparse_queries.hpp"
+#include "map/refusals.hpp"
 #include "map/submap_innovation.hpp"
 
 namespace cairn {
@@ -129,10 +130,6 @@ class KnownLandmarks {
   std::unique_ptr<bool[]> refused_;
 };
 
-}  // namespace
-
-namespace {
-
 // A landmark that was placed wrongly contradicts every later submap (docs/update.md, "A landmark that was placed
 // wrongly").
 Fusing weigh(std::uint64_t in_map, std::uint64_t in_submap, bool gross) {
@@ -145,9 +142,10 @@ Fusing weigh(std::uint64_t in_map, std::uint64_t in_submap, bool gross) {
 }  // namespace
 
 template <class Pose>
-std::vector<Fusing> find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap) {
+Contradicting find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap) {
   constexpr double kHonest = 1e-6;  // chance of an honest landmark whose contradiction is gross
-  std::vector<Fusing> fusing(submap.ids.size(), Fusing::fuse);
+  Contradicting found{std::vector<Fusing>(submap.ids.size(), Fusing::fuse), 0.0};
+  Refusals refusals;
   std::vector<std::pair<Index, bool>> contradicting;  // gross or not
   KnownLandmarks<Pose> landmarks(state, submap);
   const Index known = landmarks.count();
@@ -156,9 +154,11 @@ std::vector<Fusing> find_contradicting(const SparseState<Pose>& state, const Sub
     return chi_square_quantile(static_cast<double>(rows), state.options.joint_gate_probability);
   };
   gate_blocks(landmarks, Pose::kDim, chi_square_quantile(Pose::kDim, state.options.gate_probability), bound,
-              [&](Gate gate, Index block, double distance, double) {
+              [&](Gate gate, Index block, double distance, double most) {
                 contradicting.emplace_back(landmarks.local(block), gate == Gate::single && distance > gross);
+                refusals.add(gate, distance, most);
               });
+  found.worst = refusals.worst();
   const auto count_in_map = [&](Index i) { return state.landmarks[state.ids.find(submap.ids[i])->second].count; };
   // Where most landmarks contradict, the pose of the submap may be what is wrong. A landmark that was seen once says
   // nothing about it.
@@ -166,13 +166,13 @@ std::vector<Fusing> find_contradicting(const SparseState<Pose>& state, const Sub
   for (const auto& [i, contradicts] : contradicting) against += count_in_map(i) > 1 && submap.counts[i] > 1 ? 1 : 0;
   const bool agrees = known - static_cast<Index>(contradicting.size()) > against;
   for (const auto& [i, contradicts] : contradicting)
-    fusing[i] = agrees ? weigh(count_in_map(i), submap.counts[i], contradicts) : Fusing::leave_out;
-  return fusing;
+    found.fusing[i] = agrees ? weigh(count_in_map(i), submap.counts[i], contradicts) : Fusing::leave_out;
+  return found;
 }
 
 template bool may_contradict(const SparseState<SE2>&, std::uint32_t, const JoinReport&);
 template bool may_contradict(const SparseState<SE3>&, std::uint32_t, const JoinReport&);
-template std::vector<Fusing> find_contradicting(const SparseState<SE2>&, const Submap<SE2>&);
-template std::vector<Fusing> find_contradicting(const SparseState<SE3>&, const Submap<SE3>&);
+template Contradicting find_contradicting(const SparseState<SE2>&, const Submap<SE2>&);
+template Contradicting find_contradicting(const SparseState<SE3>&, const Submap<SE3>&);
 
 }  // namespace cairn

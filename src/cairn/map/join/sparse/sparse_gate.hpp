@@ -21,12 +21,16 @@ enum class Fusing : char {
 };
 
 // The exact gates, for a submap that has not joined.
+struct Contradicting {
+  std::vector<Fusing> fusing;  // for each landmark of the submap
+  double worst = 0.0;          // squared distance of the one that contradicts most
+};
 template <class Pose>
-std::vector<Fusing> find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap);
+Contradicting find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap);
 
 extern template bool may_contradict(const SparseState<SE2>&, std::uint32_t, const JoinReport&);
 extern template bool may_contradict(const SparseState<SE3>&, std::uint32_t, const JoinReport&);
-extern template std::vector<Fusing> find_contradicting(const SparseState<SE2>&, const Submap<SE2>&);
-extern template std::vector<Fusing> find_contradicting(const SparseState<SE3>&, const Submap<SE3>&);
+extern template Contradicting find_contradicting(const SparseState<SE2>&, const Submap<SE2>&);
+extern template Contradicting find_contradicting(const SparseState<SE3>&, const Submap<SE3>&);
 
 }  // namespace cairn

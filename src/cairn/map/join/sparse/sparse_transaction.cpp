@@ -23,10 +23,11 @@ JoinReport SparseTransaction<Pose>::join(const Submap<Pose>& submap) {
   if (report_.rows == 0 || !may_contradict(state_, leaf, report_)) return report_;
   // Some landmark does not fit: the exact gates, which cost more, find out which.
   change_.reset();
-  const std::vector<Fusing> fusing = find_contradicting(state_, submap);
+  const Contradicting contradicting = find_contradicting(state_, submap);
   report_ = JoinReport();
+  report_.worst_refused = contradicting.worst;
   change_.emplace(state_, index_);
-  try_join(submap, fusing);
+  try_join(submap, contradicting.fusing);
   return report_;
 }
 
