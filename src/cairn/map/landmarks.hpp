@@ -16,6 +16,9 @@ class SpatialIndex;
 // How a map holds its landmarks: with their joint covariance, or as a sparse system of submaps.
 enum class MapKind { dense, sparse };
 
+// A landmark with fewer observations is young: it bears no witness about the pose, and may have been placed wrongly.
+constexpr std::uint64_t kGrownUp = 10;
+
 class Landmarks {
  public:
   virtual ~Landmarks() = default;

@@ -34,8 +34,7 @@ class MotionTrust {
 
   // A landmark bears witness after it has agreed with the motion this often; other vehicles always do.
   bool is_witness(Index slot) const {
-    constexpr std::uint64_t kSightings = 10;
-    return slot < map_.table().companions() || map_.table().observations(slot) >= kSightings;
+    return slot < map_.table().companions() || map_.table().observations(slot) >= kGrownUp;
   }
 
   // --- one frame, in this order ---

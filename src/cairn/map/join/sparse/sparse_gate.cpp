@@ -133,8 +133,7 @@ class KnownLandmarks {
 // A landmark that was placed wrongly contradicts every later submap (docs/update.md, "A landmark that was placed
 // wrongly").
 Fusing weigh(std::uint64_t in_map, std::uint64_t in_submap, bool gross) {
-  constexpr std::uint64_t kYoung = 10;  // observations, as MotionTrust::is_witness() has it
-  if (in_map >= kYoung || in_submap < in_map) return Fusing::leave_out;
+  if (in_map >= kGrownUp || in_submap < in_map) return Fusing::leave_out;
   if (in_submap > in_map) return Fusing::supersede;
   return gross ? Fusing::remove_both : Fusing::leave_out;
 }
