@@ -317,6 +317,23 @@ class Mrclam(ProgramTest):
         for robot in (1, 2, 3, 4):
             self.assertIn(f"note: Robot{robot}_Odometry.dat: sorted by time, because of 1 line earlier", done.stderr)
 
+    def test_turns_slower_than_recorded(self):
+        # The odometry says 0.4 rad/s, the robots turn 0.2: the posts tell.
+        def spoil(files):
+            for robot in (1, 2):
+                name = f"Robot{robot}_Odometry.dat"
+                files[name] = files[name].replace(" 0.2\n", " 0.4\n")
+        done = call("run", mrclam_folder(self.path("a"), spoil=spoil), "--summary", "json")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("note: turns while driving: 0.50 of the odometry's rate", done.stderr)
+        self.assertLess(json.loads(done.stdout)["pose_rmse_m"], 0.05)
+
+    @unittest.skipUnless(DATA, "CAIRN_DATA_DIR is not set")
+    def test_real_robots_that_turn_slower_than_recorded(self):
+        s = self.summary(os.path.join(DATA, "mrclam9"))
+        self.assertLess(s["pose_rmse_m"], 0.45)
+        self.assertLess(s["landmark_rmse_m"], 0.06)
+
     def test_limits_of_submaps(self):
         folder = mrclam_folder(self.path("a"))
         submaps = lambda *options: self.untimed(self.summary(folder, "--mode", "submaps", *options))

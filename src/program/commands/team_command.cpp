@@ -6,6 +6,7 @@
 #include "program/commands/commands.hpp"
 #include "program/commands/usv_compare.hpp"
 #include "program/drives/fleet_drive.hpp"
+#include "program/drives/turn_gain.hpp"
 #include "program/options/team_options.hpp"
 #include "program/output/progress.hpp"
 #include "program/output/scene_output.hpp"
@@ -94,7 +95,8 @@ void run_team_command(const std::vector<std::string>& arguments) {
   const MrclamOptions options = parse_mrclam_options(arguments);
   if (options.common.help) return write_help();
   const auto begin = Clock::now();
-  const logs::MrclamLog log = logs::read_mrclam(options.folder);
+  logs::MrclamLog log = logs::read_mrclam(options.folder);
+  correct_turns(log);
   MrclamDrive drive(log, options.noise);
   if (!options.common.quiet) {
     write_notes(log.notes);
