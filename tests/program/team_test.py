@@ -327,6 +327,9 @@ class Mrclam(ProgramTest):
         self.assertEqual(done.returncode, 0)
         self.assertIn("note: turns while driving: 0.50 of the odometry's rate", done.stderr)
         self.assertLess(json.loads(done.stdout)["pose_rmse_m"], 0.05)
+        asis = call("run", self.path("a"), "--turns", "recorded", "--summary", "json")
+        self.assertNotIn("turns while driving", asis.stderr)
+        self.assertGreater(json.loads(asis.stdout)["pose_rmse_m"], 0.05)
 
     @unittest.skipUnless(DATA, "CAIRN_DATA_DIR is not set")
     def test_real_robots_that_turn_slower_than_recorded(self):

@@ -96,7 +96,7 @@ void run_team_command(const std::vector<std::string>& arguments) {
   if (options.common.help) return write_help();
   const auto begin = Clock::now();
   logs::MrclamLog log = logs::read_mrclam(options.folder);
-  correct_turns(log);
+  if (options.turns == 0) correct_turns(log);
   MrclamDrive drive(log, options.noise);
   if (!options.common.quiet) {
     write_notes(log.notes);

@@ -117,6 +117,11 @@ OptionGroup robot_options(MrclamOptions& o) {
       number({"--bearing-noise", "X",
               "Standard deviation of an observed bearing, rad. Default: {default}; without ids 0.016.", ""},
              kPositive, o.noise.bearing, o.bearing_noise),
+      choice({"--turns", "HOW",
+              "The odometry's rate of turn: `measured` (the default) corrects it, if the posts of the whole recording "
+              "show that the robots turn at another rate; `recorded` takes it as it is.",
+              ""},
+             {"measured", "recorded"}, o.turns),
   };
   return group;
 }

@@ -26,6 +26,7 @@ struct MrclamOptions {
   CommonChoices common;
   TeamChoices team;
   MrclamNoise noise;
+  std::int32_t turns = 0;  // 0: measured, 1: recorded
   std::optional<double> range_noise, bearing_noise;  // as requested; `noise` holds the values that are used
   std::string folder;
 };
