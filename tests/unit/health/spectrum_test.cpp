@@ -29,7 +29,8 @@ void compare(const Square& A, const typename Spectrum<Square>::Vector& b) {
   const Square shifted = Square::Identity() + A;
   const double inverse = b.dot(shifted.ldlt().solve(b));
   const auto by_inverse = squares.cwiseQuotient((spectrum.values.array() + 1.0).matrix()).sum();
-  CHECK(std::abs(by_inverse - inverse) < 1e-11 * b.squaredNorm());
+  // Rounding moves each eigenvalue by a part of the largest one, as in Eigen's solver.
+  CHECK(std::abs(by_inverse - inverse) <= 1e-13 * (1.0 + size) * b.squaredNorm());
 }
 
 template <int n>
