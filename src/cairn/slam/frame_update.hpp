@@ -47,7 +47,7 @@ class FrameUpdate {
   const Log& log_;
   Index* window_;  // slots
   MountSquare<Pose> mount_;
-  double* by_pose_;        // Jacobian of the accepted rows by the pose, kDof columns
+  double* by_pose_;  // Jacobian of the accepted rows by the pose, kDof columns
   struct Heard {
     Index observation, slot;
   };

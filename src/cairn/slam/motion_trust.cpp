@@ -98,7 +98,6 @@ bool MotionTrust<Pose>::contradicted(Index accepted, const double* J, const doub
   for (Index a = 0; a < heard_; ++a)
     if (!placed_[a].placed) placed_[a] = witnesses_[a];
   keeping_ = !(unlikely() && vote(widening));
-  undecided_ = keeping_ && unlikely() && next_.kept + kKeptOfFrame <= kKept;
   return !keeping_;
 }
 
@@ -160,7 +159,9 @@ bool MotionTrust<Pose>::vote(Widening<Pose>& widening) {
   const MotionVote<Pose> placed = vote_motion(placed_, count, bounds());
   const bool is_placed = placed.agreeing > linear.agreeing;
   const MotionVote<Pose>& best = is_placed ? placed : linear;
-  if (!enough(is_placed ? placed_ : witnesses_, count, best)) return false;
+  const Support support = support_of(is_placed ? placed_ : witnesses_, count, best);
+  undecided_ = support == Support::one_frame && next_.kept + kKeptOfFrame <= kKept;
+  if (support != Support::enough) return false;
   widening.motion = best.motion;
   widening.covariance = best.motion * best.motion.transpose();  // (F2): this motion is one standard deviation
   forget(next_);
@@ -172,8 +173,9 @@ bool MotionTrust<Pose>::vote(Widening<Pose>& widening) {
 // Most witnesses agree, in more than one frame, and different sources give more rows than a motion has freedoms: one
 // wrong source agrees with itself.
 template <class Pose>
-bool MotionTrust<Pose>::enough(const Witness<Pose>* witnesses, Index count, const MotionVote<Pose>& vote) const {
-  if (2 * vote.agreeing <= count) return false;
+typename MotionTrust<Pose>::Support MotionTrust<Pose>::support_of(const Witness<Pose>* witnesses, Index count,
+                                                                  const MotionVote<Pose>& vote) const {
+  if (2 * vote.agreeing <= count) return Support::none;
   const auto agrees = [&](Index a) { return witnesses[a].distance(vote.motion) <= bound(witnesses[a].rows); };
   Index rows = 0, now = 0, before = 0;
   int widest = 0;
@@ -187,7 +189,8 @@ bool MotionTrust<Pose>::enough(const Witness<Pose>* witnesses, Index count, cons
     rows += witnesses[a].rows;
     widest = std::max(widest, witnesses[a].rows);
   }
-  return now > 0 && before > 0 && rows >= kDof + widest;
+  if (rows < kDof + widest) return Support::none;
+  return now > 0 && before > 0 ? Support::enough : Support::one_frame;
 }
 
 template <class Pose>

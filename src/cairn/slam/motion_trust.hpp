@@ -59,8 +59,8 @@ class MotionTrust {
   bool contradicted(bool accepted, Widening<Pose>& widening) {
     return contradicted(accepted ? 1 : 0, witnesses_[0].J.data(), witnesses_[0].r.data(), kMostRows, widening);
   }
-  // Whether the frame contradicts the pose and later frames can still decide what is wrong. What a new landmark's place
-  // would be is not known until then.
+  // Whether most witnesses agree on another pose, but in one frame only: another frame has to decide. Where a new
+  // landmark is, is not known until then.
   bool undecided() const { return undecided_; }
   // The update is done. A frame whose update throws leaves no trace here.
   void commit();
@@ -85,7 +85,8 @@ class MotionTrust {
   BoundsByRows bounds() const;
   bool unlikely() const;
   bool vote(Widening<Pose>& widening);
-  bool enough(const Witness<Pose>* witnesses, Index count, const MotionVote<Pose>& vote) const;
+  enum class Support { none, one_frame, enough };
+  Support support_of(const Witness<Pose>* witnesses, Index count, const MotionVote<Pose>& vote) const;
   double bound(int rows) const { return thresholds_.single(rows); }
 
   const FilterOptions<Pose>& options_;

@@ -186,7 +186,7 @@ TEST_CASE("ekf: frames of many rows in a larger map") {
 TEST_CASE("ekf: gates refuse what trying everything refuses") {
   int refused = 0, taken = 0;
   for (ErrorKind error : kBoth)
-    for (unsigned seed = 90; seed < 96; ++seed) {
+    for (unsigned seed = 90; seed < 102; ++seed) {
       CAPTURE(seed);
       Random random(seed);
       FilterOptions<SE3> options = random_options(error, random);
@@ -200,10 +200,13 @@ TEST_CASE("ekf: gates refuse what trying everything refuses") {
         drive.move(pair);
         std::vector<Seen> frame = drive.look(head, 8);
         for (std::size_t i = 0; step > 1 && i < frame.size(); i += 3) frame[i].z += 0.1 * random.normal_vector<3>();
-        CHECK(pair.update(0, frame));
+        const bool same = pair.update(0, frame);
+        const UpdateReport& report = pair.filter().report();
+        if (report.placed_again > 0 || report.deferred > 0) break;  // the reference places no landmark again
+        CHECK(same);
         check(pair);
-        refused += static_cast<int>(pair.filter().report().rejected);
-        taken += static_cast<int>(pair.filter().report().matched);
+        refused += static_cast<int>(report.rejected);
+        taken += static_cast<int>(report.matched);
       }
     }
   CHECK(refused > 20);
