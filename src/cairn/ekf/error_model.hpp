@@ -76,6 +76,16 @@ class ErrorModel {
     return J * ordinary * J.transpose();
   }
 
+  // The filter's own error after a motion from `before` to `next`, by the ordinary error of the increment in the axes
+  // of the body: e_p += R dp, e_R += R dtheta, and xi_p = e_p - G(p) e_R at the new position.
+  Square by_increment(const Pose& before, const Pose& next) const {
+    Square B = Pose::turn_axes(before.rotation());
+    if (invariant())
+      B.template topRightCorner<kDim, kTurn>() =
+          -arm(next.translation()) * B.template bottomRightCorner<kTurn, kTurn>();
+    return B;
+  }
+
   // The columns of xi_R of a Jacobian's rows, for rows that depend on the point x by J_point: block(:, R) += J_point
   // G(x). `block` is column-major, `rows` rows a column, its first column that of xi_p.
   template <class JPoint>

@@ -43,14 +43,9 @@ template <class Pose>
 bool PendingMotion<Pose>::add(const Pose& before, const Pose& next, const Increment<Pose>& increment,
                               const MotionCoupling<Pose>* coupling) {
   using Rotation = typename Pose::Rotation;
-  // The increment's ordinary error turned into the map's axes: e_p += R dp + G(R d) e_theta, e_theta += R dtheta.
-  Square B = Pose::turn_axes(before.rotation());
+  const Square B = model_.by_increment(before, next);
   Square F = F_, N = N_;
-  if (model_.invariant()) {
-    // xi_p = e_p - G(p) e_theta at the new position; the error itself stays: propagation is the identity.
-    B.template topRightCorner<kDim, kTurn>() =
-        -model_.arm(next.translation()) * B.template bottomRightCorner<kTurn, kTurn>();
-  } else {
+  if (!model_.invariant()) {  // e_p += G(R d) e_R; the invariant error itself stays: propagation is the identity
     Square step = Square::Identity();
     step.template topRightCorner<kDim, kTurn>() = Rotation::turn(next.translation() - before.translation());
     F = step * F_;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Marginal covariances of a state: of the pose and of chosen points.
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Eigenvalues>
 
 #include "ekf/ekf_update.hpp"
 #include "ekf/state.hpp"
@@ -12,8 +11,9 @@
 namespace cairn {
 namespace {
 
-// error^T covariance^-1 error, negative if the covariance is singular: if what is left of it in some direction is no more
-// than rounding. `rounded` holds the sizes of the numbers of which the variances are sums: they carry its rounding.
+// error^T covariance^-1 error, negative if the covariance is singular: if what is left of it in some direction is no
+// more than rounding. `rounded` holds the sizes of the numbers of which the variances are sums: they carry its
+// rounding.
 template <class Pose>
 double normalised(const typename Pose::Square& covariance, const typename Pose::Tangent& rounded,
                   const typename Pose::Tangent& error) {

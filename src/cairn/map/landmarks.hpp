@@ -18,6 +18,8 @@ enum class MapKind { dense, sparse };
 
 // A landmark with fewer observations is young: it bears no witness about the pose, and may have been placed wrongly.
 constexpr std::uint64_t kGrownUp = 10;
+// A contradiction is gross if an honest observation contradicts as much with less than this chance.
+constexpr double kGrossChance = 1e-6;
 
 class Landmarks {
  public:

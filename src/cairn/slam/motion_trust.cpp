@@ -6,6 +6,7 @@
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
+#include "slam/vehicle_records.hpp"
 
 namespace cairn {
 namespace {
@@ -35,12 +36,11 @@ MotionTrust<Pose>::MotionTrust(Arena& arena, const FilterOptions<Pose>& options,
 template <class Pose>
 typename MotionTrust<Pose>::Record& MotionTrust<Pose>::record() {
   const std::uint64_t vehicle = map_.table().vehicle();
-  Index k = 0;
-  while (k < options_.max_companions && records_[k].used && records_[k].vehicle != vehicle) ++k;
-  if (!records_[k].used || records_[k].vehicle != vehicle) records_[k] = Record();
-  records_[k].used = true;
-  records_[k].vehicle = vehicle;
-  return records_[k];
+  Record& own = record_of(records_, options_.max_companions + 1, vehicle);
+  if (!belongs(own, vehicle)) own = Record();
+  own.used = true;
+  own.vehicle = vehicle;
+  return own;
 }
 
 template <class Pose>

@@ -3,11 +3,17 @@
 
 #include "core/chi_square.hpp"
 #include "slam/placed_point.hpp"
+#include "slam/vehicle_records.hpp"
 
 namespace cairn {
 namespace {
 
-constexpr Index kFrames = 4;  // with nothing but new landmarks, whose places are kept
+// Landmarks whose other places are kept: those of some frames with nothing but young landmarks. None without known ids.
+template <class Pose>
+Index most_landmarks(const FilterOptions<Pose>& options) {
+  constexpr Index kFrames = 4;
+  return options.association == AssociationKind::known ? kFrames * options.max_observations : 1;
+}
 
 bool refused(const Match& match) {
   return match.reason == Reason::gate || match.reason == Reason::batch_gate || match.reason == Reason::no_image;
@@ -23,23 +29,20 @@ OtherPlaces<Pose>::OtherPlaces(Arena& arena, const FilterOptions<Pose>& options,
       thresholds_(thresholds),
       trust_(trust),
       report_(report),
-      ids_(arena, static_cast<std::size_t>(kFrames * options.max_observations)),
-      landmarks_(arena.take<Landmark>(static_cast<std::size_t>(kFrames * options.max_observations))),
+      ids_(arena, static_cast<std::size_t>(most_landmarks(options))),
+      landmarks_(arena.take<Landmark>(static_cast<std::size_t>(most_landmarks(options)))),
       reckonings_(arena.take<Reckoning>(static_cast<std::size_t>(options.max_companions + 1))),
       judged_(arena.take<Judged>(static_cast<std::size_t>(options.max_observations))),
-      capacity_(kFrames * options.max_observations) {
-  constexpr double kHonest = 1e-6;  // chance of an honest observation that is gross
+      capacity_(most_landmarks(options)) {
   for (int rows = 1; rows <= kMostRows && !arena.measuring(); ++rows)
-    gross_[rows] = chi_square_quantile(rows, 1.0 - kHonest);
+    gross_[rows] = chi_square_quantile(rows, 1.0 - kGrossChance);
 }
 
 template <class Pose>
 typename OtherPlaces<Pose>::Reckoning& OtherPlaces<Pose>::reckoning() {
   const std::uint64_t vehicle = map_.table().vehicle();
-  Index k = 0;
-  while (k < options_.max_companions && reckonings_[k].used && reckonings_[k].vehicle != vehicle) ++k;
-  Reckoning& own = reckonings_[k];
-  if (!own.used || own.vehicle != vehicle) {
+  Reckoning& own = record_of(reckonings_, options_.max_companions + 1, vehicle);
+  if (!belongs(own, vehicle)) {
     if (own.used) forget();
     own = {vehicle, true, Pose(), Square::Zero()};
   }
@@ -49,24 +52,23 @@ typename OtherPlaces<Pose>::Reckoning& OtherPlaces<Pose>::reckoning() {
 template <class Pose>
 void OtherPlaces<Pose>::moved(const Increment<Pose>& increment) {
   constexpr double kFarthest = 1e4;  // m: beyond it, rounding would count beside the noise of an observation
+  if (!judges()) return;
   Reckoning& own = reckoning();
-  const Square to_axes = Pose::turn_axes(own.pose.rotation());
+  const Pose before = own.pose;
   own.pose = own.pose * increment.T_before_after;
-  Square to_invariant = to_axes;
-  to_invariant.template topRows<kDim>() -=
-      Pose::Rotation::turn(own.pose.translation()) * to_axes.template bottomRows<kTurn>();
-  own.drift += to_invariant * increment.covariance * to_invariant.transpose();
+  const Square B = ErrorModel<Pose>(ErrorKind::invariant).by_increment(before, own.pose);
+  own.drift += B * increment.covariance * B.transpose();
   if (own.pose.translation().norm() <= kFarthest && own.drift.trace() <= kFarthest * kFarthest) return;
   own.used = false;  // starts again
   forget();
 }
 
-// Covariance of the drift of a point that stays where it is.
+// Covariance of the drift of a point that stays where it is: e_x = xi_p + G(x) xi_R.
 template <class Pose>
 typename OtherPlaces<Pose>::PointSquare OtherPlaces<Pose>::drift_at(const Point& position, const Square& drift) {
   typename State<Pose>::PointByPose J;
   J.template leftCols<kDim>().setIdentity();
-  J.template rightCols<kTurn>() = Pose::Rotation::turn(position);
+  J.template rightCols<kTurn>() = ErrorModel<Pose>::arm(position);
   return J * drift * J.transpose();
 }
 
@@ -172,7 +174,7 @@ bool OtherPlaces<Pose>::judge_one(const Frame<Pose>& frame, Index observation, b
 template <class Pose>
 void OtherPlaces<Pose>::judge(const Frame<Pose>& frame, SortedFrame<Pose>& sorted) {
   count_ = 0;
-  if (options_.association != AssociationKind::known || !frame.sensor.relative()) return;
+  if (!judges() || !frame.sensor.relative()) return;
   const Trust trust = trust_in(frame);
   if (trust == Trust::none) return;
   for (Index i = 0; i < frame.landmarks; ++i) {

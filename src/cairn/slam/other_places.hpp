@@ -33,6 +33,8 @@ class OtherPlaces {
   void commit();
 
  private:
+  bool judges() const { return options_.association == AssociationKind::known; }
+
   static constexpr Index kPlaces = 3;  // of a landmark
   struct Place {
     Point position;           // by dead reckoning

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/joint_gate.hpp"
+#include "slam/vehicle_records.hpp"
+
 namespace cairn {
 namespace {
 
@@ -31,17 +34,16 @@ SlipPairs<Pose>::SlipPairs(Arena& arena, const FilterOptions<Pose>& options, con
 
 template <class Pose>
 typename SlipPairs<Pose>::Memory& SlipPairs<Pose>::memory(int sensor) const {
-  Memory* const own = memories_ + sensor * (options_.max_companions + 1);
+  const Index vehicles = options_.max_companions + 1;
   const std::uint64_t vehicle = map_.table().vehicle();
-  Index k = 0;
-  while (k < options_.max_companions && own[k].used && own[k].vehicle != vehicle) ++k;
-  if (!own[k].used || own[k].vehicle != vehicle || own[k].map_frame != map_.starts()) {
-    own[k].count = 0;
-    own[k].used = true;
-    own[k].vehicle = vehicle;
-    own[k].map_frame = map_.starts();
+  Memory& own = record_of(memories_ + sensor * vehicles, vehicles, vehicle);
+  if (!belongs(own, vehicle) || own.map_frame != map_.starts()) {
+    own.count = 0;
+    own.used = true;
+    own.vehicle = vehicle;
+    own.map_frame = map_.starts();
   }
-  return own[k];
+  return own;
 }
 
 template <class Pose>
@@ -124,8 +126,8 @@ void SlipPairs<Pose>::match(const Tangent& motion, double slack) {
       const Point off = known_[e].from_vehicle - at;
       const PointSquare S = known_[e].covariance + point.noise;
       if (off.squaredNorm() > most * S.trace()) continue;  // d^2 is at least that over the trace
-      const double distance = off.dot(S.ldlt().solve(off));
-      if (distance <= nearest) nearest = distance, best = e;
+      const double distance = squared_distance(off.data(), S.data(), Pose::kDim, Pose::kDim);
+      if (distance >= 0.0 && distance <= nearest) nearest = distance, best = e;
     }
     if (best < 0) continue;
     Index& taken = taken_[best];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cairn {
 
@@ -143,20 +144,15 @@ void SparseChange<Pose>::finish(JoinReport& report) {
 template <class Pose>
 void SparseChange<Pose>::hide() noexcept {
   for (const auto& [old, next] : hidden_) {
-    const Number slot = state_.landmarks[old].slot;
     const auto name = state_.ids.find(state_.landmarks[old].id);
-    state_.landmarks[old].slot = State::kNone;
     if (next != State::kNone) {
+      const Number slot = std::exchange(state_.landmarks[old].slot, State::kNone);
       state_.landmarks[next].id = name->first;
       state_.landmarks[next].slot = slot;
       state_.visible[slot] = next;
       name->second = next;
     } else {
-      state_.ids.erase(name);
-      state_.visible[slot] = state_.visible.back();
-      state_.landmarks[state_.visible[slot]].slot = slot;
-      state_.landmarks[old].slot = State::kNone;
-      state_.visible.pop_back();
+      state_.hide(name);
       index_.remove(state_.visible.size());
     }
   }

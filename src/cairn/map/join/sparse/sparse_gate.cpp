@@ -142,13 +142,12 @@ Fusing weigh(std::uint64_t in_map, std::uint64_t in_submap, bool gross) {
 
 template <class Pose>
 Contradicting find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap) {
-  constexpr double kHonest = 1e-6;  // chance of an honest landmark whose contradiction is gross
   Contradicting found{std::vector<Fusing>(submap.ids.size(), Fusing::fuse), 0.0};
   Refusals refusals;
   std::vector<std::pair<Index, bool>> contradicting;  // gross or not
   KnownLandmarks<Pose> landmarks(state, submap);
   const Index known = landmarks.count();
-  const double gross = chi_square_quantile(Pose::kDim, 1.0 - kHonest);
+  const double gross = chi_square_quantile(Pose::kDim, 1.0 - kGrossChance);
   const auto bound = [&](Index rows) {
     return chi_square_quantile(static_cast<double>(rows), state.options.joint_gate_probability);
   };

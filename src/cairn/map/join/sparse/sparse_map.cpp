@@ -34,15 +34,9 @@ template <class Pose>
 void SparseMap<Pose>::remove(std::uint64_t id) {
   const auto found = state_.ids.find(id);
   if (found == state_.ids.end()) return;
-  typename SparseState<Pose>::Landmark& landmark = state_.landmarks[found->second];
-  const std::uint32_t last = state_.visible.back(), slot = landmark.slot;
-  state_.visible[slot] = last;
-  state_.landmarks[last].slot = slot;
-  landmark.slot = SparseState<Pose>::kNone;
-  state_.visible.pop_back();
+  const auto slot = state_.hide(found);
   index_.remove(state_.visible.size());
   if (slot < state_.visible.size()) index_.moved(slot);
-  state_.ids.erase(found);
 }
 
 template <>

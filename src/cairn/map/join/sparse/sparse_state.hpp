@@ -90,6 +90,17 @@ struct SparseState {
   Number change = 0;  // number of the last change
 
   bool find(std::uint64_t id, std::size_t& index) const;
+  // Callers do not see the landmark of this name any more; the last visible one takes its index, which is returned. Its
+  // factors stay.
+  Number hide(std::unordered_map<std::uint64_t, Number>::const_iterator name) noexcept {
+    const Number hidden = name->second, last = visible.back(), slot = landmarks[hidden].slot;
+    visible[slot] = last;
+    landmarks[last].slot = slot;
+    landmarks[hidden].slot = kNone;
+    visible.pop_back();
+    ids.erase(name);
+    return slot;
+  }
   const Point& point(std::size_t index) const { return landmarks[visible[index]].position; }
   bool shared(Number landmark) const { return landmarks[landmark].submaps.size() > 1; }
   bool is_error(Variable v) const { return is_landmark(v) && landmarks[static_cast<Number>(v >> 1)].error; }
