@@ -406,9 +406,10 @@ typedef struct cairn_update_report {
                                        pairs may exist */
   double association_seconds;     /**< duration of the association, s */
   uint32_t deferred;              /**< landmarks that do not count after the update: seen too rarely
-                                       (`deferred_sightings`), or as many observations contradict them as agree */
-  uint32_t removed;               /**< landmarks removed after the update: missed too often, or not seen again in
-                                       time */
+                                       (`deferred_sightings`, or once while gross errors are many), or as many
+                                       observations contradict them as agree */
+  uint32_t removed;               /**< landmarks removed after the update: missed too often, not seen again in time, or
+                                       none of a full submap counted */
   double widened_position;        /**< most of what was seen contradicted the estimate: standard deviation by which the
                                        motion since the last agreement was widened, m; 0: it was not (docs/update.md,
                                        "Finding back") */

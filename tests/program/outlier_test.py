@@ -24,7 +24,8 @@ def spoil(log, seed):
 
 class OutlierTest(ProgramTest):
     def test_the_map_is_that_of_the_clean_log(self):
-        for options in (["--single-map"], ["--submap-landmarks", "16", "--join", "sparse"]):
+        for options in (["--single-map"], ["--submap-landmarks", "16", "--join", "dense"],
+                        ["--submap-landmarks", "16", "--join", "sparse"]):
             with self.subTest(options=options):
                 clean = spoiled = 0.0
                 for seed in SEEDS:

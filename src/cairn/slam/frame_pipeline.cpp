@@ -40,6 +40,7 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
       return false;
     });
   updater_.finish(*update, frame, sorted_);
+  if (other_places_.gross_errors_are_many()) sorted_.doubt();
   if (!report_.update().widened()) other_places_.judge(frame, sorted_);
   if (frame.sensor.may_abort()) {
     placer_.prepare(*update, frame, sorted_);

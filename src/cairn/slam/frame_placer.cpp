@@ -128,7 +128,7 @@ void FramePlacer<Pose>::place(EkfUpdate<Pose>& update, const Frame<Pose>& frame,
     if (!place_one(update, frame, observation, std::nullopt)) continue;
     const std::uint64_t id =
         options_.association == AssociationKind::known ? frame.observations[observation].id : next_id_++;
-    map_.name_placed(id);
+    map_.name_placed(id, sorted.in_doubt());
     match = {id, Decision::placed, Reason::none, 0.0, 0.0};
   }
   if (no_room > 0)

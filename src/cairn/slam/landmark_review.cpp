@@ -30,6 +30,8 @@ void LandmarkReview<Pose>::run(const Frame<Pose>& frame) {
   if (defers) {
     remove_contradicted(frame.landmarks);
     remove_unconfirmed();
+  } else {
+    make_room();
   }
   if (misses && frame.view != nullptr) remove_missed(frame);
   report_.last().deferred = map_.table().deferred();
@@ -83,6 +85,14 @@ void LandmarkReview<Pose>::remove_unconfirmed() {
   for (Index slot = table.size(); slot-- > table.first_deferred();)
     if (table.frame() - table.sightings(slot).placed > static_cast<std::uint64_t>(options_.deferred_frames))
       remove(slot);
+}
+
+// A submap that is full of landmarks of which none counts can neither grow nor be closed.
+template <class Pose>
+void LandmarkReview<Pose>::make_room() {
+  LandmarkTable& table = map_.table();
+  if (table.counting() > 0 || table.landmarks() < options_.local_landmarks()) return;
+  while (table.deferred() > 0) remove(table.size() - 1);
 }
 
 template <class Pose>

@@ -24,6 +24,7 @@ class LandmarkReview {
   void promote();
   void remove_contradicted(Index observations);
   void remove_unconfirmed();
+  void make_room();
   void remove_missed(const Frame<Pose>& frame);
   void remove(Index slot);
   bool in_view(const Frame<Pose>& frame, Index slot) const;

@@ -35,9 +35,10 @@ void LocalMap<Pose>::exchange(Index a, Index b) {
 }
 
 template <class Pose>
-void LocalMap<Pose>::name_placed(std::uint64_t id) {
-  const bool deferred = options_.deferred_sightings > 1;
+void LocalMap<Pose>::name_placed(std::uint64_t id, bool in_doubt) {
+  const bool deferred = in_doubt || options_.deferred_sightings > 1;
   table_.append(id, deferred);
+  if (in_doubt) table_.sightings(table_.size() - 1).elsewhere = 1;
   if (!deferred && table_.deferred() > 0) exchange(table_.size() - 1, table_.first_deferred() - 1);
 }
 

@@ -38,7 +38,9 @@ class LocalMap final : public Landmarks {
   const LandmarkTable& table() const { return table_; }
 
   // --- landmarks ---
-  void name_placed(std::uint64_t id);  // names the landmark that the state got last
+  // Names the landmark that the state got last. If the observation is in doubt, the landmark does not count before
+  // another one agrees with it.
+  void name_placed(std::uint64_t id, bool in_doubt = false);
   void count_from_now(Index deferred_slot);
   // So many observations agree on another place: the landmark does not count before more of them agree with it.
   void contest(Index slot, std::uint64_t elsewhere);

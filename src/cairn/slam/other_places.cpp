@@ -101,24 +101,28 @@ typename OtherPlaces<Pose>::Landmark& OtherPlaces<Pose>::find_or_make(std::uint6
 }
 
 // A refused observation of a landmark that was seen once says nothing about the frame: either of the two may be wrong.
+// One or two such landmarks, alone in a frame, may all be wrong; if there are more, rather the pose is.
 template <class Pose>
 typename OtherPlaces<Pose>::Trust OtherPlaces<Pose>::trust_in(const Frame<Pose>& frame) const {
   const LandmarkTable& table = map_.table();
-  Index accepted = 0, against = 0, witnesses = 0, refused_witnesses = 0;
+  constexpr Index kAlone = 2;
+  Index known = 0, accepted = 0, against = 0, witnesses = 0, refused_witnesses = 0;
   for (Index i = 0; i < frame.landmarks; ++i) {
     const Match& match = report_.match(i);
     if (match.landmark == kNoId) continue;
     const std::optional<Index> slot = table.find(match.landmark);
     if (!slot) continue;
     const bool out = refused(match);
+    ++known;
     if (!out) ++accepted;
     if (out && table.observations(*slot) > 1) ++against;
     if (!trust_.is_witness(*slot)) continue;
     ++witnesses;
     if (out) ++refused_witnesses;
   }
-  if (accepted == 0 || 2 * accepted < against || 2 * refused_witnesses > witnesses) return Trust::none;
-  return accepted > against ? Trust::most : Trust::some;
+  if (accepted == 0) return {false, against == 0 && known <= kAlone};
+  const bool agrees = 2 * accepted >= against && 2 * refused_witnesses <= witnesses;
+  return {agrees, agrees && accepted > against};
 }
 
 // Whether an observation with the noise R agrees with a place.
@@ -140,7 +144,13 @@ bool OtherPlaces<Pose>::same(const Frame<Pose>& frame, const Reckoning& now, con
 }
 
 template <class Pose>
-bool OtherPlaces<Pose>::judge_one(const Frame<Pose>& frame, Index observation, bool may_place, Judged& judged) {
+bool OtherPlaces<Pose>::is_gross(const Frame<Pose>& frame, const Match& match) const {
+  return match.reason == Reason::no_image ||
+         (match.reason == Reason::gate && match.distance > gross_[frame.sensor.rows()]);
+}
+
+template <class Pose>
+bool OtherPlaces<Pose>::judge_one(const Frame<Pose>& frame, Index observation, const Trust& trust, Judged& judged) {
   const Match& match = report_.match(observation);
   const std::optional<Index> slot = map_.table().find(match.landmark);
   if (!slot || trust_.is_witness(*slot)) return false;
@@ -164,22 +174,24 @@ bool OtherPlaces<Pose>::judge_one(const Frame<Pose>& frame, Index observation, b
     judged.agrees = k;
   }
   const std::uint64_t here = map_.table().observations(*slot);
-  judged.again = may_place && judged.place.sightings > here;
-  const bool gross = match.reason == Reason::no_image ||
-                     (match.reason == Reason::gate && match.distance > gross_[frame.sensor.rows()]);
-  judged.contested = !judged.again && judged.place.sightings >= here && gross;
+  judged.again = trust.place && judged.place.sightings > here;
+  judged.contested = trust.contest && !judged.again && judged.place.sightings >= here && is_gross(frame, match);
   return true;
 }
 
 template <class Pose>
 void OtherPlaces<Pose>::judge(const Frame<Pose>& frame, SortedFrame<Pose>& sorted) {
-  count_ = 0;
+  count_ = frame_gross_ = frame_compared_ = 0;
   if (!judges() || !frame.sensor.relative()) return;
   const Trust trust = trust_in(frame);
-  if (trust == Trust::none) return;
+  if (!trust.contest && !trust.place) return;
   for (Index i = 0; i < frame.landmarks; ++i) {
-    if (report_.match(i).landmark == kNoId || !refused(report_.match(i))) continue;
-    if (!judge_one(frame, i, trust == Trust::most, judged_[count_])) continue;
+    const Match& match = report_.match(i);
+    if (match.landmark == kNoId) continue;
+    if (trust.contest) ++frame_compared_;
+    if (!refused(match)) continue;
+    if (trust.contest && is_gross(frame, match)) ++frame_gross_;
+    if (!judge_one(frame, i, trust, judged_[count_])) continue;
     if (judged_[count_].again) sorted.add_again(i);
     ++count_;
   }
@@ -187,6 +199,8 @@ void OtherPlaces<Pose>::judge(const Frame<Pose>& frame, SortedFrame<Pose>& sorte
 
 template <class Pose>
 void OtherPlaces<Pose>::commit() {
+  share_.add(frame_gross_, frame_compared_);
+  frame_gross_ = frame_compared_ = 0;
   for (Index i = 0; i < count_; ++i) {
     const Judged& judged = judged_[i];
     Landmark& landmark = find_or_make(judged.id);

@@ -4,6 +4,8 @@
 // where more of them do (docs/update.md, "A landmark that was placed wrongly").
 #pragma once
 
+#include <algorithm>
+
 #include "core/id_table.hpp"
 #include "slam/frame_report.hpp"
 #include "slam/motion_trust.hpp"
@@ -24,6 +26,9 @@ class OtherPlaces {
 
   void moved(const Increment<Pose>& increment);  // the active vehicle
   void forget() { ++generation_; }               // all places: the motion was not as stated
+
+  // Whether gross errors were so many in earlier frames that an observation alone should place no landmark.
+  bool gross_errors_are_many() const { return share_.large(); }
 
   // --- one frame with known ids, in this order ---
   // After the gates. Observations that place their landmark again are added to the new ones of `sorted`. Asks the
@@ -64,15 +69,36 @@ class OtherPlaces {
     Square drift;
   };
 
-  // How far a frame agrees with the estimate: its refused observations say nothing, contest landmarks, or also place
-  // them again.
-  enum class Trust { none, some, most };
+  // What the refused observations of a frame may do, by how far the frame agrees with the estimate. Their places are
+  // remembered if they may do anything.
+  struct Trust {
+    bool contest, place;
+  };
+
+  // Share of gross errors among the observations of known landmarks, of late. Frames that say nothing do not count.
+  class GrossShare {
+   public:
+    void add(Index gross, Index compared) {
+      constexpr double kFades = 300.0;  // observations
+      const double kept = std::max(0.0, 1.0 - static_cast<double>(compared) / kFades);
+      gross_ = kept * gross_ + static_cast<double>(gross);
+      compared_ = kept * compared_ + static_cast<double>(compared);
+    }
+    bool large() const {
+      constexpr double kLarge = 0.05, kFewest = 20.0;  // of so many observations
+      return gross_ > kLarge * std::max(compared_, kFewest);
+    }
+
+   private:
+    double gross_ = 0.0, compared_ = 0.0;
+  };
 
   Reckoning& reckoning();
   const Landmark* find(std::uint64_t id) const;
   Landmark& find_or_make(std::uint64_t id);
   Trust trust_in(const Frame<Pose>& frame) const;
-  bool judge_one(const Frame<Pose>& frame, Index observation, bool may_place, Judged& judged);
+  bool is_gross(const Frame<Pose>& frame, const Match& match) const;
+  bool judge_one(const Frame<Pose>& frame, Index observation, const Trust& trust, Judged& judged);
   bool same(const Frame<Pose>& frame, const Reckoning& now, const Vector3& z, const Matrix3& R,
             const Place& place) const;
   static PointSquare drift_at(const Point& position, const Square& drift);
@@ -86,6 +112,8 @@ class OtherPlaces {
   Landmark* landmarks_;
   Reckoning* reckonings_;  // one a vehicle
   Judged* judged_;         // of the frame
+  GrossShare share_;
+  Index frame_gross_ = 0, frame_compared_ = 0;
   Index capacity_, next_ = 0, count_ = 0;
   std::uint64_t generation_ = 0;
   double gross_[kMostRows + 1] = {};  // by rows

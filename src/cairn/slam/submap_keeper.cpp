@@ -117,20 +117,33 @@ void SubmapKeeper<Pose>::remove_landmark(std::uint64_t id) {
   if (slot) local_.forget(*slot);
 }
 
+// The landmarks that count. One that does not, because a single observation places it and gross errors are many, is
+// compared with the map if the map knows it.
+template <class Pose>
+std::vector<Index> SubmapKeeper<Pose>::joining() const {
+  const LandmarkTable& table = local_.table();
+  std::vector<Index> slots;
+  slots.reserve(static_cast<std::size_t>(table.landmarks()));
+  for (Index slot = 0; slot < table.size(); ++slot) {
+    std::size_t index = 0;
+    if (table.counts(slot) || (options_.deferred_sightings <= 1 && map_->find(table.id(slot), index)))
+      slots.push_back(slot);
+  }
+  return slots;
+}
+
 template <class Pose>
 Submap<Pose> SubmapKeeper<Pose>::take_submap() const {
   const State<Pose>& state = local_.state();
   Submap<Pose> submap;
-  const Index count = local_.table().counting(), n = kDof + kDim * count;
   submap.error = options_.error;
   submap.T_base_end = state.pose();
-  std::vector<Index> slots;
-  slots.reserve(static_cast<std::size_t>(count));
-  submap.ids.reserve(slots.capacity());
-  submap.counts.reserve(slots.capacity());
-  submap.landmarks.reserve(slots.capacity());
-  for (Index slot = 0; slot < count; ++slot) {
-    slots.push_back(slot);
+  const std::vector<Index> slots = joining();
+  const auto count = static_cast<Index>(slots.size()), n = kDof + kDim * count;
+  submap.ids.reserve(slots.size());
+  submap.counts.reserve(slots.size());
+  submap.landmarks.reserve(slots.size());
+  for (const Index slot : slots) {
     submap.ids.push_back(local_.table().id(slot));
     submap.counts.push_back(local_.table().observations(slot));
     submap.landmarks.push_back(state.landmark(slot));
@@ -232,8 +245,8 @@ FixReport SubmapKeeper<Pose>::join(ClosedBy reason, const AbsoluteFix<Pose>* fix
   ClosingReport next;
   const auto begin = std::chrono::steady_clock::now();
   next.reason = reason;
-  next.landmarks = local_.table().counting();
   Submap<Pose> submap = take_submap();
+  next.landmarks = submap.size();
   if (shares_errors()) systematic(next_prior_.data(), next_covariance_.data());
   if (options_.association != AssociationKind::known) {
     next.naming = name_landmarks(*map_, naming_options(options_), submap);

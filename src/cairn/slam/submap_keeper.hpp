@@ -81,6 +81,7 @@ class SubmapKeeper {
   bool shares_errors() const { return map_ != nullptr && local_.systematic().any(); }
   SubmapErrors take_errors(const std::vector<Index>& slots) const;
   void open();  // a new submap; after a closing it does not fail
+  std::vector<Index> joining() const;  // slots of the landmarks that join the map
   Submap<Pose> take_submap() const;
   FixReport join(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
   std::unique_ptr<MapTransaction<Pose>> join(Submap<Pose>& submap, ClosingReport& report);

@@ -219,39 +219,6 @@ TEST_CASE_TEMPLATE("sparse map: covariances are the whole problem's", Pose, SE3,
   }
 }
 
-TEST_CASE_TEMPLATE("sparse map: of two young landmarks that contradict each other the one with more support stays",
-                   Pose, SE3, SE2) {
-  for (const ErrorKind error : kKinds)
-    for (const std::uint64_t count : {1, 2, 5}) {  // 2 in the map
-      Ring<Pose> ring(14, error, 8, 12, {0.05, 0.004});
-      SparseMap<Pose> map(ring.options());
-      for (int i = 0; i < 9; ++i) map.join(ring.submap(i));
-      Submap<Pose> bad = ring.submap(9);
-      const std::uint64_t liar = bad.ids[3];
-      std::size_t index = 0;
-      REQUIRE(map.find(liar, index));
-      REQUIRE(map.observations(index) == 2);
-      bad.counts[3] = count;
-      bad.landmarks[3] += Space<Pose>::down(Vector3(2, -1, 1));
-      const Vector3 before = position_of(map, liar);
-      const std::size_t size = map.size(), fresh = bad.ids.size() - 7;
-      map.join(bad);
-      CHECK(map.find(liar, index) == (count != 2));
-      CHECK(map.size() == size + fresh - (count == 2 ? 1 : 0));
-      if (count != 2) {
-        const double moved = (position_of(map, liar) - before).norm();
-        CHECK((moved < 0.05) == (count == 1));
-        CHECK((moved > 1.5) == (count == 5));
-        CHECK(map.observations(index) == (count == 1 ? 2 : 5));
-      }
-      for (std::size_t i = 0; i < map.size(); ++i) {  // names and numbers agree
-        std::size_t found = 0;
-        REQUIRE(map.find(map.id(i), found));
-        CHECK(found == i);
-      }
-    }
-}
-
 TEST_CASE_TEMPLATE("sparse map: a landmark that contradicts the map is left out, and it alone", Pose, SE3, SE2) {
   for (const ErrorKind error : kKinds) {
     Ring<Pose> ring(14, error, 8, 12, {0.05, 0.004});

@@ -62,12 +62,15 @@ void DenseMap<Pose>::append(std::uint64_t id, std::uint64_t count, std::size_t i
 template <class Pose>
 void DenseMap<Pose>::remove(std::uint64_t id) {
   const std::int32_t index = indices_.find(id);
-  if (index == IdTable::kAbsent) return;
+  if (index != IdTable::kAbsent) remove_at(static_cast<std::size_t>(index));
+}
+
+template <class Pose>
+void DenseMap<Pose>::remove_at(std::size_t index) {
   const std::size_t last = size() - 1;
-  state_.remove(slot_of(static_cast<std::size_t>(index)));
-  indices_.erase(id);
-  if (static_cast<std::size_t>(index) == last) return;
-  append(ids_[last], counts_[last], static_cast<std::size_t>(index));
+  state_.remove(slot_of(index));
+  if (indices_.find(ids_[index]) == static_cast<std::int32_t>(index)) indices_.erase(ids_[index]);
+  if (index != last) append(ids_[last], counts_[last], index);
 }
 
 template <class Pose>

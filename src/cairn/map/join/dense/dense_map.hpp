@@ -66,6 +66,7 @@ class DenseMap final : public GlobalMap<Pose> {
   Index slot_of(std::size_t index) const { return state_.companions() + static_cast<Index>(index); }
   Index companion(std::uint64_t id) const;
   void append(std::uint64_t id, std::uint64_t count, std::size_t index);
+  void remove_at(std::size_t index);  // its id may have another landmark already
 
   MapOptions<Pose> options_;
   Arena arena_;

@@ -7,7 +7,6 @@
 
 #include "core/chi_square.hpp"
 #include "ekf/fix_rows.hpp"
-#include "map/refusals.hpp"
 #include "sensor/sensor.hpp"
 
 namespace cairn {
@@ -29,9 +28,9 @@ std::vector<Eigen::Index> states_of(const std::vector<Eigen::Index>& landmarks) 
 // the rotation that its constant Jacobian leaves out. It is a batch for gate_blocks(). A landmark that the gates remove
 // leaves the window as well, and the batch is filled again, because the noise block spans all rows.
 template <class Pose>
-class DenseTransaction<Pose>::Fusing {
+class DenseTransaction<Pose>::FusingUpdate {
  public:
-  Fusing(State<Pose>& state, const Submap<Pose>& submap, const GivenErrors& given, std::vector<Pair>& pairs)
+  FusingUpdate(State<Pose>& state, const Submap<Pose>& submap, const GivenErrors& given, std::vector<Pair>& pairs)
       : state_(state), submap_(submap), noise_(given.covariance), K_(given.K), pairs_(pairs) {
     refill();
   }
@@ -211,6 +210,21 @@ void DenseTransaction<Pose>::hand_over(const Submap<Pose>& submap, typename Stat
   map_.state_.compose(handover);
 }
 
+// Landmarks of the map that turn out to be wrong go at the commit. Those of the submap that take their ids are new ones
+// until then, if there is room for both.
+template <class Pose>
+void DenseTransaction<Pose>::give_way(const Submap<Pose>& submap, const std::vector<Fusing>& fusing) {
+  for (std::size_t i = 0; i < fusing.size(); ++i) {
+    if (fusing[i] != Fusing::supersede && fusing[i] != Fusing::remove_both) continue;
+    if (fusing[i] == Fusing::supersede) {
+      if (map_.size() + fresh_.size() >= map_.options_.max_landmarks) continue;
+      fresh_.push_back(static_cast<Eigen::Index>(i));
+    }
+    wrong_.push_back(static_cast<std::size_t>(map_.indices_.find(submap.ids[i])));
+  }
+  std::sort(wrong_.begin(), wrong_.end());
+}
+
 template <class Pose>
 JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
   State<Pose>& state = map_.state_;
@@ -222,6 +236,7 @@ JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
     else
       fresh_.push_back(i);
   }
+  report_.fresh = fresh_.size();
   if (map_.size() + fresh_.size() > options.max_landmarks)
     throw Error(ErrorCode::capacity, "submap: %zu new landmarks, and the map holds %zu of max_landmarks = %zu",
                 fresh_.size(), map_.size(), options.max_landmarks);
@@ -232,25 +247,32 @@ JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
     backup_.emplace(state.backup());
     learn_errors(submap.errors);
   }
-  std::optional<Fusing> fusing;
+  std::optional<FusingUpdate> fusing;
   if (known > 0) {
     fusing.emplace(state, submap, given, pairs_);
     const auto bound = [&](Index rows) {
       return chi_square_quantile(static_cast<double>(rows), options.joint_gate_probability);
     };
-    Refusals refusals;
+    Contradictions contradictions(kDim);
     gate_blocks(*fusing, kDim, chi_square_quantile(kDim, options.gate_probability), bound,
-                [&](Gate gate, Index, double distance, double most) { refusals.add(gate, distance, most); });
-    report_.worst_refused = refusals.worst();
+                [&](Gate gate, Index block, double distance, double most) {
+                  contradictions.add(gate, pairs_[static_cast<std::size_t>(block)].local, distance, most);
+                });
+    report_.worst_refused = contradictions.worst();
+    const auto in_map = [&](Index i) {
+      return map_.counts_[map_.indices_.find(submap.ids[static_cast<std::size_t>(i)])];
+    };
+    const auto in_submap = [&](Index i) { return submap.counts[static_cast<std::size_t>(i)]; };
+    give_way(submap, contradictions.decide(submap.size(), static_cast<Index>(known), in_map, in_submap));
     report_.rows = kDim * pairs_.size();
     report_.distance = fusing->nis();
     report_.threshold = report_.rows > 0 ? bound(static_cast<Index>(report_.rows)) : 0.0;
   }
   report_.fused = pairs_.size();
-  report_.fresh = fresh_.size();
   report_.refused = known - pairs_.size();
 
-  typename State<Pose>::Handover handover = split_rest(submap, given);
+  // A landmark that takes the id of another one has become a new one: its error is the filter's own again.
+  typename State<Pose>::Handover handover = split_rest(submap, wrong_.empty() ? given : split_errors(submap));
   for (std::size_t i = 0; i < map_.size(); ++i) before_.push_back(state.landmark(map_.slot_of(i)));
   for (const Eigen::Index i : fresh_) {
     fresh_ids_.push_back(submap.ids[i]);
@@ -296,6 +318,7 @@ JoinReport DenseTransaction<Pose>::commit() {
   const State<Pose>& state = map_.state_;
   backup_.reset();
   if (!closed_) return report_;  // only a fix
+  for (const std::size_t index : wrong_) map_.indices_.erase(map_.ids_[index]);
   for (std::size_t a = 0; a < fresh_.size(); ++a)
     map_.append(fresh_ids_[a], fresh_counts_[a], map_.size() - fresh_.size() + a);
   for (std::size_t a = 0; a < pairs_.size(); ++a) map_.counts_[pairs_[a].slot - state.companions()] += pair_counts_[a];
@@ -306,6 +329,7 @@ JoinReport DenseTransaction<Pose>::commit() {
     sum += way;
   }
   if (!before_.empty()) report_.moved_rms = std::sqrt(sum / static_cast<double>(before_.size()));
+  for (auto index = wrong_.rbegin(); index != wrong_.rend(); ++index) map_.remove_at(*index);
   map_.closed_.push_back(std::move(*closed_));
   return report_;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "ekf/ekf_update.hpp"
+#include "map/contradictions.hpp"
 #include "map/join/dense/dense_map.hpp"
 
 namespace cairn {
@@ -30,11 +31,12 @@ class DenseTransaction final : public MapTransaction<Pose> {
     Eigen::Index local;  // in the submap
     Index slot;          // in the map
   };
-  class Fusing;
+  class FusingUpdate;
 
   // A submap given the systematic errors, with the errors of the map's landmarks ordinary.
   GivenErrors split_errors(const Submap<Pose>& submap) const;
   void learn_errors(const SubmapErrors& errors);
+  void give_way(const Submap<Pose>& submap, const std::vector<Fusing>& fusing);
   typename State<Pose>::Handover split_rest(const Submap<Pose>& submap, const GivenErrors& given) const;
   void hand_over(const Submap<Pose>& submap, typename State<Pose>::Handover& handover, const Eigen::VectorXd& shift);
 
@@ -43,7 +45,8 @@ class DenseTransaction final : public MapTransaction<Pose> {
   std::vector<Pair> pairs_;                             // that passed the gates
   std::vector<Eigen::Index> fresh_;                     // landmarks of the submap that the map does not know
   std::vector<std::uint64_t> fresh_ids_, fresh_counts_, pair_counts_;
-  std::vector<Point> before_;  // the old positions of the map's landmarks
+  std::vector<std::size_t> wrong_;  // landmarks of the map that give way, in rising order
+  std::vector<Point> before_;       // the old positions of the map's landmarks
   std::optional<typename DenseMap<Pose>::Closed> closed_;
   JoinReport report_;
 };

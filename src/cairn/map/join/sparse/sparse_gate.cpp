@@ -9,7 +9,6 @@
 #include "core/chi_square.hpp"
 #include "linear/joint_gate.hpp"
 #include "map/join/sparse/sparse_queries.hpp"
-#include "map/refusals.hpp"
 #include "map/submap_innovation.hpp"
 
 namespace cairn {
@@ -130,42 +129,23 @@ class KnownLandmarks {
   std::unique_ptr<bool[]> refused_;
 };
 
-// A landmark that was placed wrongly contradicts every later submap (docs/update.md, "A landmark that was placed
-// wrongly").
-Fusing weigh(std::uint64_t in_map, std::uint64_t in_submap, bool gross) {
-  if (in_map >= kGrownUp || in_submap < in_map) return Fusing::leave_out;
-  if (in_submap > in_map) return Fusing::supersede;
-  return gross ? Fusing::remove_both : Fusing::leave_out;
-}
-
 }  // namespace
 
 template <class Pose>
 Contradicting find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap) {
-  Contradicting found{std::vector<Fusing>(submap.ids.size(), Fusing::fuse), 0.0};
-  Refusals refusals;
-  std::vector<std::pair<Index, bool>> contradicting;  // gross or not
+  Contradictions contradictions(Pose::kDim);
   KnownLandmarks<Pose> landmarks(state, submap);
   const Index known = landmarks.count();
-  const double gross = chi_square_quantile(Pose::kDim, 1.0 - kGrossChance);
   const auto bound = [&](Index rows) {
     return chi_square_quantile(static_cast<double>(rows), state.options.joint_gate_probability);
   };
   gate_blocks(landmarks, Pose::kDim, chi_square_quantile(Pose::kDim, state.options.gate_probability), bound,
               [&](Gate gate, Index block, double distance, double most) {
-                contradicting.emplace_back(landmarks.local(block), gate == Gate::single && distance > gross);
-                refusals.add(gate, distance, most);
+                contradictions.add(gate, landmarks.local(block), distance, most);
               });
-  found.worst = refusals.worst();
-  const auto count_in_map = [&](Index i) { return state.landmarks[state.ids.find(submap.ids[i])->second].count; };
-  // Where most landmarks contradict, the pose of the submap may be what is wrong. A landmark that was seen once says
-  // nothing about it.
-  Index against = 0;
-  for (const auto& [i, contradicts] : contradicting) against += count_in_map(i) > 1 && submap.counts[i] > 1 ? 1 : 0;
-  const bool agrees = known - static_cast<Index>(contradicting.size()) > against;
-  for (const auto& [i, contradicts] : contradicting)
-    found.fusing[i] = agrees ? weigh(count_in_map(i), submap.counts[i], contradicts) : Fusing::leave_out;
-  return found;
+  const auto in_map = [&](Index i) { return state.landmarks[state.ids.find(submap.ids[i])->second].count; };
+  const auto in_submap = [&](Index i) { return submap.counts[i]; };
+  return {contradictions.decide(submap.size(), known, in_map, in_submap), contradictions.worst()};
 }
 
 template bool may_contradict(const SparseState<SE2>&, std::uint32_t, const JoinReport&);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "map/contradictions.hpp"
 #include "map/join/sparse/sparse_state.hpp"
 
 namespace cairn {
@@ -11,14 +12,6 @@ namespace cairn {
 // A quick test of a submap that has joined: true if its fused landmarks may contradict the map.
 template <class Pose>
 bool may_contradict(const SparseState<Pose>& state, std::uint32_t leaf, const JoinReport& report);
-
-// What becomes of a landmark of a submap whose id the map knows.
-enum class Fusing : char {
-  fuse,
-  leave_out,   // it contradicts the map
-  supersede,   // it contradicts a young landmark of the map, and more observations support it: it takes its id
-  remove_both  // it contradicts a young landmark of the map, and nothing says which of them is wrong
-};
 
 // The exact gates, for a submap that has not joined.
 struct Contradicting {
