@@ -2,6 +2,7 @@
 // A motion over several steps, and the covariance of its error in the axes of the body after it.
 #pragma once
 
+#include "health/body_axes.hpp"
 #include "motion/motion.hpp"
 
 namespace cairn {
@@ -13,7 +14,7 @@ struct ChainedMotion {
 
   ChainedMotion() = default;
   explicit ChainedMotion(const Increment<Pose>& step) : T(step.T_before_after), noise(step.covariance) {
-    turn_to_end(T);
+    turn_axes<Pose>(T.rotation().inverse(), noise);
   }
 
   // The motion goes on. The ordinary error of a product has an arm (geometry/rigid.hpp, ProductJacobians). In the axes
@@ -28,28 +29,13 @@ struct ChainedMotion {
     C.noalias() += G.lazyProduct(Q);
     P.noalias() += G.lazyProduct(before.transpose());
     P.noalias() += C.lazyProduct(G.transpose());
-    turn_to_end(next.T);
+    turn_axes<Pose>(next.T.rotation().inverse(), noise);
     noise += next.noise;
     T = T * next.T;
   }
 
   Pose T;
   Square noise = Square::Zero();
-
- private:
-  // From the axes before a step to those after it. Sets both triangles from the blocks P, C and Q.
-  void turn_to_end(const Pose& step) {
-    const typename Pose::Rotation back = step.rotation().inverse();
-    const typename Pose::Rotation::Matrix R = back.matrix();
-    const typename Pose::Rotation::Jacobian A = back.adjoint();
-    const typename Pose::Rotation::Matrix P = R.lazyProduct(noise.template topLeftCorner<kDim, kDim>());
-    const typename Pose::Rotation::Turn C = R.lazyProduct(noise.template topRightCorner<kDim, kTurn>());
-    const typename Pose::Rotation::Jacobian Q = A.lazyProduct(noise.template bottomRightCorner<kTurn, kTurn>());
-    noise.template topLeftCorner<kDim, kDim>().noalias() = P.lazyProduct(R.transpose());
-    noise.template topRightCorner<kDim, kTurn>().noalias() = C.lazyProduct(A.transpose());
-    noise.template bottomRightCorner<kTurn, kTurn>().noalias() = Q.lazyProduct(A.transpose());
-    noise.template bottomLeftCorner<kTurn, kDim>() = noise.template topRightCorner<kDim, kTurn>().transpose();
-  }
 };
 
 }  // namespace cairn

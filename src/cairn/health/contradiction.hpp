@@ -5,8 +5,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
+#include "health/cumulative_sum.hpp"
 #include "linear/small_algebra.hpp"
 
 namespace cairn {
@@ -15,19 +15,17 @@ class Contradiction {
  public:
   // `distance`: squared Mahalanobis distance of an observation of `rows` values. Negative or NaN: as bad as can be.
   void add(double distance, Index rows) {
-    const double excess = (distance >= 0.0 ? std::min(distance, kMost) : kMost) - kHonest * static_cast<double>(rows);
-    sum_ = std::min(kCeiling, std::max(0.0, sum_ + excess));
+    sum_.add((distance >= 0.0 ? std::min(distance, kMost) : kMost) - kHonest * static_cast<double>(rows), kBound);
   }
-  bool found() const { return sum_ > kBound; }
+  bool found() const { return sum_.found(kBound); }
 
  private:
   // With E[exp(t (d^2 - kHonest rows))] = 1 for t = 0.4 the sum of an honest landmark exceeds kBound with a probability
   // of about exp(-0.4 kBound) = 1e-7 at a sighting.
   static constexpr double kHonest = 2.0, kBound = 40.0;
-  static constexpr double kMost = 25.0;     // three sightings are the least that convict a landmark
-  static constexpr double kCeiling = 50.0;  // an honest landmark is acquitted after a few sightings
+  static constexpr double kMost = 25.0;  // three sightings are the least that convict a landmark
 
-  double sum_ = 0.0;
+  CumulativeSum sum_;
 };
 
 }  // namespace cairn

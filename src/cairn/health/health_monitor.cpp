@@ -6,9 +6,15 @@
 namespace cairn {
 namespace {
 
-constexpr double kSlowFrames = 300.0, kFastFrames = 20.0;
+constexpr double kNoiseFrames = 300.0;
 constexpr double kKeepInformation = 0.95;
 constexpr double kEnoughFrames = 10.0;  // before a direction counts as one without information
+
+// A factor of variances over the one in use, if it is clearly larger.
+double excess(const NoiseFactor& factor, double used) {
+  constexpr double kSigmas = 4.0;
+  return factor.value - kSigmas * factor.sigma > used ? factor.value / used : 1.0;
+}
 
 }  // namespace
 
@@ -20,8 +26,7 @@ HealthMonitor<Pose>::HealthMonitor(Arena& arena, const HealthOptions& options)
       memory_(arena, 4 * options.max_observations),
       paired_{{arena, options.max_observations}, {arena, options.max_observations}, {arena, options.max_observations}},
       steps_(arena.take<typename SightingMemory<Pose>::Sighting*>(static_cast<std::size_t>(options.max_observations))),
-      slow_(arena, options.max_sensors, kSlowFrames),
-      fast_(arena, options.max_sensors, kFastFrames),
+      noise_(arena, options.max_sensors, kNoiseFrames),
       verdict_(options.gate_probability) {}
 
 template <class Pose>
@@ -146,21 +151,22 @@ void HealthMonitor<Pose>::compare(const Sighted<Pose>& sighted, double distance,
 template <class Pose>
 void HealthMonitor<Pose>::correct(const Pose& before, const Square& P_before, const Pose& after,
                                   const Square& P_after) {
-  drift_.add(before, P_before, after, P_after);
+  correction_ = Correction<Pose>(before, P_before, after, P_after);
+  drift_.add(correction_);
   semidefinite_factor(P_after, nullptr, &evidence_.pivot);
 }
 
 template <class Pose>
 FrameParts HealthMonitor<Pose>::split(Index stride) {
-  return paired_[stride].split(places_[now_].chains[stride].motion.noise, slow_.sensor(now_).value,
-                               slow_.motion().value);
+  return paired_[stride].split(places_[now_].chains[stride].motion.noise, noise_.sensor(now_).value,
+                               noise_.motion().value);
 }
 
 template <class Pose>
 void HealthMonitor<Pose>::judge_jump(const FrameParts& parts) {
   constexpr Index kLeastFreedoms = 3;  // a single gross error must not look like a jump
   if (parts.residual_dof < kLeastFreedoms) return;
-  const double alpha = slow_.sensor(now_).value, beta = slow_.motion().value;
+  const double alpha = noise_.sensor(now_).value, beta = noise_.motion().value;
   for (Index j = 0; j < parts.commons; ++j)
     evidence_.jump += parts.common[j].square / (alpha + beta * parts.common[j].weight);
   evidence_.jump += parts.rest / alpha;
@@ -181,20 +187,18 @@ void HealthMonitor<Pose>::judge_steps() {
 
 template <class Pose>
 void HealthMonitor<Pose>::learn() {
-  slow_.fade(now_);
-  fast_.fade(now_);
+  noise_.fade(now_);
   for (Index stride = 0; stride < kStrides; ++stride) {
     if (paired_[stride].count() == 0) continue;
     const FrameParts parts = split(stride);
     if (stride > 0) {
-      slow_.add_motion(now_, parts);
-      fast_.add_motion(now_, parts);
+      noise_.add_motion(now_, parts);
       continue;
     }
     judge_jump(parts);
     judge_steps();
-    slow_.add(now_, parts);
-    fast_.add(now_, parts);
+    places_[now_].noise_test.add(parts.residual, parts.residual_dof, applied_to_sensor(now_));
+    noise_.add(now_, parts);
     information_ = kKeepInformation * information_ + paired_[stride].information();
     informed_ = kKeepInformation * informed_ + 1.0;
   }
@@ -210,11 +214,9 @@ void HealthMonitor<Pose>::finish(double nis, Index rows) {
   int rank = kDof;
   if (informed_ >= kEnoughFrames) semidefinite_factor(information_, &rank);
   evidence_.blind = kDof - rank;
-  const auto over = [](NoiseFactor factor, double used) {
-    return NoiseFactor{factor.value / used, factor.sigma / used};
-  };
-  evidence_.sensor = over(fast_.sensor(now_), applied_to_sensor(now_));
-  evidence_.motion = over(fast_.motion(), applied_to_motion());
+  motion_test_.add(correction_, nis, rows, excess(noise_.sensor(now_), applied_to_sensor(now_)));
+  evidence_.sensor_noise = places_[now_].noise_test.found();
+  evidence_.motion_noise = motion_test_.found();
   verdict_.add(evidence_);
   for (Index stride = 0; stride < kStrides; ++stride) {
     if (!due(stride)) continue;

@@ -5,7 +5,10 @@
 
 #include "health/chained_motion.hpp"
 #include "health/drift_test.hpp"
+#include "health/motion_noise_test.hpp"
+#include "health/noise_regression.hpp"
 #include "health/paired_frame.hpp"
+#include "health/sensor_noise_test.hpp"
 #include "health/sighting_memory.hpp"
 #include "health/verdict.hpp"
 
@@ -66,17 +69,18 @@ class HealthMonitor {
   // --- what it found ---
   const Verdict& verdict() const { return verdict_; }
   const SensorHealth& sensor(Index sensor) const { return places_[sensor].health; }
-  NoiseFactor sensor_noise(Index sensor) const { return slow_.sensor(sensor); }
-  NoiseFactor motion_noise() const { return slow_.motion(); }
+  NoiseFactor sensor_noise(Index sensor) const { return noise_.sensor(sensor); }
+  NoiseFactor motion_noise() const { return noise_.motion(); }
   const UpdateEvidence& evidence() const { return evidence_; }  // of the last update
   // Factors of the stated variances that the filter has to use: 1 unless the noise is scaled.
-  double applied_to_sensor(Index sensor) const { return apply_ ? applied(slow_.sensor(sensor)) : 1.0; }
-  double applied_to_motion() const { return apply_ ? applied(slow_.motion()) : 1.0; }
+  double applied_to_sensor(Index sensor) const { return apply_ ? applied(noise_.sensor(sensor)) : 1.0; }
+  double applied_to_motion() const { return apply_ ? applied(noise_.motion()) : 1.0; }
 
  private:
   // A sensor, and the motion since its last frame.
   struct Place {
     SensorHealth health;
+    SensorNoiseTest noise_test;
     std::uint64_t frame;  // number of its frame
     struct Chain {        // the motion since the anchor of a stride
       bool unbroken;
@@ -104,8 +108,10 @@ class HealthMonitor {
   SightingMemory<Pose> memory_;
   PairedFrame<Pose> paired_[kStrides];
   typename SightingMemory<Pose>::Sighting** steps_;  // landmarks of the differences to the frame before
-  NoiseRegression slow_, fast_;
+  NoiseRegression noise_;
+  Correction<Pose> correction_;  // by the update at hand
   DriftTest<Pose> drift_;
+  MotionNoiseTest<Pose> motion_test_;
   Verdict verdict_;
   UpdateEvidence evidence_;
   Square information_ = Square::Zero();

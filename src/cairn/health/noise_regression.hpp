@@ -11,7 +11,6 @@ namespace cairn {
 // A factor of stated variances and its standard deviation.
 struct NoiseFactor {
   double value = 1.0, sigma = 1e3;
-  bool known() const { return sigma < value; }
 };
 
 class NoiseRegression {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The thresholds are those of docs/trust.md; each test says wrongly "doubtful" at about one update in 100,000.
+// The thresholds are those of docs/trust.md; each test says wrongly "doubtful" at about one update in 100,000,
+// that of the motion's noise at one in 10,000.
 #include "health/verdict.hpp"
 
 #include <algorithm>
@@ -14,8 +15,6 @@ constexpr double kKeep = 0.95;          // of the NIS from update to update
 constexpr double kKeepRefusals = 0.85;  // of the share of refusals
 constexpr double kSigmas = 4.5;         // of a test
 constexpr double kNisRatio = 1.3;       // less is no reason, however significant
-constexpr double kSensorFactor = 2.25;  // of a variance: a standard deviation that is 1.5 times what is stated
-constexpr double kMotionFactor = 3.0;   // the motion's shows less clearly
 constexpr double kJumpProbability = 1e-6;
 constexpr double kMovedProbability = 1e-8;  // of a landmark that a closing refuses: a closing compares many
 constexpr double kLostShare = 0.5, kLostCompared = 6.0;  // most of what is seen is refused
@@ -48,8 +47,8 @@ void Verdict::judge_refusals(const UpdateEvidence& evidence) {
   const auto compared = static_cast<double>(evidence.compared), refused = static_cast<double>(evidence.refused);
   compared_ = kKeepRefusals * compared_ + compared;
   refused_ = kKeepRefusals * refused_ + refused;
-  excess_ = std::min(1.5 * bound, std::max(0.0, excess_ + refused - tolerated * compared));
-  if (excess_ > bound) doubt(kDoubtRefusals, 1);
+  excess_.add(refused - tolerated * compared, bound);
+  if (excess_.found(bound)) doubt(kDoubtRefusals, 1);
 }
 
 void Verdict::judge_jump(const UpdateEvidence& evidence) {
@@ -60,20 +59,14 @@ void Verdict::judge_jump(const UpdateEvidence& evidence) {
   if (evidence.jump > jump_bound_[std::min<Index>(6, evidence.jump_dof)]) doubt(kDoubtJump);
 }
 
-// The factor's logarithm, because its standard deviation grows with the factor.
-void Verdict::judge_noise(const NoiseFactor& factor, double most, Doubt reason) {
-  if (factor.known() && factor.value > most && std::log(factor.value) > kSigmas * factor.sigma / factor.value)
-    doubt(reason, 1);
-}
-
 void Verdict::add(const UpdateEvidence& evidence) {
   for (int& hold : hold_) hold = std::max(0, hold - 1);
   if (evidence.rows > 0) nis_.add(evidence.nis, static_cast<double>(evidence.rows), kKeep);
   if (nis_.ratio() > kNisRatio && nis_.ratio() > 1.0 + nis_.half_width(kSigmas)) doubt(kDoubtNis, 1);
   judge_refusals(evidence);
   judge_jump(evidence);
-  judge_noise(evidence.sensor, kSensorFactor, kDoubtSensorNoise);
-  judge_noise(evidence.motion, kMotionFactor, kDoubtMotionNoise);
+  if (evidence.sensor_noise) doubt(kDoubtSensorNoise, 1);
+  if (evidence.motion_noise) doubt(kDoubtMotionNoise, 1);
   if (evidence.drift > kSigmas + 0.5) doubt(kDoubtBias, 1);
   if (evidence.contradicting > 0) doubt(kDoubtLandmarks);
   if (evidence.blind > 0) doubt(kDoubtBlind, 1);

@@ -5,7 +5,8 @@
 
 #include <cstdint>
 
-#include "health/noise_regression.hpp"
+#include "health/cumulative_sum.hpp"
+#include "linear/small_algebra.hpp"
 
 namespace cairn {
 
@@ -32,12 +33,13 @@ struct UpdateEvidence {
   double nis = 0.0;
   Index rows = 0;  // of the batch
   double jump = 0.0;
-  Index jump_dof = 0;          // of the jump's chi-square test; 0: there was none
-  double drift = 0.0;          // DriftTest::sigmas()
-  Index contradicting = 0;     // observed landmarks
-  Index blind = 0;             // directions
-  double pivot = 1.0;          // of the pose's correlation
-  NoiseFactor sensor, motion;  // of the last few frames, over the factors in use
+  Index jump_dof = 0;         // of the jump's chi-square test; 0: there was none
+  double drift = 0.0;         // DriftTest::sigmas()
+  Index contradicting = 0;    // observed landmarks
+  Index blind = 0;            // directions
+  double pivot = 1.0;         // of the pose's correlation
+  bool sensor_noise = false;  // more than what is stated
+  bool motion_noise = false;  // the same
 };
 
 // A fading mean of sums, with what it takes to tell whether it is significant.
@@ -73,11 +75,11 @@ class Verdict {
   void doubt(Doubt reason, int hold = kHold);
   void judge_refusals(const UpdateEvidence& evidence);
   void judge_jump(const UpdateEvidence& evidence);
-  void judge_noise(const NoiseFactor& factor, double most, Doubt reason);
 
   double honest_refusals_;  // share
   NisWindow nis_;
-  double compared_ = 0.0, refused_ = 0.0, excess_ = 0.0;
+  double compared_ = 0.0, refused_ = 0.0;
+  CumulativeSum excess_;  // of refusals
   double jump_ = 0.0, jump_bound_[7] = {};
   double moved_bound_[4] = {};
   double widenings_ = 0.0, last_widening_ = 0.0;

@@ -56,10 +56,16 @@ void HealthFeed<Pose>::after(const Frame<Pose>& frame) {
     health_.compare(seen_[i].sighted, batch ? static_cast<double>(frame.sensor.rows()) : match.distance,
                     match.decision != Decision::matched);
   }
-  health_.correct(before_, covariance_before_, map_.state().pose(), map_.state().pose_covariance());
+  after_ = map_.state().pose();
+  // In terms of the error about the new position: only so is the difference of the covariances what the update took
+  // off.
+  typename Pose::Square covariance_before = covariance_before_;
+  const Point moved = after_.translation() - before_.translation();
+  map_.state().model().to_ordinary(
+      0, [&moved](Index) { return moved; }, covariance_before.data(), Pose::kDof);
+  health_.correct(before_, covariance_before, after_, map_.state().pose_covariance());
   health_.finish(report_.last().nis, report_.last().rows);
   if (frame.sensor.may_abort()) return;  // the update has been committed: a callback must not be asked any more
-  after_ = map_.state().pose();
   turn_after_ = after_.rotation().matrix();
   Index next = 0;
   for (Index i = 0; i < frame.landmarks; ++i)
