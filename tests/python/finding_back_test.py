@@ -385,6 +385,19 @@ class LossTest(unittest.TestCase):
                         places.append(drive.vehicle.pose()[0])
                     self.assertLess(np.linalg.norm(places[1] - places[0]), bound)  # without a loss: 0.3 m / 6
 
+    def test_what_a_loss_weighs_down_widens_no_motion(self):
+        """Half of the landmarks creep away with the gates open. Only with a loss are they expected to."""
+        for loss in (None, "huber", "cauchy"):
+            with self.subTest(loss=loss):
+                drive = Among(SPATIAL, gate_probability=1.0, batch_gate_probability=1.0)
+                if loss is not None:
+                    drive.vehicle.set_loss(drive.sensor, loss, 1.0)
+                for k in range(140):
+                    drive.move()
+                    creep = 0.05 * max(0, k - 100)
+                    drive.see(error=np.array([[creep, 0, 0]] * 3 + [[0, 0, 0]] * 3))
+                self.assertEqual(max(drive.widened) > 0, loss is None)
+
     def test_bad_values_are_refused(self):
         drive = Among()
         drive.step()

@@ -196,8 +196,10 @@ bool FrameUpdate<Pose>::contradicted(const EkfUpdate<Pose>& update, const Frame<
         by_pose_[c * m + a * rows + r] = witness ? sorted.candidate(a).prediction.J_z_pose(r, c) : 0.0;
   }
   if (trust_.contradicts(accepted)) place_witnesses(frame);
-  for (int c = 0; c < Pose::kDof && accepted > 0; ++c) update.whiten(by_pose_ + c * m);
-  return trust_.contradicted(accepted, by_pose_, update.innovation(), accepted > 0 ? m : 0, widening);
+  // Under a loss the tails are heavy, so an innovation that is larger than stated says nothing about the motion (F4).
+  const bool compares = accepted > 0 && !frame.loss.robust();
+  for (int c = 0; c < Pose::kDof && compares; ++c) update.whiten(by_pose_ + c * m);
+  return trust_.contradicted(accepted, by_pose_, update.innovation(), compares ? m : 0, widening);
 }
 
 // The weights of a robust loss at the prediction, where a distance counts the uncertainty of the estimate too. An error
