@@ -112,8 +112,8 @@ typedef struct cairn_filter_options {
                                       default: none. The memory is taken at creation, at most 600 bytes a pose */
   double error_persistence;      /**< number of consecutive observations of a landmark whose errors are fully
                                       correlated, 1 to 1000000: an update multiplies the covariance of an
-                                      observation's noise by this; association and placing use the noise unchanged;
-                                      default 1 */
+                                      observation's noise by this; association, placing and the weights of a robust
+                                      loss use the noise unchanged; default 1 */
   int32_t join_loss;             /**< loss of the landmarks that a closed submap shares with the map: CAIRN_LOSS_NONE,
                                       CAIRN_LOSS_HUBER or CAIRN_LOSS_CAUCHY; default CAIRN_LOSS_NONE */
   int32_t noise_learning;        /**< CAIRN_NOISE_REPORTED or CAIRN_NOISE_APPLIED; default CAIRN_NOISE_REPORTED */

@@ -367,6 +367,37 @@ class LossTest(unittest.TestCase):
                 robust, _ = self.drive(loss, 0.2)
                 self.assertLess(robust, 0.5 * plain)
 
+    def test_a_gross_error_is_judged_by_the_noise_of_one_observation(self):
+        """Errors that last make an observation weigh less, but a gross error is gross all the same."""
+        for loss, bound in (("huber", 0.03), ("cauchy", 0.02)):
+            for persistence in (1, 30):
+                with self.subTest(loss=loss, persistence=persistence):
+                    places = []
+                    for error in (0.0, 0.3):  # six standard deviations
+                        drive = Among(SPATIAL, gate_probability=1.0, batch_gate_probability=1.0,
+                                      error_persistence=persistence)
+                        drive.vehicle.set_loss(drive.sensor, loss, 1.0)
+                        for _ in range(30):
+                            drive.step()
+                        # Only the observations tell where it is now.
+                        drive.vehicle.predict_increment(((0, 0, 0), (1, 0, 0, 0)), np.diag([100.0] * 3 + [1e-6] * 3))
+                        drive.see(error=np.array([[error, 0, 0]] + [[0, 0, 0]] * 5))
+                        places.append(drive.vehicle.pose()[0])
+                    self.assertLess(np.linalg.norm(places[1] - places[0]), bound)  # without a loss: 0.3 m / 6
+
+    def test_what_a_loss_weighs_down_widens_no_motion(self):
+        """Half of the landmarks creep away with the gates open. Only with a loss are they expected to."""
+        for loss in (None, "huber", "cauchy"):
+            with self.subTest(loss=loss):
+                drive = Among(SPATIAL, gate_probability=1.0, batch_gate_probability=1.0)
+                if loss is not None:
+                    drive.vehicle.set_loss(drive.sensor, loss, 1.0)
+                for k in range(140):
+                    drive.move()
+                    creep = 0.05 * max(0, k - 100)
+                    drive.see(error=np.array([[creep, 0, 0]] * 3 + [[0, 0, 0]] * 3))
+                self.assertEqual(max(drive.widened) > 0, loss is None)
+
     def test_bad_values_are_refused(self):
         drive = Among()
         drive.step()

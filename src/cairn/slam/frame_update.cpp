@@ -37,11 +37,12 @@ void FrameUpdate<Pose>::begin(std::optional<EkfUpdate<Pose>>& update, const Fram
   gate(*update, frame, sorted);
 }
 
-// Noise of one observation: that of its values, and that of a mount which moves between observations.
+// Noise of one observation: that of its values, and that of a mount which moves between observations. `persistence`:
+// by this the noise of the values is multiplied.
 template <class Pose>
 Matrix3 FrameUpdate<Pose>::noise(const Frame<Pose>& frame, const Candidate<Pose>& candidate,
-                                 const Prediction<Pose>& prediction) const {
-  Matrix3 noise = options_.error_persistence * candidate.noise;
+                                 const Prediction<Pose>& prediction, double persistence) const {
+  Matrix3 noise = persistence * candidate.noise;
   if (frame.sensor.mount_noise_mode() == MountNoise::per_observation)
     noise += prediction.J_z_mount * frame.sensor.mount_noise() * prediction.J_z_mount.transpose();
   return noise;
@@ -80,11 +81,12 @@ bool FrameUpdate<Pose>::fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, 
     }
     if (sensor.mount_noise_mode() == MountNoise::per_frame) update.add_mount_block(row, rows, prediction.J_z_mount);
     update.add_landmark_block(row, rows, prediction.J_z_landmark, candidate.number, pose);
-    const Matrix3 noise = this->noise(frame, candidate, prediction);
+    const Matrix3 noise = this->noise(frame, candidate, prediction, options_.error_persistence);
     if (update.iterating() && frame.loss.robust()) {
-      // (L2): the weight at the iterate, by the distance from what the iterate predicts
+      // (L2): the weight at the iterate, by the distance (L1) from what the iterate predicts
       constexpr double kSettled = 0.1;
-      const double distance = squared_distance(residual.data(), noise.data(), kMostRows, rows);
+      const Matrix3 own = this->noise(frame, candidate, prediction, 1.0);
+      const double distance = squared_distance(residual.data(), own.data(), kMostRows, rows);
       const double factor = frame.loss.noise_factor(distance, rows);
       if (std::abs(factor - noise_factors_[a]) > kSettled * noise_factors_[a]) settled_ = false;
       noise_factors_[a] = factor;
@@ -194,17 +196,27 @@ bool FrameUpdate<Pose>::contradicted(const EkfUpdate<Pose>& update, const Frame<
         by_pose_[c * m + a * rows + r] = witness ? sorted.candidate(a).prediction.J_z_pose(r, c) : 0.0;
   }
   if (trust_.contradicts(accepted)) place_witnesses(frame);
-  for (int c = 0; c < Pose::kDof && accepted > 0; ++c) update.whiten(by_pose_ + c * m);
-  return trust_.contradicted(accepted, by_pose_, update.innovation(), accepted > 0 ? m : 0, widening);
+  // Under a loss the tails are heavy, so an innovation that is larger than stated says nothing about the motion (F4).
+  const bool compares = accepted > 0 && !frame.loss.robust();
+  for (int c = 0; c < Pose::kDof && compares; ++c) update.whiten(by_pose_ + c * m);
+  return trust_.contradicted(accepted, by_pose_, update.innovation(), compares ? m : 0, widening);
 }
 
-// The weights of a robust loss at the prediction, where a distance counts the uncertainty of the estimate too.
+// The weights of a robust loss at the prediction, where a distance counts the uncertainty of the estimate too. An error
+// that lasts is no larger than one that does not: the distance leaves out by how much `error_persistence` raises S.
 template <class Pose>
 void FrameUpdate<Pose>::weigh(EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted) {
-  const Index rows = frame.sensor.rows();
+  const Index rows = frame.sensor.rows(), m = update.batch().rows();
+  const double raised = options_.error_persistence - 1.0;
+  update.form_innovation();  // S was overwritten by its factor
   for (Index a = 0; a < sorted.candidates(); ++a) {
-    noise_factors_[a] =
-        frame.loss.noise_factor(report_.match(sorted.candidate(a).observation).distance, frame.sensor.rows());
+    const Matrix3& noise = sorted.candidate(a).noise;
+    const double* block = update.covariance(a * rows);
+    Matrix3 S = Matrix3::Identity();
+    for (Index c = 0; c < rows; ++c)
+      for (Index r = c; r < rows; ++r) S(r, c) = block[c * m + r] - raised * noise(r, c);
+    const double distance = squared_distance(update.batch().residual() + a * rows, S.data(), kMostRows, rows);
+    noise_factors_[a] = frame.loss.noise_factor(distance, rows);
     update.batch().scale_noise(a * rows, noise_factors_[a]);
   }
   update.form_innovation();

@@ -33,7 +33,8 @@ class FrameUpdate {
   class Gates;
 
   bool fill(EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted, double* residual_only);
-  Matrix3 noise(const Frame<Pose>& frame, const Candidate<Pose>& candidate, const Prediction<Pose>& prediction) const;
+  Matrix3 noise(const Frame<Pose>& frame, const Candidate<Pose>& candidate, const Prediction<Pose>& prediction,
+                double persistence) const;
   void hear(const EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted);
   void place_witnesses(const Frame<Pose>& frame);
   void gate(EkfUpdate<Pose>& update, const Frame<Pose>& frame, SortedFrame<Pose>& sorted);
