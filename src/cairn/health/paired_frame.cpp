@@ -2,13 +2,13 @@
 // Splits the differences of a frame into the motion's part and the sensor's part.
 #include "health/paired_frame.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 
 #include "core/chi_square.hpp"
 #include "health/semidefinite.hpp"
 #include "health/small_factor.hpp"
-#include "health/spectrum.hpp"
 
 namespace cairn {
 namespace {
@@ -125,13 +125,14 @@ FrameParts PairedFrame<Pose>::split(const Square& motion, double alpha, double b
   int rank = 0;
   const double explained = semidefinite_square(semidefinite_factor(M, &rank), g);  // by any motion of the pose
   information_ = M;
-  const Spectrum<Square> spectrum(by_factor(M, L), L.transpose() * g);
-  const double largest_weight = spectrum.values.maxCoeff();
+  const Eigen::SelfAdjointEigenSolver<Square> spectrum(by_factor(M, L));
+  const typename Pose::Tangent along = spectrum.eigenvectors().transpose() * (L.transpose() * g);
+  const double largest_weight = spectrum.eigenvalues()(kDof - 1);
   double by_noise = 0.0;
-  for (Index j = 0; j < kDof; ++j) {
-    const double weight = spectrum.values(j);
+  for (Index j = kDof - 1; j >= 0; --j) {  // the largest one first
+    const double weight = spectrum.eigenvalues()(j);
     if (!(weight > 1e-9 * largest_weight && weight > 1e-12) || parts.commons == rank) continue;
-    const double square = spectrum.along(j) * spectrum.along(j) / weight;
+    const double square = along(j) * along(j) / weight;
     parts.common[parts.commons++] = {weight, square};
     by_noise += square;
   }
