@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A cumulative sum that does not fall below zero: steps that have a negative mean while all is well, and a positive one
-// once it is not (docs/trust.md, "Cumulative sums").
+// once it is not (docs/trust.md, eq. 8 and 12).
 #pragma once
 
 #include <algorithm>
