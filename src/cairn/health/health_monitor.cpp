@@ -12,8 +12,8 @@ constexpr double kEnoughFrames = 10.0;  // before a direction counts as one with
 
 // A factor of variances over the one in use, if it is clearly larger.
 double excess(const NoiseFactor& factor, double used) {
-  constexpr double kSigmas = 4.0;
-  return factor.value - kSigmas * factor.sigma > used ? factor.value / used : 1.0;
+  constexpr double kClear = 4.0;  // standard deviations
+  return factor.value - kClear * factor.sigma > used ? factor.value / used : 1.0;
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ class MotionNoiseTest {
   bool found() const;
 
  private:
+  static constexpr double kBound = 7.0;
+
   typename Pose::Tangent expected_ = Pose::Tangent::Zero();  // of (10), if the motion's noise is larger than stated
   CumulativeSum sum_;
 };
