@@ -105,6 +105,20 @@ class Ring {
   Noise noise_;
 };
 
+// The submap without its landmark of this number.
+template <class Pose>
+Submap<Pose> without_landmark(Submap<Pose> submap, Eigen::Index landmark) {
+  std::vector<Eigen::Index> kept;
+  const Eigen::Index first = Pose::kDof + Pose::kDim * landmark;
+  for (Eigen::Index k = 0; k < submap.covariance.rows(); ++k)
+    if (k < first || k >= first + Pose::kDim) kept.push_back(k);
+  submap.covariance = Eigen::MatrixXd(submap.covariance(kept, kept));
+  submap.ids.erase(submap.ids.begin() + landmark);
+  submap.counts.erase(submap.counts.begin() + landmark);
+  submap.landmarks.erase(submap.landmarks.begin() + landmark);
+  return submap;
+}
+
 // All bases, then all landmarks by ascending id.
 template <class Pose>
 struct Reference {

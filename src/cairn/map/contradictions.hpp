@@ -30,19 +30,21 @@ class Contradictions {
   }
   double worst() const { return refusals_.worst(); }
 
-  // For each of the submap's `size` landmarks, of which `known` are in the map. `in_map(i)` and `in_submap(i)` are the
-  // observations of landmark i.
-  template <class InMap, class InSubmap>
-  std::vector<Fusing> decide(Index size, Index known, InMap&& in_map, InSubmap&& in_submap) const {
+  // For each landmark of the submap; `known` of them are in the map. The landmark was observed in_map(i) times there
+  // and in_submap[i] times in the submap.
+  template <class InMap>
+  std::vector<Fusing> decide(Index known, InMap&& in_map, const std::vector<std::uint64_t>& in_submap) const {
     // Where most landmarks contradict, the pose of the submap may be what is wrong. A landmark that was seen once says
     // nothing about it.
     Index against = 0;
-    for (const Refused& refused : refused_)
-      against += in_map(refused.landmark) > 1 && in_submap(refused.landmark) > 1 ? 1 : 0;
-    const bool agrees = known - static_cast<Index>(refused_.size()) > against;
-    std::vector<Fusing> fusing(static_cast<std::size_t>(size), Fusing::fuse);
     for (const auto& [i, gross] : refused_)
-      fusing[static_cast<std::size_t>(i)] = agrees ? weigh(in_map(i), in_submap(i), gross) : Fusing::leave_out;
+      against += in_map(i) > 1 && in_submap[static_cast<std::size_t>(i)] > 1 ? 1 : 0;
+    const bool agrees = known - static_cast<Index>(refused_.size()) > against;
+    std::vector<Fusing> fusing(in_submap.size(), Fusing::fuse);
+    for (const auto& [i, gross] : refused_) {
+      const auto at = static_cast<std::size_t>(i);
+      fusing[at] = agrees ? weigh(in_map(i), in_submap[at], gross) : Fusing::leave_out;
+    }
     return fusing;
   }
 

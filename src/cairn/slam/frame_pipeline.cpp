@@ -40,7 +40,6 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
       return false;
     });
   updater_.finish(*update, frame, sorted_);
-  if (other_places_.gross_errors_are_many()) sorted_.doubt();
   if (!report_.update().widened()) other_places_.judge(frame, sorted_);
   if (frame.sensor.may_abort()) {
     placer_.prepare(*update, frame, sorted_);
@@ -49,7 +48,7 @@ void FramePipeline<Pose>::run(const Frame<Pose>& frame) {
   updater_.commit(*update, sorted_);
   restore.release();
   trust_.commit();
-  placer_.place(*update, frame, sorted_);
+  placer_.place(*update, frame, sorted_, other_places_.gross_errors_are_many());
   report_.finish();
   slip_.commit(frame, report_);
   health_feed_.after(frame);

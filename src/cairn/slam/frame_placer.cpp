@@ -102,7 +102,8 @@ bool FramePlacer<Pose>::place_one(EkfUpdate<Pose>& update, const Frame<Pose>& fr
 }
 
 template <class Pose>
-void FramePlacer<Pose>::place(EkfUpdate<Pose>& update, const Frame<Pose>& frame, SortedFrame<Pose>& sorted) {
+void FramePlacer<Pose>::place(EkfUpdate<Pose>& update, const Frame<Pose>& frame, SortedFrame<Pose>& sorted,
+                              bool in_doubt) {
   drop_unsupported(sorted);
   Index no_room = 0;
   for (Index k = 0; k < sorted.new_ones(); ++k) {
@@ -128,7 +129,7 @@ void FramePlacer<Pose>::place(EkfUpdate<Pose>& update, const Frame<Pose>& frame,
     if (!place_one(update, frame, observation, std::nullopt)) continue;
     const std::uint64_t id =
         options_.association == AssociationKind::known ? frame.observations[observation].id : next_id_++;
-    map_.name_placed(id, sorted.in_doubt());
+    map_.name_placed(id, in_doubt);
     match = {id, Decision::placed, Reason::none, 0.0, 0.0};
   }
   if (no_room > 0)

@@ -18,8 +18,9 @@ class FramePlacer {
   // Before the commit, for a sensor that may abort: asks it for every place.
   void prepare(const EkfUpdate<Pose>& update, const Frame<Pose>& frame, const SortedFrame<Pose>& sorted);
   // To be called after the update was committed, or if it had no candidate. Once the map is full, the rest of the new
-  // landmarks, in the order of the frame, is refused.
-  void place(EkfUpdate<Pose>& update, const Frame<Pose>& frame, SortedFrame<Pose>& sorted);
+  // landmarks, in the order of the frame, is refused. `in_doubt`: an observation that places a landmark for the first
+  // time may well be a gross error.
+  void place(EkfUpdate<Pose>& update, const Frame<Pose>& frame, SortedFrame<Pose>& sorted, bool in_doubt);
   // If observations bring no ids, later landmarks get ids above this one.
   void reserve_id(std::uint64_t id);
 

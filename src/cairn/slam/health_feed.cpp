@@ -57,8 +57,8 @@ void HealthFeed<Pose>::after(const Frame<Pose>& frame) {
                     match.decision != Decision::matched);
   }
   after_ = map_.state().pose();
-  // In terms of the error about the new position: only so is the difference of the covariances what the update took
-  // off.
+  // The update took off the difference of two covariances of the same error. Therefore the one before the update is
+  // carried to the new position: the invariant error is about the position.
   typename Pose::Square covariance_before = covariance_before_;
   const Point moved = after_.translation() - before_.translation();
   map_.state().model().to_ordinary(

@@ -200,7 +200,6 @@ void OtherPlaces<Pose>::judge(const Frame<Pose>& frame, SortedFrame<Pose>& sorte
 template <class Pose>
 void OtherPlaces<Pose>::commit() {
   share_.add(frame_gross_, frame_compared_);
-  frame_gross_ = frame_compared_ = 0;
   for (Index i = 0; i < count_; ++i) {
     const Judged& judged = judged_[i];
     Landmark& landmark = find_or_make(judged.id);

@@ -75,7 +75,7 @@ class OtherPlaces {
     bool contest, place;
   };
 
-  // Share of gross errors among the observations of known landmarks, of late. Frames that say nothing do not count.
+  // The share of gross errors among the latest observations of known landmarks. Frames that say nothing do not count.
   class GrossShare {
    public:
     void add(Index gross, Index compared) {
@@ -113,7 +113,7 @@ class OtherPlaces {
   Reckoning* reckonings_;  // one a vehicle
   Judged* judged_;         // of the frame
   GrossShare share_;
-  Index frame_gross_ = 0, frame_compared_ = 0;
+  Index frame_gross_ = 0, frame_compared_ = 0;  // of the frame that judge() saw
   Index capacity_, next_ = 0, count_ = 0;
   std::uint64_t generation_ = 0;
   double gross_[kMostRows + 1] = {};  // by rows

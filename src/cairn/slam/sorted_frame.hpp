@@ -23,10 +23,7 @@ class SortedFrame {
  public:
   SortedFrame(Arena& arena, Index max_observations);
 
-  void clear() {
-    candidate_count_ = new_count_ = 0;
-    in_doubt_ = false;
-  }
+  void clear() { candidate_count_ = new_count_ = 0; }
   void add_candidate(const Frame<Pose>& frame, Index observation, Index slot, const Prediction<Pose>& prediction);
   // Returns false if the observation, from this pose, places no landmark.
   bool add_new(const Frame<Pose>& frame, Index observation, const Pose& pose);
@@ -38,9 +35,6 @@ class SortedFrame {
   void keep(const Index* kept, Index count);  // these candidates, in rising order
 
   void add_again(Index observation) { new_ones_[new_count_++] = observation; }  // places its landmark again
-  // Observations that place a landmark for the first time may well be gross errors.
-  void doubt() { in_doubt_ = true; }
-  bool in_doubt() const { return in_doubt_; }
   Index new_ones() const { return new_count_; }
   Index new_one(Index k) const { return new_ones_[k]; }  // its observation
   template <class Keep>
@@ -55,7 +49,6 @@ class SortedFrame {
   Candidate<Pose>* candidates_;
   Index* new_ones_;
   Index candidate_count_ = 0, new_count_ = 0;
-  bool in_doubt_ = false;
 };
 
 extern template class SortedFrame<SE2>;

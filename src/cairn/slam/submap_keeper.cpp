@@ -117,8 +117,8 @@ void SubmapKeeper<Pose>::remove_landmark(std::uint64_t id) {
   if (slot) local_.forget(*slot);
 }
 
-// The landmarks that count. One that does not, because a single observation places it and gross errors are many, is
-// compared with the map if the map knows it.
+// Landmarks that count join the map. One that is deferred for fear of a gross error does so, too, if the map knows it:
+// the closing compares both.
 template <class Pose>
 std::vector<Index> SubmapKeeper<Pose>::joining() const {
   const LandmarkTable& table = local_.table();

@@ -262,8 +262,7 @@ JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
     const auto in_map = [&](Index i) {
       return map_.counts_[map_.indices_.find(submap.ids[static_cast<std::size_t>(i)])];
     };
-    const auto in_submap = [&](Index i) { return submap.counts[static_cast<std::size_t>(i)]; };
-    give_way(submap, contradictions.decide(submap.size(), static_cast<Index>(known), in_map, in_submap));
+    give_way(submap, contradictions.decide(static_cast<Index>(known), in_map, submap.counts));
     report_.rows = kDim * pairs_.size();
     report_.distance = fusing->nis();
     report_.threshold = report_.rows > 0 ? bound(static_cast<Index>(report_.rows)) : 0.0;

@@ -144,8 +144,7 @@ Contradicting find_contradicting(const SparseState<Pose>& state, const Submap<Po
                 contradictions.add(gate, landmarks.local(block), distance, most);
               });
   const auto in_map = [&](Index i) { return state.landmarks[state.ids.find(submap.ids[i])->second].count; };
-  const auto in_submap = [&](Index i) { return submap.counts[i]; };
-  return {contradictions.decide(submap.size(), known, in_map, in_submap), contradictions.worst()};
+  return {contradictions.decide(known, in_map, submap.counts), contradictions.worst()};
 }
 
 template bool may_contradict(const SparseState<SE2>&, std::uint32_t, const JoinReport&);
