@@ -63,4 +63,7 @@ cmake --build "$root/build/sanitize" --parallel "$jobs"
 
 begin "Tests under sanitizers"
 ctest --test-dir "$root/build/sanitize" --output-on-failure -j "$jobs"
+
+begin "Packages: made of the build, installed, used, removed; the source tarball"
+bash "$root/tests/install/check_packages.sh" "$root/build/check"
 all_done=true
