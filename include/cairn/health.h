@@ -77,12 +77,12 @@ typedef struct cairn_sensor_health {
 
 /** The verdict on a filter. Set `health->struct_size` first. All of it is what the last update left: the call computes
  *  nothing. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.2.0 */
-CAIRN_API cairn_status cairn_filter_health(const cairn_filter *filter, cairn_health *health);
+CAIRN_API cairn_status cairn_filter_health(const cairn_filter *filter, cairn_health *health, cairn_error *error);
 
 /** What the observations of one sensor show. Set `health->struct_size` first. Threads: as any const query of the
  * handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND (sensor). Complexity: O(1). \since 0.2.0 */
 CAIRN_API cairn_status cairn_filter_sensor_health(const cairn_filter *filter, int32_t sensor,
-                                                  cairn_sensor_health *health);
+                                                  cairn_sensor_health *health, cairn_error *error);
 
 /** A verdict in one word: "good", "doubtful" or "lost"; "unknown" for any other value. Threads: any. \since 0.2.0 */
 CAIRN_API const char *cairn_verdict_text(cairn_verdict verdict);

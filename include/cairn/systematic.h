@@ -13,6 +13,7 @@ extern "C" {
 #endif
 
 /** Kinds of systematic errors. */
+typedef int32_t cairn_systematic;
 enum {
   CAIRN_SYSTEMATIC_VELOCITY_BIAS = 0, /**< of the measured body velocity, m/s; components x, y, z */
   CAIRN_SYSTEMATIC_RATE_BIAS = 1,     /**< of the measured body rate, rad/s; components x, y, z */
@@ -37,7 +38,7 @@ typedef struct cairn_calibration {
 } cairn_calibration;
 
 /** Fills in the defaults: no errors. Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.2.0 */
-CAIRN_API cairn_status cairn_calibration_init(cairn_calibration *calibration, size_t struct_size);
+CAIRN_API cairn_status cairn_calibration_init(cairn_calibration *calibration, size_t struct_size, cairn_error *error);
 
 /** Makes systematic errors of a sensor states of the filter. Call it after the sensor was added, before the first
  * motion and the first observation, at most once for a sensor. All sensors together have at most max_sensor_errors of
@@ -45,11 +46,11 @@ CAIRN_API cairn_status cairn_calibration_init(cairn_calibration *calibration, si
  * its gates. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND (sensor), CAIRN_ERROR_CAPACITY,
  *  CAIRN_ERROR_STATE (too late, or calibrated already), CAIRN_ERROR_MEMORY. \since 0.2.0 */
 CAIRN_API cairn_status cairn_filter_calibrate_sensor(cairn_filter *filter, int32_t sensor,
-                                                     const cairn_calibration *calibration);
+                                                     const cairn_calibration *calibration, cairn_error *error);
 
 /** The estimate of one component of a systematic error. */
 typedef struct cairn_systematic_error {
-  int32_t kind;      /**< CAIRN_SYSTEMATIC_VELOCITY_BIAS and so on */
+  cairn_systematic kind; /**< CAIRN_SYSTEMATIC_VELOCITY_BIAS and so on */
   int32_t sensor;    /**< the sensor whose error it is; -1: of the motion */
   int32_t component; /**< counted from 0 */
   int32_t reserved;  /**< 0 */
@@ -64,7 +65,8 @@ typedef struct cairn_systematic_error {
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER.
  *  Complexity: O(1). \since 0.2.0 */
 CAIRN_API cairn_status cairn_filter_systematic_errors(const cairn_filter *filter, cairn_systematic_error *errors,
-                                                      double *covariance, size_t capacity, size_t *needed);
+                                                      double *covariance, size_t capacity, size_t *needed,
+                                                      cairn_error *error);
 
 #ifdef __cplusplus
 }
