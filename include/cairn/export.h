@@ -6,7 +6,7 @@
 
 /** Major version of this header. \ref cairn_version returns the version of the loaded library. */
 #define CAIRN_VERSION_MAJOR 0
-#define CAIRN_VERSION_MINOR 1 /**< minor version of this header */
+#define CAIRN_VERSION_MINOR 2 /**< minor version of this header */
 #define CAIRN_VERSION_PATCH 0 /**< patch version of this header */
 
 #if defined(__GNUC__)

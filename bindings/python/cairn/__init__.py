@@ -10,7 +10,7 @@ lib.CAIRN_NEW. The library is loaded at the first use of one of these names, so 
 """
 import importlib
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 __all__ = ["CairnError", "Filter", "Fleet", "Map", "Pose", "Team", "World", "ffi", "lib", "planar_pose", "pose_compose",
            "pose_error", "pose_inverse", "quaternion_from_euler", "quaternion_to_euler", "version"]
 
@@ -20,7 +20,7 @@ _HOMES = {"CairnError": "error", "Filter": "filter", "Fleet": "fleet", "Map": "m
 
 
 def version():
-    """Version of the loaded library, for example "0.1.0"."""
+    """Version of the loaded library, for example "0.2.0"."""
     from ._library import ffi, lib
     return ffi.string(lib.cairn_version()).decode()
 
