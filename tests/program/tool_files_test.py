@@ -70,14 +70,15 @@ class ToolFiles(ProgramTest):
     def check_landmarks(self, folder, earth, heights):
         table = self.check_ply(folder)
         points = self.features(folder, "map.geojson", "landmark")
-        rings = {f["properties"]["id"]: f for f in self.features(folder, "map.geojson", "ellipse_95")}
+        rings = {f["properties"]["landmark_id"]: f for f in self.features(folder, "map.geojson", "ellipse_95")}
         self.assertEqual(len(points), len(table))
         self.assertEqual(len(rings), len(table))
         for point, row in zip(points, table):
             self.assertEqual(point["geometry"]["type"], "Point")
             properties, place = point["properties"], point["geometry"]["coordinates"]
             self.assertEqual(len(place), 3 if heights else 2)
-            self.assertEqual((properties["id"], properties["observations"]), (int(row["id"]), int(row["observations"])))
+            self.assertEqual((properties["landmark_id"], properties["observations"]),
+                             (int(row["id"]), int(row["observations"])))
             wanted = [float(row[f"{axis}_m"]) for axis in "xyz"]
             for axis, (has, want) in enumerate(zip(earth.local(*place), wanted)):
                 if axis < 2 or heights:
@@ -88,7 +89,7 @@ class ToolFiles(ProgramTest):
                 self.assertAlmostEqual(has, want, delta=1e-8 * (1e-3 + abs(want)))
             for axis, at in (("east", 0), ("north", 4), ("up", 8)):
                 self.assertAlmostEqual(properties[f"sigma_{axis}_m"] ** 2, c[at], delta=1e-7 * c[at])
-            self.check_ring(rings[properties["id"]], earth, wanted, c)
+            self.check_ring(rings[properties["landmark_id"]], earth, wanted, c)
 
     def check_ring(self, feature, earth, centre, c):
         """Each corner lies where the horizontal covariance puts 95 %: at a squared distance of -2 ln 0.05."""
@@ -187,7 +188,7 @@ class ToolFiles(ProgramTest):
                              [(int(row["id"]), float(row["x"]), float(row["y"])) for row in landmarks
                               if row["vehicle"] == vehicle])
             places = self.features(folder, f"vehicle_{vehicle}_map.geojson", "landmark")
-            self.assertEqual([place["properties"]["id"] for place in places], [point["id"] for point in points])
+            self.assertEqual([place["properties"]["landmark_id"] for place in places], [point["id"] for point in points])
 
     def test_what_is_refused(self):
         for value, *words in (("91,0", "'91'", "latitude", "-90", "90"), ("0,-180.1", "'-180.1'", "longitude", "180"),

@@ -51,7 +51,8 @@ void GeoJson::feature(const std::string& geometry, const std::string& coordinate
 
 void GeoJson::landmark(const cairn_landmark& landmark) {
   const double *p = landmark.position, *c = landmark.covariance;
-  const std::string id = ",\"id\":" + std::to_string(landmark.id);
+  // Not "id": GDAL takes a property of this name for the feature's own number, and two features have it.
+  const std::string id = ",\"landmark_id\":" + std::to_string(landmark.id);
   std::vector<std::string> covariance;
   for (int i = 0; i < 9; ++i) covariance.push_back(number("%.9g", c[i]));
   feature("Point", coordinates(p[0], p[1], p[2]),
