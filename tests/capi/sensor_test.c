@@ -6,7 +6,7 @@ static void head_defaults(void** state) {
   cairn_stereo_head h;
   (void)state;
   memset(&h, 0x5a, sizeof h);
-  assert_ok(cairn_stereo_head_init(&h, sizeof h));
+  assert_ok(cairn_stereo_head_init(&h, sizeof h, NULL));
   assert_int_equal(h.struct_size, sizeof h);
   assert_int_equal(h.encoder_mode, CAIRN_ENCODER_PER_OBSERVATION);
   for (int i = 0; i < 3; ++i) assert_true(h.platform[i] == 0 && h.stick[i] == 0);
@@ -25,7 +25,7 @@ static void camera_defaults(void** state) {
   double p[3];
   (void)state;
   memset(&c, 0x5a, sizeof c);
-  assert_ok(cairn_stereo_camera_init(&c, sizeof c));
+  assert_ok(cairn_stereo_camera_init(&c, sizeof c, NULL));
   assert_int_equal(c.struct_size, sizeof c);
   assert_int_equal(c.reserved, 0);
   assert_true(c.fu == 500 && c.fv == 500 && c.cu == 320 && c.cv == 240 && c.baseline == 0.2);
@@ -43,12 +43,11 @@ static void cartesian_and_custom_defaults(void** state) {
   (void)state;
   memset(&c, 0x5a, sizeof c);
   memset(&u, 0x5a, sizeof u);
-  assert_ok(cairn_cartesian_init(&c, sizeof c));
-  assert_ok(cairn_custom_init(&u, sizeof u));
+  assert_ok(cairn_cartesian_init(&c, sizeof c, NULL));
+  assert_ok(cairn_custom_init(&u, sizeof u, NULL));
   assert_int_equal(c.struct_size, sizeof c);
   assert_int_equal(u.struct_size, sizeof u);
   assert_true(c.reserved == 0 && u.relative == 0 && u.angle_mask == 0 && u.rows == 3);
-  assert_true(u.predict == NULL && u.place == NULL && u.user == NULL);
   for (int i = 0; i < 3; ++i) {
     assert_true(c.T_body_sensor.position[i] == 0 && c.T_body_sensor.quaternion[i + 1] == 0);
     assert_true(c.sigma[i] == 0.1 && u.sigma[i] == 1);
@@ -95,12 +94,12 @@ static void every_sensor_places_where_it_looks(void** state) {
       open_known(&r, &w);
       o.id = 42;
       see(&w, sensors[s], mount, points[n], o.z);
-      assert_ok(cairn_filter_point_head(r.filter, r.sensors[HEAD], mount[0], mount[1]));
-      assert_ok(cairn_filter_update(r.filter, r.sensors[sensors[s]], &o, 1, &match));
-      assert_int_equal(match.result, CAIRN_NEW);
+      assert_ok(cairn_filter_point_head(r.filter, r.sensors[HEAD], mount[0], mount[1], NULL));
+      assert_ok(cairn_filter_update(r.filter, r.sensors[sensors[s]], &o, 1, &match, NULL));
+      assert_int_equal(match.result, CAIRN_RESULT_NEW);
       assert_int_equal(match.reason, CAIRN_REASON_NONE);
       assert_int_equal(match.landmark, 42);
-      assert_ok(cairn_map_landmark(cairn_filter_map(r.filter), 42, &landmark));
+      assert_ok(cairn_map_landmark(cairn_filter_map(r.filter), 42, &landmark, NULL));
       for (int i = 0; i < 3; ++i) assert_near(landmark.position[i], points[n][i], 1e-9);
       assert_int_equal(landmark.observations, 1);
       rig_close(&r);
@@ -138,14 +137,14 @@ static void expect_placed(int sensor, cairn_stereo_head head, bool shared) {
   world_init(&w, 77);
   memset(options.initial_covariance, 0, sizeof options.initial_covariance);
   options.initial_pose = w.truth = pose_at(1, -2, 0.5, 0.2, -0.1, 0.7);
-  assert_ok(cairn_filter_create(&options, &filter));
+  assert_ok(cairn_filter_create(&options, &filter, NULL));
   if (sensor == HEAD) {
-    assert_ok(cairn_filter_add_stereo_head(filter, &head, &added));
-    assert_ok(cairn_filter_point_head(filter, added, mount[0], mount[1]));
+    assert_ok(cairn_filter_add_stereo_head(filter, &head, &added, NULL));
+    assert_ok(cairn_filter_point_head(filter, added, mount[0], mount[1], NULL));
   } else {
     cairn_stereo_camera camera = test_camera();
     memcpy(camera.sigma, sigma, sizeof sigma);
-    assert_ok(cairn_filter_add_stereo_camera(filter, &camera, &added));
+    assert_ok(cairn_filter_add_stereo_camera(filter, &camera, &added, NULL));
   }
   memset(o, 0, sizeof o);
   for (int k = 0; k < 2; ++k) {
@@ -153,8 +152,8 @@ static void expect_placed(int sensor, cairn_stereo_head head, bool shared) {
     see(&w, sensor, mount, points[k], o[k].z);
     differences(&w, sensor, mount, points[k], H[k], M[k]);
   }
-  assert_ok(cairn_filter_update(filter, added, o, 2, NULL));
-  assert_ok(cairn_map_joint_covariance(cairn_filter_map(filter), ids, 2, joint, 36, &needed));
+  assert_ok(cairn_filter_update(filter, added, o, 2, NULL, NULL));
+  assert_ok(cairn_map_joint_covariance(cairn_filter_map(filter), ids, 2, joint, 36, &needed, NULL));
   const double mounts[2] = {head.pan_sigma * head.pan_sigma, head.stick_sigma * head.stick_sigma};
   for (int a = 0; a < 2; ++a)
     for (int c = 0; c < 2; ++c)
@@ -185,7 +184,7 @@ static void placed_covariance_is_that_of_the_noise(void** state) {
 /* The same frames through the built-in sensor and through an equal custom sensor. */
 static void expect_equal_to_the_built_in_one(uint32_t relative) {
   cairn_filter_options options = test_options();
-  cairn_custom custom = test_point();
+  own_sensor custom = test_point();
   cairn_pose pa, pb;
   double error[6], ca[36], cb[36];
   rig a, b;
@@ -195,8 +194,8 @@ static void expect_equal_to_the_built_in_one(uint32_t relative) {
   if (!relative) options.iterations = 1; /* a custom sensor may need one linearisation more */
   rig_open(&a, &options);
   rig_open(&b, &options);
-  custom.relative = relative;
-  assert_ok(cairn_filter_add_custom(b.filter, &custom, &b.sensors[CARTESIAN])); /* replaces the built-in sensor */
+  custom.model.relative = relative;
+  assert_ok(add_own(b.filter, &custom, &b.sensors[CARTESIAN])); /* replaces the built-in sensor */
   for (int n = 0; n < 30; ++n) {
     frame f;
     cairn_match ma[WORLD_LANDMARKS], mb[WORLD_LANDMARKS];
@@ -209,15 +208,15 @@ static void expect_equal_to_the_built_in_one(uint32_t relative) {
       assert_near(ma[i].distance, mb[i].distance, 1e-6);
     }
   }
-  assert_ok(cairn_filter_pose(a.filter, &pa, ca));
-  assert_ok(cairn_filter_pose(b.filter, &pb, cb));
-  assert_ok(cairn_pose_error(&pa, &pb, error));
+  assert_ok(cairn_filter_pose(a.filter, &pa, ca, NULL));
+  assert_ok(cairn_filter_pose(b.filter, &pb, cb, NULL));
+  assert_ok(cairn_pose_error(&pa, &pb, error, NULL));
   for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 1e-9);
   for (int i = 0; i < 36; ++i) assert_near(ca[i], cb[i], 1e-9);
   for (uint64_t id = 1; id <= WORLD_LANDMARKS; ++id) {
     cairn_landmark la, lb;
-    assert_ok(cairn_map_landmark(cairn_filter_map(a.filter), id, &la));
-    assert_ok(cairn_map_landmark(cairn_filter_map(b.filter), id, &lb));
+    assert_ok(cairn_map_landmark(cairn_filter_map(a.filter), id, &la, NULL));
+    assert_ok(cairn_map_landmark(cairn_filter_map(b.filter), id, &lb, NULL));
     for (int i = 0; i < 3; ++i) assert_near(la.position[i], lb.position[i], 1e-9);
     for (int i = 0; i < 9; ++i) assert_near(la.covariance[i], lb.covariance[i], 1e-9);
     assert_int_equal(la.observations, lb.observations);
@@ -244,7 +243,7 @@ static int32_t spoilt_predict(void* user, const cairn_pose* pose, const double l
   (void)point_predict(NULL, pose, landmark, z, jacobian_pose, jacobian_landmark);
   if (s->matrix == 0) jacobian_pose[s->entry] += 0.1;
   if (s->matrix == 1) jacobian_landmark[s->entry] += 0.1;
-  return 0;
+  return 1;
 }
 
 static int32_t spoilt_place(void* user, const cairn_pose* pose, const double* z, double landmark[3],
@@ -254,11 +253,11 @@ static int32_t spoilt_place(void* user, const cairn_pose* pose, const double* z,
   if (s->matrix == 2) jacobian_pose[s->entry] += 0.1;
   if (s->matrix == 3) jacobian_z[s->entry] += 0.1;
   if (s->matrix == 4) landmark[s->entry] += 0.1;
-  return 0;
+  return 1;
 }
 
 static void check_accepts_right_jacobians(void** state) {
-  const cairn_custom sensors[] = {test_point(), test_range()};
+  const own_sensor sensors[] = {test_point(), test_range()};
   generator random = {9};
   (void)state;
   for (size_t s = 0; s < LENGTH(sensors); ++s)
@@ -267,7 +266,7 @@ static void check_accepts_right_jacobians(void** state) {
                                       random_uniform(&random, -3, 3));
       const double landmark[3] = {random_uniform(&random, 6, 12), random_uniform(&random, -9, 9), 3};
       double worst = NAN;
-      assert_ok(cairn_custom_check(&sensors[s], &pose, landmark, &worst));
+      assert_ok(check_own(&sensors[s], &pose, landmark, &worst));
       assert_true(worst >= 0 && worst < 1e-5);
     }
 }
@@ -280,10 +279,10 @@ static void check_exposes_every_wrong_entry(void** state) {
   for (int matrix = 0; matrix < 5; ++matrix)
     for (int entry = 0; entry < entries[matrix]; ++entry) {
       spoil s = {matrix, entry};
-      cairn_custom custom = test_point();
+      own_sensor custom = test_point();
       double worst = 0;
       custom.predict = spoilt_predict, custom.place = spoilt_place, custom.user = &s;
-      assert_ok(cairn_custom_check(&custom, &pose, landmark, &worst));
+      assert_ok(check_own(&custom, &pose, landmark, &worst));
       if (!(worst > 1e-2)) fail_msg("matrix %d entry %d: worst %g", matrix, entry, worst);
     }
 }

@@ -62,7 +62,7 @@ void to_map(const cairn_pose* pose, const double point[3], double out[3]) {
 
 cairn_pose pose_at(double x, double y, double z, double roll, double pitch, double yaw) {
   cairn_pose pose = {{x, y, z}, {1, 0, 0, 0}};
-  assert_ok(cairn_quaternion_from_euler(roll, pitch, yaw, pose.quaternion));
+  assert_ok(cairn_quaternion_from_euler(roll, pitch, yaw, pose.quaternion, NULL));
   return pose;
 }
 
@@ -87,7 +87,7 @@ int32_t point_predict(void* user, const cairn_pose* pose, const double landmark[
       jacobian_pose[6 * i + j] = -mt[3 * i + j];
       jacobian_pose[6 * i + 3 + j] = turn[3 * i + j];
     }
-  return 0;
+  return 1;
 }
 
 int32_t point_place(void* user, const cairn_pose* pose, const double* z, double landmark[3], double* jacobian_pose,
@@ -105,7 +105,7 @@ int32_t point_place(void* user, const cairn_pose* pose, const double* z, double 
       jacobian_pose[6 * i + 3 + j] = -cross[3 * i + j];
     }
   }
-  return 0;
+  return 1;
 }
 
 int32_t range_predict(void* user, const cairn_pose* pose, const double landmark[3], double* z, double* jacobian_pose,
@@ -114,19 +114,19 @@ int32_t range_predict(void* user, const cairn_pose* pose, const double landmark[
   (void)user;
   for (int i = 0; i < 3; ++i) d[i] = landmark[i] - pose->position[i], square += d[i] * d[i];
   z[0] = sqrt(square);
-  if (!(z[0] > 0.1)) return 1;
+  if (!(z[0] > 0.1)) return 0;
   for (int i = 0; i < 3; ++i) {
     jacobian_landmark[i] = d[i] / z[0];
     jacobian_pose[i] = -d[i] / z[0];
     jacobian_pose[3 + i] = 0;
   }
-  return 0;
+  return 1;
 }
 
 cairn_stereo_head test_head(void) {
   cairn_stereo_head head;
   const double tilt[4] = {0.99500416527802576610, 0, 0.09983341664682815230, 0}; /* 0.2 rad about y */
-  assert_ok(cairn_stereo_head_init(&head, sizeof head));
+  assert_ok(cairn_stereo_head_init(&head, sizeof head, NULL));
   head.encoder_mode = CAIRN_ENCODER_PER_FRAME;
   head.platform[0] = 0.2, head.platform[2] = 0.5;
   head.stick[0] = 0.1, head.stick[2] = 0.3;
@@ -139,31 +139,37 @@ cairn_stereo_head test_head(void) {
 
 cairn_stereo_camera test_camera(void) {
   cairn_stereo_camera camera;
-  assert_ok(cairn_stereo_camera_init(&camera, sizeof camera));
+  assert_ok(cairn_stereo_camera_init(&camera, sizeof camera, NULL));
   return camera;
 }
 
 cairn_cartesian test_cartesian(void) {
   cairn_cartesian cartesian;
-  assert_ok(cairn_cartesian_init(&cartesian, sizeof cartesian));
+  assert_ok(cairn_cartesian_init(&cartesian, sizeof cartesian, NULL));
   return cartesian;
 }
 
-cairn_custom test_point(void) {
-  cairn_custom custom;
-  assert_ok(cairn_custom_init(&custom, sizeof custom));
-  custom.predict = point_predict, custom.place = point_place;
-  custom.sigma[0] = custom.sigma[1] = custom.sigma[2] = 0.1;
-  return custom;
+own_sensor test_point(void) {
+  own_sensor own = {{0}, point_predict, point_place, NULL};
+  assert_ok(cairn_custom_init(&own.model, sizeof own.model, NULL));
+  own.model.sigma[0] = own.model.sigma[1] = own.model.sigma[2] = 0.1;
+  return own;
 }
 
-cairn_custom test_range(void) {
-  cairn_custom custom;
-  assert_ok(cairn_custom_init(&custom, sizeof custom));
-  custom.predict = range_predict;
-  custom.rows = 1;
-  custom.sigma[0] = 0.1;
-  return custom;
+own_sensor test_range(void) {
+  own_sensor own = {{0}, range_predict, NULL, NULL};
+  assert_ok(cairn_custom_init(&own.model, sizeof own.model, NULL));
+  own.model.rows = 1;
+  own.model.sigma[0] = 0.1;
+  return own;
+}
+
+cairn_status add_own(cairn_filter* filter, const own_sensor* own, int32_t* sensor) {
+  return cairn_filter_add_custom(filter, &own->model, own->predict, own->place, own->user, NULL, sensor, NULL);
+}
+
+cairn_status check_own(const own_sensor* own, const cairn_pose* pose, const double landmark[3], double* worst) {
+  return cairn_custom_check(&own->model, own->predict, own->place, own->user, pose, landmark, worst, NULL);
 }
 
 void world_init(world* w, uint64_t seed) {
@@ -232,7 +238,7 @@ void world_frame(world* w, frame* f) {
   const cairn_pose move = {{speed / turn * sin(angle), speed / turn * (1 - cos(angle)), 0},
                            {cos(angle / 2), 0, 0, sin(angle / 2)}};
   memset(f, 0, sizeof *f);
-  assert_ok(cairn_pose_compose(&w->truth, &move, &w->truth));
+  assert_ok(cairn_pose_compose(&w->truth, &move, &w->truth, NULL));
   f->motion = (int)(w->step % MOTIONS);
   f->dt = dt;
   f->left = (speed - turn / 2) / 0.3 + w->noise * random_normal(&w->random, 0.01);

@@ -31,16 +31,16 @@ static void options_of_other_sizes(void** state) {
   (void)state;
   assert_non_null(bytes);
   memset(bytes, 0xa5, sizeof *o + 64);
-  assert_ok(cairn_fleet_options_init(o, old));
+  assert_ok(cairn_fleet_options_init(o, old, NULL));
   for (i = old; i < sizeof *o + 64; ++i) assert_int_equal(bytes[i], 0xa5);
   o->vehicles = 3;
   fleet = open_fleet(o);
   assert_int_equal(next_fleet_step(fleet).vehicle_count, 3);
-  assert_ok(cairn_fleet_features(fleet, NULL, 0, &needed));
+  assert_ok(cairn_fleet_features(fleet, NULL, 0, &needed, NULL));
   assert_int_equal(needed, 10);
   cairn_fleet_destroy(fleet);
   memset(bytes, 0xa5, sizeof *o + 64);
-  assert_ok(cairn_fleet_options_init(o, sizeof *o + 64)); /* a newer caller */
+  assert_ok(cairn_fleet_options_init(o, sizeof *o + 64, NULL)); /* a newer caller */
   assert_int_equal(bytes[sizeof *o + 63], 0);
   cairn_fleet_destroy(open_fleet(o));
   free(bytes);
@@ -58,30 +58,30 @@ static void steps_of_other_sizes(void** state) {
   (void)state;
   memset(&u, 0xa5, sizeof u);
   u.step.struct_size = (uint32_t)old;
-  assert_ok(cairn_fleet_next(fleet, &u.step));
+  assert_ok(cairn_fleet_next(fleet, &u.step, NULL));
   assert_int_equal(u.step.number, 0);
   assert_int_equal(u.step.struct_size, old);
   for (i = old; i < sizeof u; ++i) assert_int_equal(u.bytes[i], 0xa5);
   u.step.struct_size = sizeof u;
-  assert_ok(cairn_fleet_next(fleet, &u.step));
+  assert_ok(cairn_fleet_next(fleet, &u.step, NULL));
   assert_int_equal(u.step.number, 1);
   assert_int_equal(u.step.struct_size, sizeof u);
   for (i = sizeof u.step; i < sizeof u; ++i) assert_int_equal(u.bytes[i], 0xa5);
   u.step.struct_size = 7;
-  assert_refused(cairn_fleet_next(fleet, &u.step), CAIRN_ERROR_ARGUMENT, "struct_size");
+  assert_refused(cairn_fleet_next(fleet, &u.step, NULL), CAIRN_ERROR_ARGUMENT, "struct_size");
   assert_int_equal(u.step.number, 1);
   assert_int_equal(next_fleet_step(fleet).number, 2); /* the refused call did not consume a step */
   cairn_fleet_destroy(fleet);
 }
 
 /* The message must contain `word`, the name of the field. */
-#define REFUSE_AS(field, value, word)                                              \
-  do {                                                                             \
-    cairn_fleet_options bad = default_fleet_options();                             \
-    cairn_fleet* none = NULL;                                                      \
-    bad.field = (value);                                                           \
-    assert_refused(cairn_fleet_create(&bad, &none), CAIRN_ERROR_ARGUMENT, (word)); \
-    assert_null(none);                                                             \
+#define REFUSE_AS(field, value, word)                                                    \
+  do {                                                                                   \
+    cairn_fleet_options bad = default_fleet_options();                                   \
+    cairn_fleet* none = NULL;                                                            \
+    bad.field = (value);                                                                 \
+    assert_refused(cairn_fleet_create(&bad, &none, NULL), CAIRN_ERROR_ARGUMENT, (word)); \
+    assert_null(none);                                                                   \
   } while (0)
 #define REFUSE(field, value) REFUSE_AS(field, value, "options." #field)
 
@@ -133,7 +133,7 @@ static void contradictions(void** state) {
   o.coast_distance = 0.02;
   cairn_fleet_destroy(open_fleet(&o));
   o.layout = CAIRN_FLEET_COAST;
-  assert_refused(cairn_fleet_create(&o, &fleet), CAIRN_ERROR_ARGUMENT, "coast_distance");
+  assert_refused(cairn_fleet_create(&o, &fleet, NULL), CAIRN_ERROR_ARGUMENT, "coast_distance");
   o.coast_distance = 0.1;
   cairn_fleet_destroy(open_fleet(&o));
   o.coast_distance = 0.35, o.vehicles = 64;
@@ -150,7 +150,7 @@ static void good_options(void** state) {
   o.coast_distance = 0.3, o.coast_relief = 0.2, o.coast_strip = 0.5;
   o.range_sigma = o.bearing_sigma = o.speed_sigma = o.rate_sigma = 0;
   fleet = open_fleet(&o);
-  assert_ok(cairn_fleet_steps(fleet, &steps));
+  assert_ok(cairn_fleet_steps(fleet, &steps, NULL));
   assert_int_equal(steps, 2);
   assert_int_equal(next_fleet_step(fleet).vehicle_count, 64);
   cairn_fleet_destroy(fleet);
@@ -164,45 +164,76 @@ static void missing_arguments(void** state) {
   size_t count = 0;
   (void)state;
   step.struct_size = sizeof step;
-  assert_refused(cairn_fleet_options_init(NULL, 100), CAIRN_ERROR_ARGUMENT, "options");
-  assert_refused(cairn_fleet_options_init(&o, 4), CAIRN_ERROR_ARGUMENT, "struct_size");
-  assert_refused(cairn_fleet_create(NULL, &fleet), CAIRN_ERROR_ARGUMENT, "options");
-  assert_refused(cairn_fleet_create(&o, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
-  assert_refused(cairn_fleet_next(NULL, &step), CAIRN_ERROR_ARGUMENT, "fleet");
-  assert_refused(cairn_fleet_rewind(NULL), CAIRN_ERROR_ARGUMENT, "fleet");
-  assert_refused(cairn_fleet_steps(NULL, &count), CAIRN_ERROR_ARGUMENT, "fleet");
-  assert_refused(cairn_fleet_features(NULL, points, 1, &count), CAIRN_ERROR_ARGUMENT, "fleet");
-  assert_refused(cairn_fleet_coast(NULL, points, 1, &count), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_options_init(NULL, 100, NULL), CAIRN_ERROR_ARGUMENT, "options");
+  assert_refused(cairn_fleet_options_init(&o, 4, NULL), CAIRN_ERROR_ARGUMENT, "struct_size");
+  assert_refused(cairn_fleet_create(NULL, &fleet, NULL), CAIRN_ERROR_ARGUMENT, "options");
+  assert_refused(cairn_fleet_create(&o, NULL, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_next(NULL, &step, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_rewind(NULL, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_steps(NULL, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_features(NULL, points, 1, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_coast(NULL, points, 1, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
   cairn_fleet_destroy(NULL);
   fleet = open_fleet(&o);
-  assert_refused(cairn_fleet_next(fleet, NULL), CAIRN_ERROR_ARGUMENT, "step");
-  assert_refused(cairn_fleet_steps(fleet, NULL), CAIRN_ERROR_ARGUMENT, "steps");
+  assert_refused(cairn_fleet_next(fleet, NULL, NULL), CAIRN_ERROR_ARGUMENT, "step");
+  assert_refused(cairn_fleet_steps(fleet, NULL, NULL), CAIRN_ERROR_ARGUMENT, "steps");
+  assert_refused(cairn_fleet_vehicles(NULL, NULL, 0, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_vehicles(fleet, NULL, 0, NULL, NULL), CAIRN_ERROR_ARGUMENT, "needed");
+  assert_refused(cairn_fleet_seen_features(NULL, 1, NULL, 0, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_seen_vehicles(NULL, 1, NULL, 0, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
   cairn_fleet_destroy(fleet);
 }
 
-typedef cairn_status points_of(const cairn_fleet*, double*, size_t, size_t*);
+/* Before the first step nothing was seen. After it the fleet tells what each boat saw, and knows no other boats. */
+static void boats_of_a_step(void** state) {
+  const cairn_fleet_options o = default_fleet_options();
+  cairn_fleet* fleet = open_fleet(&o);
+  cairn_fleet_sighting one;
+  size_t count = 9;
+  (void)state;
+  assert_ok(cairn_fleet_vehicles(fleet, NULL, 0, &count, NULL));
+  assert_int_equal(count, 0);
+  assert_ok(cairn_fleet_seen_features(fleet, 1, NULL, 0, &count, NULL));
+  assert_int_equal(count, 0);
+  next_fleet_step(fleet);
+  assert_ok(cairn_fleet_vehicles(fleet, NULL, 0, &count, NULL));
+  assert_int_equal(count, 2);
+  assert_ok(cairn_fleet_seen_vehicles(fleet, 2, &one, 1, &count, NULL));
+  assert_int_equal(count, 1);
+  assert_int_equal(one.id, 1);
+  assert_refused(cairn_fleet_seen_features(fleet, 0, &one, 1, &count, NULL), CAIRN_ERROR_NOT_FOUND, "vehicle 0");
+  assert_refused(cairn_fleet_seen_vehicles(fleet, 3, &one, 1, &count, NULL), CAIRN_ERROR_NOT_FOUND, "1 to 2");
+  assert_ok(cairn_fleet_rewind(fleet, NULL));
+  assert_ok(cairn_fleet_vehicles(fleet, NULL, 0, &count, NULL));
+  assert_int_equal(count, 0);
+  cairn_fleet_destroy(fleet);
+}
+
+typedef cairn_status points_of(const cairn_fleet*, double*, size_t, size_t*, cairn_error*);
 
 static void check_buffers(points_of* query, const cairn_fleet* fleet, size_t expected, const char* name) {
   double *buffer = (double*)malloc((expected + 1) * 2 * sizeof(double)), first;
   size_t needed = 0, i;
   assert_non_null(buffer);
-  assert_ok(query(fleet, NULL, 0, &needed));
+  assert_ok(query(fleet, NULL, 0, &needed, NULL));
   assert_int_equal(needed, expected);
   for (i = 0; i < 2 * expected + 2; ++i) buffer[i] = -12345;
   needed = 0;
-  assert_refused(query(fleet, buffer, expected - 1, &needed), CAIRN_ERROR_BUFFER, name);
+  assert_refused(query(fleet, buffer, expected - 1, &needed, NULL), CAIRN_ERROR_BUFFER, name);
   assert_int_equal(needed, expected);
   for (i = 0; i < 2 * expected + 2; ++i) assert_near(buffer[i], -12345, 0);
-  assert_ok(query(fleet, buffer, expected, &needed));
+  assert_ok(query(fleet, buffer, 0, &needed, NULL)); /* capacity 0 asks, with any pointer */
+  assert_int_equal(needed, expected);
+  assert_ok(query(fleet, buffer, expected, &needed, NULL));
   for (i = 0; i < 2 * expected; ++i) assert_between(buffer[i], -5000, 5000);
   for (; i < 2 * expected + 2; ++i) assert_near(buffer[i], -12345, 0);
   first = buffer[0];
-  assert_ok(query(fleet, buffer, expected + 1, &needed));
+  assert_ok(query(fleet, buffer, expected + 1, &needed, NULL));
   assert_int_equal(needed, expected);
   assert_near(buffer[0], first, 0);
   assert_near(buffer[2 * expected], -12345, 0);
-  assert_refused(query(fleet, NULL, 1, &needed), CAIRN_ERROR_ARGUMENT, name);
-  assert_refused(query(fleet, buffer, expected, NULL), CAIRN_ERROR_ARGUMENT, "needed");
+  assert_refused(query(fleet, NULL, 1, &needed, NULL), CAIRN_ERROR_ARGUMENT, name);
+  assert_refused(query(fleet, buffer, expected, NULL, NULL), CAIRN_ERROR_ARGUMENT, "needed");
   free(buffer);
 }
 
@@ -220,28 +251,28 @@ static void buffers(void** state) {
 static void the_end(void** state) {
   cairn_fleet_options o = default_fleet_options();
   cairn_fleet* fleet;
-  cairn_fleet_step step;
+  cairn_fleet_step beyond = {0};
   size_t steps = 0, k;
   (void)state;
   o.duration = 0.7, o.period = 0.1; /* their quotient is not a whole number */
   fleet = open_fleet(&o);
-  assert_ok(cairn_fleet_steps(fleet, &steps));
+  assert_ok(cairn_fleet_steps(fleet, &steps, NULL));
   assert_int_equal(steps, 8);
   for (k = 0; k < steps; ++k) {
-    step = next_fleet_step(fleet);
+    const fleet_step step = next_fleet_step(fleet);
     assert_int_equal(step.number, k);
-    assert_int_equal(step.reserved, 0);
     assert_near(step.time, 0.1 * (double)k, 1e-12);
     assert_near(step.dt, k == 0 ? 0 : 0.1, 0);
   }
-  assert_refused(cairn_fleet_next(fleet, &step), CAIRN_ERROR_STATE, "rewind");
-  assert_refused(cairn_fleet_next(fleet, &step), CAIRN_ERROR_STATE, "8 steps");
-  assert_ok(cairn_fleet_rewind(fleet));
+  beyond.struct_size = sizeof beyond;
+  assert_refused(cairn_fleet_next(fleet, &beyond, NULL), CAIRN_ERROR_STATE, "rewind");
+  assert_refused(cairn_fleet_next(fleet, &beyond, NULL), CAIRN_ERROR_STATE, "8 steps");
+  assert_ok(cairn_fleet_rewind(fleet, NULL));
   assert_int_equal(next_fleet_step(fleet).number, 0);
   cairn_fleet_destroy(fleet);
   o.duration = 0.79;
   fleet = open_fleet(&o);
-  assert_ok(cairn_fleet_steps(fleet, &steps));
+  assert_ok(cairn_fleet_steps(fleet, &steps, NULL));
   assert_int_equal(steps, 8);
   cairn_fleet_destroy(fleet);
 }
@@ -255,6 +286,7 @@ int main(void) {
       cmocka_unit_test(contradictions),
       cmocka_unit_test(good_options),
       cmocka_unit_test(missing_arguments),
+      cmocka_unit_test(boats_of_a_step),
       cmocka_unit_test(buffers),
       cmocka_unit_test(the_end),
   };

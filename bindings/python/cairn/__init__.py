@@ -6,7 +6,7 @@ the pose's error [dp; dtheta] in the axes of the map. Arrays are numpy arrays; t
 
 Filter, Map, Team, World, Fleet, Pose and CairnError are the Python layer. `cairn.lib` has every function and constant
 of the C headers, and `cairn.ffi` is its cffi object. Constants are also here without their prefix: cairn.NEW is
-lib.CAIRN_NEW. The library is loaded at the first use of one of these names, so that cairn.report works without it.
+lib.CAIRN_RESULT_NEW. The library is loaded at the first use of one of these names, so that cairn.report works without it.
 """
 import importlib
 

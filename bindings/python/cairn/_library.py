@@ -64,7 +64,7 @@ def _open(stem):
 
 
 class Library:
-    """Every function and constant of the C headers by its name: `lib.cairn_version()`, `lib.CAIRN_NEW`."""
+    """Every function and constant of the C headers by its name: `lib.cairn_version()`, `lib.CAIRN_RESULT_NEW`."""
 
     def __init__(self):
         self._cairn = _open("cairn")

@@ -83,16 +83,17 @@ cairn_health health_of(const HealthMonitor<Pose>& health) {
 
 extern "C" {
 
-cairn_status cairn_filter_health(const cairn_filter* filter, cairn_health* health) {
-  return guard([&] {
+cairn_status cairn_filter_health(const cairn_filter* filter, cairn_health* health, cairn_error* error) {
+  return guard(error, [&] {
     cairn_health out = {};
     with_filter(filter, [&](const auto& f) { out = health_of(f.health()); });
-    write_report(out, health);
+    write_report(out, health, "health");
   });
 }
 
-cairn_status cairn_filter_sensor_health(const cairn_filter* filter, int32_t sensor, cairn_sensor_health* health) {
-  return guard([&] {
+cairn_status cairn_filter_sensor_health(const cairn_filter* filter, int32_t sensor, cairn_sensor_health* health,
+                                        cairn_error* error) {
+  return guard(error, [&] {
     cairn_sensor_health out = {};
     with_filter(filter, [&](const auto& f) {
       f.check_sensor(sensor);
@@ -103,7 +104,7 @@ cairn_status cairn_filter_sensor_health(const cairn_filter* filter, int32_t sens
       write_scale(f.health().sensor_noise(sensor), out.scale, out.scale_sigma);
       for (Index lag = 1; lag <= kPersistenceLags; ++lag) out.persistence[lag - 1] = from.persistence.correlation(lag);
     });
-    write_report(out, health);
+    write_report(out, health, "health");
   });
 }
 

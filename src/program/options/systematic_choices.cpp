@@ -2,7 +2,6 @@
 #include "program/options/systematic_choices.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 namespace cairn::program {
 
@@ -10,8 +9,7 @@ Option components(const OptionText& text, const options::Bounds& bounds, std::si
   const std::string name = text.name;
   return custom(text, [=](const std::string& value) {
     std::vector<double> numbers;
-    std::stringstream words(value);
-    for (std::string word; std::getline(words, word, ',');) numbers.push_back(parse_number(name, word, bounds));
+    for (const std::string& word : split(value)) numbers.push_back(parse_number(name, word, bounds));
     if (numbers.size() != 1 && numbers.size() != count)
       reject(name, value, "1 or " + std::to_string(count) + " numbers");
     for (std::size_t i = 0; i < count; ++i) target[i] = numbers[numbers.size() == 1 ? 0 : i];
@@ -36,12 +34,12 @@ cairn_status SystematicChoices::calibrate(cairn_filter* filter, std::int32_t sen
   apply(room);
   if (room.max_sensor_errors == 0) return CAIRN_OK;
   cairn_calibration calibration;
-  const cairn_status status = cairn_calibration_init(&calibration, sizeof calibration);
+  const cairn_status status = cairn_calibration_init(&calibration, sizeof calibration, nullptr);
   if (status != CAIRN_OK) return status;
   std::copy(mount_shift.begin(), mount_shift.end(), calibration.mount_shift_sigma);
   std::copy(mount_turn.begin(), mount_turn.end(), calibration.mount_turn_sigma);
   std::copy(value_offset.begin(), value_offset.end(), calibration.offset_sigma);
-  return cairn_filter_calibrate_sensor(filter, sensor, &calibration);
+  return cairn_filter_calibrate_sensor(filter, sensor, &calibration, nullptr);
 }
 
 std::vector<Option> systematic_flags(SystematicChoices& o) {

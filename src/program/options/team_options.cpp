@@ -128,7 +128,7 @@ OptionGroup robot_options(MrclamOptions& o) {
 
 UsvOptions default_usv_options() {
   UsvOptions options;
-  check_sim(cairn_fleet_options_init(&options.fleet, sizeof options.fleet));
+  check_sim(cairn_fleet_options_init(&options.fleet, sizeof options.fleet, nullptr));
   // A world has no outliers.
   options.team.filter.gate_probability = options.team.filter.batch_gate_probability = 1;
   options.team.score_from = 0.1;  // by then the exactly known start has lost its weight (docs/team.md)
@@ -142,7 +142,10 @@ UsvOptions parse_usv_options(const std::vector<std::string>& arguments) {
   parse(arguments, groups, "simulate", [&](const std::string& word) {
     if (word != "usv") throw UsageError("one scenario at a time: '" + word + "' is a second one");
   });
+  check_common(options.common);
   check_choices(options.team);
+  if (options.compare && options.common.output.origin)
+    throw UsageError("option --origin is not for --compare of boats, which writes no maps; leave it out");
   return options;
 }
 
@@ -165,6 +168,7 @@ MrclamOptions parse_mrclam_options(const std::vector<std::string>& arguments) {
   }
   options.noise.range = options.range_noise.value_or(options.noise.range);
   options.noise.bearing = options.bearing_noise.value_or(options.noise.bearing);
+  check_common(options.common);
   check_choices(options.team);
   return options;
 }
