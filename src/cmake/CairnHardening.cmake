@@ -41,9 +41,8 @@ endif()
 # constructors in .init_array. An entry point that does not exist leaves them out of the dynamic section, so nothing
 # branches to them, and then the library may say that it is ready.
 if(CAIRN_HAS_CF_PROTECTION)
-  set(CAIRN_CET_LINK_FLAGS -Wl,-z,ibt,-z,shstk -Wl,-init=cairn_no_init,-fini=cairn_no_fini)
-  check_linker_flag(CXX "LINKER:-z,ibt,-z,shstk" CAIRN_HAS_CET_LINKER)
-  if(NOT CAIRN_HAS_CET_LINKER)
-    set(CAIRN_CET_LINK_FLAGS)
+  check_linker_flag(CXX "-Wl,-z,ibt,-z,shstk" CAIRN_HAS_CET_LINKER)
+  if(CAIRN_HAS_CET_LINKER)
+    string(APPEND CMAKE_SHARED_LINKER_FLAGS " -Wl,-z,ibt,-z,shstk,-init=cairn_no_init,-fini=cairn_no_fini")
   endif()
 endif()

@@ -29,6 +29,7 @@ function(cairn_add_static name output export patterns)
   set_source_files_properties(${object} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
   target_include_directories(${name} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                                $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_definitions(${name} INTERFACE CAIRN_STATIC)  # the headers must not say that a DLL is imported
   target_link_libraries(${name} INTERFACE ${CAIRN_RUNTIME_LIBRARIES})
   set_target_properties(${name} PROPERTIES OUTPUT_NAME ${output} EXPORT_NAME ${export} LINKER_LANGUAGE CXX
                         ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
