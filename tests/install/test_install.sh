@@ -141,7 +141,6 @@ pass "C++17 simulation by find_package: $printed"
 rest=${version#*.}
 major=${version%%.*} minor=${rest%%.*}
 accepted() {
-  rm -rf -- "$work/asked"
   configure_consumer "$work/asked" "-DCONSUMER_VERSION=$1" "-DCONSUMER_COMPONENTS=$2" >"$work/asked.log" 2>&1
 }
 for asked in "$major.$minor" "$version" "$major.$minor...<$major.$((minor + 1))" "0.0...$((major + 1))"; do
