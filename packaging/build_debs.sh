@@ -4,6 +4,7 @@
 #   --build TREE   packages what is already built in TREE, so that nothing is compiled twice. TREE must be configured with
 #                  -DCMAKE_INSTALL_PREFIX=/usr, because Debian's folders depend on it, and with -DCAIRN_STATIC=ON. The
 #                  preset developer is.
+# Environment: CAIRN_JOBS is the number of compilers at a time, where something is compiled (default: all processors).
 set -euo pipefail
 # shellcheck source=../tests/support/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../tests/support/setup.sh"
