@@ -188,6 +188,8 @@ if [[ -f $libdir/libcairn.a ]]; then
   [[ $("$work/static") == "$printed" ]] || fail "the consumer with libcairn.a beside C++ of other people"
   pass "libcairn.a beside C++ of other people: $printed"
   accepted "$version" "sim;static" || { cat "$work/asked.log"; fail "find_package refuses the component static"; }
+  [[ $("$work/by cmake/static_consumer") == "$printed" ]] || fail "the consumer of cairn::static"
+  pass "C++17 consumer of cairn::static by find_package: $printed"
 else
   skip "no static library in this tree"
 fi
