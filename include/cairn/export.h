@@ -6,8 +6,11 @@
 
 /** Major version of this header. \ref cairn_version returns the version of the loaded library. */
 #define CAIRN_VERSION_MAJOR 0
-#define CAIRN_VERSION_MINOR 1 /**< minor version of this header */
+#define CAIRN_VERSION_MINOR 2 /**< minor version of this header */
 #define CAIRN_VERSION_PATCH 0 /**< patch version of this header */
+
+/** Version of this header as one number, for comparisons: 10000 major + 100 minor + patch. */
+#define CAIRN_VERSION (10000 * CAIRN_VERSION_MAJOR + 100 * CAIRN_VERSION_MINOR + CAIRN_VERSION_PATCH)
 
 #if defined(__GNUC__)
 /** Marks a function of the C ABI. */

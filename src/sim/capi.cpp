@@ -40,12 +40,13 @@ void check_time(const sim::World& world, double time) {
 
 extern "C" {
 
-cairn_status cairn_world_options_init(cairn_world_options* options, size_t struct_size) {
-  return guard([&] { init_options(options, struct_size, sim::default_world_options(), "options"); });
+cairn_status cairn_world_options_init(cairn_world_options* options, size_t struct_size, cairn_error* error) {
+  return guard(error, [&] { init_options(options, struct_size, sim::default_world_options(), "options"); });
 }
 
-cairn_status cairn_world_options_preset(cairn_world_options* options, int32_t preset, uint32_t* submap_landmarks) {
-  return guard([&] {
+cairn_status cairn_world_options_preset(cairn_world_options* options, int32_t preset, uint32_t* submap_landmarks,
+                                        cairn_error* error) {
+  return guard(error, [&] {
     check_pointer(options, "options");
     std::uint32_t size_of_submap = 0;
     cairn_world_options values = sim::preset_world_options(preset, size_of_submap);
@@ -55,8 +56,8 @@ cairn_status cairn_world_options_preset(cairn_world_options* options, int32_t pr
   });
 }
 
-cairn_status cairn_world_create(const cairn_world_options* options, cairn_world** world) {
-  return guard([&] {
+cairn_status cairn_world_create(const cairn_world_options* options, cairn_world** world, cairn_error* error) {
+  return guard(error, [&] {
     const cairn_world_options checked = sim::read_world_options(options);
     check_pointer(world, "world");
     *world = new cairn_world(checked);
@@ -67,35 +68,51 @@ void cairn_world_destroy(cairn_world* world) {
   delete world;
 }
 
-cairn_status cairn_world_next(cairn_world* world, cairn_world_step* step) {
-  return guard([&] {
+cairn_status cairn_world_next(cairn_world* world, cairn_world_step* step, cairn_error* error) {
+  return guard(error, [&] {
     sim::World& w = read_world(world);
     sim::write_next_step(w, step);
   });
 }
 
-cairn_status cairn_world_rewind(cairn_world* world) {
-  return guard([&] { read_world(world).rewind(); });
+cairn_status cairn_world_motions(const cairn_world* world, cairn_world_motion* motions, size_t capacity, size_t* needed,
+                                 cairn_error* error) {
+  return guard(error, [&] {
+    const std::vector<cairn_world_motion>& from = read_world(world).motions();
+    sim::write_array(from.data(), from.size(), motions, capacity, needed, "motions");
+  });
 }
 
-cairn_status cairn_world_steps(const cairn_world* world, size_t* steps) {
-  return guard([&] {
+cairn_status cairn_world_observations(const cairn_world* world, cairn_observation* observations, size_t capacity,
+                                      size_t* needed, cairn_error* error) {
+  return guard(error, [&] {
+    const std::vector<cairn_observation>& from = read_world(world).observations();
+    sim::write_array(from.data(), from.size(), observations, capacity, needed, "observations");
+  });
+}
+
+cairn_status cairn_world_rewind(cairn_world* world, cairn_error* error) {
+  return guard(error, [&] { read_world(world).rewind(); });
+}
+
+cairn_status cairn_world_steps(const cairn_world* world, size_t* steps, cairn_error* error) {
+  return guard(error, [&] {
     const sim::World& w = read_world(world);
     check_pointer(steps, "steps");
     *steps = w.steps();
   });
 }
 
-cairn_status cairn_world_most_observations(const cairn_world* world, size_t* count) {
-  return guard([&] {
+cairn_status cairn_world_most_observations(const cairn_world* world, size_t* count, cairn_error* error) {
+  return guard(error, [&] {
     const sim::World& w = read_world(world);
     check_pointer(count, "count");
     *count = w.landmarks().most_near();
   });
 }
 
-cairn_status cairn_world_head(const cairn_world* world, cairn_stereo_head* head) {
-  return guard([&] {
+cairn_status cairn_world_head(const cairn_world* world, cairn_stereo_head* head, cairn_error* error) {
+  return guard(error, [&] {
     const cairn_world_options& o = read_world(world).options();
     const bool per_frame = o.stick_noise == CAIRN_STICK_PER_FRAME;
     const StereoHeadParameters d;
@@ -114,8 +131,8 @@ cairn_status cairn_world_head(const cairn_world* world, cairn_stereo_head* head)
   });
 }
 
-cairn_status cairn_world_wheels(const cairn_world* world, cairn_wheels* wheels) {
-  return guard([&] {
+cairn_status cairn_world_wheels(const cairn_world* world, cairn_wheels* wheels, cairn_error* error) {
+  return guard(error, [&] {
     const sim::World& w = read_world(world);
     const cairn_world_options& o = w.options();
     const double mean = 1 / std::sqrt(static_cast<double>(w.samples_per_motion()));
@@ -134,8 +151,8 @@ cairn_status cairn_world_wheels(const cairn_world* world, cairn_wheels* wheels) 
   });
 }
 
-cairn_status cairn_world_pose(const cairn_world* world, double time, cairn_pose* pose) {
-  return guard([&] {
+cairn_status cairn_world_pose(const cairn_world* world, double time, cairn_pose* pose, cairn_error* error) {
+  return guard(error, [&] {
     const sim::World& w = read_world(world);
     check_time(w, time);
     check_pointer(pose, "pose");
@@ -143,8 +160,8 @@ cairn_status cairn_world_pose(const cairn_world* world, double time, cairn_pose*
   });
 }
 
-cairn_status cairn_world_contacts(const cairn_world* world, double time, double points[12]) {
-  return guard([&] {
+cairn_status cairn_world_contacts(const cairn_world* world, double time, double points[12], cairn_error* error) {
+  return guard(error, [&] {
     const sim::World& w = read_world(world);
     check_time(w, time);
     check_pointer(points, "points");
@@ -157,8 +174,8 @@ cairn_status cairn_world_contacts(const cairn_world* world, double time, double 
   });
 }
 
-cairn_status cairn_world_height(const cairn_world* world, double x, double y, double* height) {
-  return guard([&] {
+cairn_status cairn_world_height(const cairn_world* world, double x, double y, double* height, cairn_error* error) {
+  return guard(error, [&] {
     const sim::World& w = read_world(world);
     check_finite(x, "x");
     check_finite(y, "y");
@@ -167,8 +184,8 @@ cairn_status cairn_world_height(const cairn_world* world, double x, double y, do
   });
 }
 
-cairn_status cairn_world_extent(const cairn_world* world, double lower[2], double upper[2]) {
-  return guard([&] {
+cairn_status cairn_world_extent(const cairn_world* world, double lower[2], double upper[2], cairn_error* error) {
+  return guard(error, [&] {
     const sim::World& w = read_world(world);
     check_pointer(lower, "lower");
     check_pointer(upper, "upper");
@@ -179,8 +196,8 @@ cairn_status cairn_world_extent(const cairn_world* world, double lower[2], doubl
   });
 }
 
-cairn_status cairn_world_landmark(const cairn_world* world, uint64_t id, double position[3]) {
-  return guard([&] {
+cairn_status cairn_world_landmark(const cairn_world* world, uint64_t id, double position[3], cairn_error* error) {
+  return guard(error, [&] {
     const sim::LandmarkField& landmarks = read_world(world).landmarks();
     check_pointer(position, "position");
     if (id >= landmarks.size())
@@ -190,8 +207,9 @@ cairn_status cairn_world_landmark(const cairn_world* world, uint64_t id, double 
   });
 }
 
-cairn_status cairn_world_landmarks(const cairn_world* world, double* positions, size_t capacity, size_t* needed) {
-  return guard([&] {
+cairn_status cairn_world_landmarks(const cairn_world* world, double* positions, size_t capacity, size_t* needed,
+                                   cairn_error* error) {
+  return guard(error, [&] {
     const sim::LandmarkField& landmarks = read_world(world).landmarks();
     if (!check_room(positions, capacity, landmarks.size(), needed, "positions")) return;
     for (std::size_t i = 0; i < landmarks.size(); ++i) std::copy_n(landmarks[i].data(), 3, positions + 3 * i);

@@ -26,6 +26,13 @@ void write_struct(Struct value, Struct* out, const char* name) {
   std::memcpy(static_cast<void*>(out), &value, std::min<std::size_t>(size, sizeof value));
 }
 
+// Copies an array to the caller's buffer.
+template <class Element>
+void write_array(const Element* elements, std::size_t count, Element* out, std::size_t capacity, std::size_t* needed,
+                 const char* name) {
+  if (capi::check_room(out, capacity, count, needed, name)) std::copy_n(elements, count, out);
+}
+
 // Hands out the next step of a world or a fleet. A bad `step` is refused before the simulation moves.
 template <class Simulation, class Step>
 void write_next_step(Simulation& simulation, Step* step) {

@@ -35,6 +35,14 @@ Fleet::Fleet(const cairn_fleet_options& options)
 
 void Fleet::rewind() {
   step_ = 0;
+  sightings_.clear();
+}
+
+const cairn_fleet_sighting* Fleet::features_of(std::size_t boat) const {
+  const cairn_fleet_sighting* sighting = sightings_.data();
+  for (std::size_t before = 0; before < boat; ++before)
+    sighting += vehicles_[before].feature_count + vehicles_[before].vehicle_count;
+  return sighting;
 }
 
 void Fleet::next(cairn_fleet_step& step) {
@@ -46,18 +54,10 @@ void Fleet::next(cairn_fleet_step& step) {
     moved_[boat] = step_ == 0 ? scene_.starts[boat] : moved(poses_[boat], boat);
   sightings_.clear();
   for (std::size_t boat = 0; boat < moved_.size(); ++boat) look(boat);
-  // Pointers into `sightings_` are valid only now that it no longer grows.
-  const cairn_fleet_sighting* sighting = sightings_.data();
-  for (cairn_fleet_vehicle& vehicle : vehicles_) {
-    vehicle.features = sighting;
-    vehicle.vehicles = sighting += vehicle.feature_count;
-    sighting += vehicle.vehicle_count;
-  }
   poses_.swap(moved_);
   step.number = step_;
   step.time = static_cast<double>(step_) * options_.period;
   step.dt = step_ == 0 ? 0 : options_.period;
-  step.vehicles = vehicles_.data();
   step.vehicle_count = vehicles_.size();
   ++step_;
 }

@@ -23,6 +23,13 @@ class Fleet {
   // Throws Error (state) after the last step.
   void next(cairn_fleet_step& step);
   void rewind();
+  bool started() const { return step_ > 0; }
+  // After a step: the boats, and the sightings of one of them, features first, then other boats.
+  const std::vector<cairn_fleet_vehicle>& vehicles() const { return vehicles_; }
+  const cairn_fleet_sighting* features_of(std::size_t boat) const;
+  const cairn_fleet_sighting* vehicles_of(std::size_t boat) const {
+    return features_of(boat) + vehicles_[boat].feature_count;
+  }
 
  private:
   SE2 moved(const SE2& T_map_boat, std::size_t boat) const;

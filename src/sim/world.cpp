@@ -78,6 +78,8 @@ void World::extent(Vector2& lower, Vector2& upper) const {
 
 void World::rewind() {
   step_ = 0;
+  motions_.clear();
+  observations_.clear();
   sample_ = 0;
   pose_ = pose(0);
   strapdown_.R_map_body = pose_.rotation();
@@ -92,11 +94,15 @@ void World::next(cairn_world_step& step) {
   const std::int64_t sample = sample_;
   const SE3 pose_before = pose_;
   const Strapdown strapdown = strapdown_;
+  motions_.swap(spare_motions_);
+  observations_.swap(spare_observations_);
   try {
     move();
     look(pose_);
   } catch (...) {
     sample_ = sample, pose_ = pose_before, strapdown_ = strapdown;
+    motions_.swap(spare_motions_);
+    observations_.swap(spare_observations_);
     throw;
   }
   step.number = step_;
@@ -105,9 +111,7 @@ void World::next(cairn_world_step& step) {
   write_noise(step);
   step.pan = scan(options_.pan_amplitude, options_.pan_period, step.time);
   step.stick = scan(options_.stick_amplitude, options_.stick_period, step.time);
-  step.motions = motions_.data();
   step.motion_count = motions_.size();
-  step.observations = observations_.data();
   step.observation_count = observations_.size();
   ++step_;
 }

@@ -32,6 +32,9 @@ class World {
   // Throws Error (state) after the last step.
   void next(cairn_world_step& step);
   void rewind();
+  // Of the last step; empty before the first one.
+  const std::vector<cairn_world_motion>& motions() const { return motions_; }
+  const std::vector<cairn_observation>& observations() const { return observations_; }
 
  private:
   // Measured and true motion of one IMU sample.
@@ -67,6 +70,8 @@ class World {
   std::vector<Sample> samples_;
   std::vector<cairn_world_motion> motions_;
   std::vector<cairn_observation> observations_;
+  std::vector<cairn_world_motion> spare_motions_;  // the step that is being made must not destroy the last one
+  std::vector<cairn_observation> spare_observations_;
 };
 
 }  // namespace cairn::sim

@@ -37,8 +37,8 @@ void check_choices(const cairn_world_options& o) {
   check_choice(o.drive, CAIRN_DRIVE_WHEELS_GYRO, "drive", "CAIRN_DRIVE_");
   check_choice(o.accelerometer, CAIRN_ACCELEROMETER_ACCELERATION, "accelerometer", "CAIRN_ACCELEROMETER_");
   check_choice(o.stick_noise, CAIRN_STICK_PER_FRAME, "stick_noise", "CAIRN_STICK_");
-  capi::check_range(o.observe_at_start, 0, 1, "options.observe_at_start");
-  capi::check_range(o.traverse_closed, 0, 1, "options.traverse_closed");
+  capi::read_bool(o.observe_at_start, "options.observe_at_start");
+  capi::read_bool(o.traverse_closed, "options.traverse_closed");
 }
 
 void check_course(const cairn_world_options& o) {

@@ -43,7 +43,7 @@ struct Field {
       const double point[3] = {x[*i], y[*i], z[*i]};
       cairn_observation observation{};
       observation.id = CAIRN_ID_NONE;
-      bench::check(cairn_pose_apply(&inverse, point, observation.z));
+      bench::check(cairn_pose_apply(&inverse, point, observation.z, nullptr));
       for (double& value : observation.z) value += kSigma * normal(engine);
       frame.push_back(observation);
     }
@@ -57,7 +57,7 @@ cairn_pose on_circle(int frame) {
   cairn_pose pose{};
   pose.position[0] = kRadius * std::sin(angle);
   pose.position[1] = kRadius * (1 - std::cos(angle));
-  bench::check(cairn_quaternion_exp(turn, pose.quaternion));
+  bench::check(cairn_quaternion_exp(turn, pose.quaternion, nullptr));
   return pose;
 }
 
@@ -71,17 +71,17 @@ int main(int argc, char** argv) try {
     return 2;
   }
   cairn_filter_options options;
-  bench::check(cairn_filter_options_init(&options, sizeof options));
+  bench::check(cairn_filter_options_init(&options, sizeof options, nullptr));
   options.max_landmarks = static_cast<std::uint32_t>(landmarks + landmarks / 4);
   options.max_observations = static_cast<std::uint32_t>(seen);
   options.association = CAIRN_ASSOCIATION_JOINT;
   cairn_filter* filter = nullptr;
-  bench::check(cairn_filter_create(&options, &filter));
+  bench::check(cairn_filter_create(&options, &filter, nullptr));
   cairn_cartesian cartesian;
-  bench::check(cairn_cartesian_init(&cartesian, sizeof cartesian));
+  bench::check(cairn_cartesian_init(&cartesian, sizeof cartesian, nullptr));
   std::fill_n(cartesian.sigma, 3, kSigma);
   std::int32_t sensor = -1;
-  bench::check(cairn_filter_add_cartesian(filter, &cartesian, &sensor));
+  bench::check(cairn_filter_add_cartesian(filter, &cartesian, &sensor, nullptr));
 
   Field field(landmarks);
   std::vector<int> order(static_cast<std::size_t>(landmarks));
@@ -89,36 +89,36 @@ int main(int argc, char** argv) try {
   const cairn_pose start = on_circle(0);
   for (int i = 0; i < landmarks; i += seen) {  // all landmarks are placed from the start pose
     const auto frame = field.see(start, order.data() + i, order.data() + std::min(i + seen, landmarks));
-    bench::check(cairn_filter_update(filter, sensor, frame.data(), frame.size(), nullptr));
+    bench::check(cairn_filter_update(filter, sensor, frame.data(), frame.size(), nullptr, nullptr));
   }
   bench::Samples times;
   double paired = 0, nodes = 0;
   for (int f = 1; f <= kFrames; ++f) {
     const cairn_pose before = on_circle(f - 1), pose = on_circle(f);
     cairn_pose inverse, increment;
-    bench::check(cairn_pose_inverse(&before, &inverse));
-    bench::check(cairn_pose_compose(&inverse, &pose, &increment));
+    bench::check(cairn_pose_inverse(&before, &inverse, nullptr));
+    bench::check(cairn_pose_compose(&inverse, &pose, &increment, nullptr));
     double covariance[36] = {};
     for (int i = 0; i < 6; ++i) covariance[7 * i] = i < 3 ? 1e-4 : 1e-6;
     for (double& value : increment.position) value += 1e-2 * field.normal(field.engine);
-    bench::check(cairn_filter_predict_increment(filter, &increment, covariance));
-    bench::check(cairn_pose_inverse(&pose, &inverse));
+    bench::check(cairn_filter_predict_increment(filter, &increment, covariance, nullptr));
+    bench::check(cairn_pose_inverse(&pose, &inverse, nullptr));
     const auto way = [&](int i) {
       return std::hypot(field.x[static_cast<std::size_t>(i)] - pose.position[0],
                         field.y[static_cast<std::size_t>(i)] - pose.position[1]);
     };
     std::partial_sort(order.begin(), order.begin() + seen, order.end(), [&](int a, int b) { return way(a) < way(b); });
     const auto frame = field.see(inverse, order.data(), order.data() + seen);
-    bench::check(cairn_filter_update(filter, sensor, frame.data(), frame.size(), nullptr));
+    bench::check(cairn_filter_update(filter, sensor, frame.data(), frame.size(), nullptr, nullptr));
     cairn_update_report report{};
     report.struct_size = sizeof report;
-    bench::check(cairn_filter_last_update(filter, &report));
+    bench::check(cairn_filter_last_update(filter, &report, nullptr));
     times.add(1e3 * report.association_seconds);
     paired += report.matched;
     nodes += report.association_nodes;
   }
   std::size_t mapped = 0;
-  bench::check(cairn_map_size(cairn_filter_map(filter), &mapped));
+  bench::check(cairn_map_size(cairn_filter_map(filter), &mapped, nullptr));
   std::printf(
       "{\"program\": \"cairn %s\", \"build\": \"%s\", \"landmarks\": %zu, \"observations\": %d, "
       "\"association_ms\": {\"mean\": %.6g, \"median\": %.6g, \"worst\": %.6g}, \"paired\": %.4g, "

@@ -32,7 +32,7 @@ class Course {
   int landmarks() const { return landmarks_; }
   cairn_pose estimate() {
     cairn_pose pose;
-    check(cairn_filter_pose(handle(), &pose, nullptr));
+    check(cairn_filter_pose(handle(), &pose, nullptr, nullptr));
     return pose;
   }
 
@@ -41,16 +41,16 @@ class Course {
     ++frame_;
     const cairn_pose pose = true_pose(frame_);
     cairn_pose inverse;
-    check(cairn_pose_inverse(&last_, &inverse));
-    check(cairn_pose_compose(&inverse, &pose, &increment_));
+    check(cairn_pose_inverse(&last_, &inverse, nullptr));
+    check(cairn_pose_compose(&inverse, &pose, &increment_, nullptr));
     cairn_pose noise{};
     for (double& value : noise.position) value = Noise::kIncrementMetres * normal_(engine_);
     double turn[3];
     for (double& value : turn) value = Noise::kIncrementRadians * normal_(engine_);
-    check(cairn_quaternion_exp(turn, noise.quaternion));
-    check(cairn_pose_compose(&increment_, &noise, &increment_));
+    check(cairn_quaternion_exp(turn, noise.quaternion, nullptr));
+    check(cairn_pose_compose(&increment_, &noise, &increment_, nullptr));
     last_ = pose;
-    check(cairn_pose_inverse(&pose, &inverse));
+    check(cairn_pose_inverse(&pose, &inverse, nullptr));
     observations_.clear();
     for (int i = 0; i < kSeen; ++i) {
       const int landmark = static_cast<int>((kAdvance * frame_ + i) % landmarks_);
@@ -81,7 +81,7 @@ class Course {
     const double a = angle(landmark), radius = radius_ + 15.0 * std::sin(2.4 * landmark);
     const double point[3] = {radius * std::cos(a), radius * std::sin(a), 2.0 + std::sin(1.7 * landmark)};
     double b[3];
-    check(cairn_pose_apply(&T_body_map, point, b));
+    check(cairn_pose_apply(&T_body_map, point, b, nullptr));
     const double planar = std::hypot(b[0], b[1]);
     cairn_observation observation{};
     observation.id = static_cast<uint64_t>(landmark);

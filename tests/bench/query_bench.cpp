@@ -19,7 +19,7 @@ void pose(benchmark::State& state) {
   cairn_pose estimate;
   double covariance[36];
   for (auto _ : state) {
-    bench::check(cairn_filter_pose(course.handle(), &estimate, covariance));
+    bench::check(cairn_filter_pose(course.handle(), &estimate, covariance, nullptr));
     benchmark::DoNotOptimize(covariance);
   }
 }
@@ -30,7 +30,7 @@ void landmark_by_id(benchmark::State& state) {
   cairn_landmark landmark;
   uint64_t id = 0;
   for (auto _ : state) {
-    bench::check(cairn_map_landmark(map_of(course), id, &landmark));
+    bench::check(cairn_map_landmark(map_of(course), id, &landmark, nullptr));
     benchmark::DoNotOptimize(landmark);
     id = (id + 17) % static_cast<uint64_t>(course.landmarks());
   }
@@ -42,7 +42,7 @@ void all_landmarks(benchmark::State& state) {
   std::vector<cairn_landmark> landmarks(static_cast<std::size_t>(course.landmarks()));
   std::size_t needed = 0;
   for (auto _ : state) {
-    bench::check(cairn_map_landmarks(map_of(course), landmarks.data(), landmarks.size(), &needed));
+    bench::check(cairn_map_landmarks(map_of(course), landmarks.data(), landmarks.size(), &needed, nullptr));
     benchmark::DoNotOptimize(landmarks.data());
   }
 }
@@ -54,7 +54,8 @@ void within(benchmark::State& state) {
   const cairn_pose centre = course.estimate();
   std::size_t needed = 0;
   for (auto _ : state) {
-    bench::check(cairn_map_within(map_of(course), centre.position, 30.0, landmarks.data(), landmarks.size(), &needed));
+    bench::check(
+        cairn_map_within(map_of(course), centre.position, 30.0, landmarks.data(), landmarks.size(), &needed, nullptr));
     benchmark::DoNotOptimize(landmarks.data());
   }
   state.counters["found"] = static_cast<double>(needed);
@@ -67,7 +68,7 @@ void nearest(benchmark::State& state) {
   const cairn_pose centre = course.estimate();
   std::size_t needed = 0;
   for (auto _ : state) {
-    bench::check(cairn_map_nearest(map_of(course), centre.position, 10, landmarks, 10, &needed));
+    bench::check(cairn_map_nearest(map_of(course), centre.position, 10, landmarks, 10, &needed, nullptr));
     benchmark::DoNotOptimize(landmarks);
   }
 }
@@ -81,8 +82,8 @@ void joint_covariance(benchmark::State& state) {
   std::vector<double> matrix((6 + 3 * count) * (6 + 3 * count));
   std::size_t needed = 0;
   for (auto _ : state) {
-    bench::check(
-        cairn_filter_joint_covariance(course.handle(), ids.data(), count, matrix.data(), matrix.size(), &needed));
+    bench::check(cairn_filter_joint_covariance(course.handle(), ids.data(), count, matrix.data(), matrix.size(),
+                                               &needed, nullptr));
     benchmark::DoNotOptimize(matrix.data());
   }
 }

@@ -65,7 +65,7 @@ void update_position(benchmark::State& state) {
     course.predict();
     const cairn_pose pose = course.estimate();
     timed(state, [&] {
-      bench::check(cairn_filter_update_position(course.handle(), pose.position, covariance, nullptr, nullptr));
+      bench::check(cairn_filter_update_position(course.handle(), pose.position, covariance, nullptr, nullptr, nullptr));
     });
   }
 }
@@ -79,8 +79,8 @@ void update_heading(benchmark::State& state) {
     course.predict();
     const cairn_pose pose = course.estimate();
     double roll = 0.0, pitch = 0.0, yaw = 0.0;
-    bench::check(cairn_quaternion_to_euler(pose.quaternion, &roll, &pitch, &yaw));
-    timed(state, [&] { bench::check(cairn_filter_update_heading(course.handle(), yaw, 0.05, nullptr)); });
+    bench::check(cairn_quaternion_to_euler(pose.quaternion, &roll, &pitch, &yaw, nullptr));
+    timed(state, [&] { bench::check(cairn_filter_update_heading(course.handle(), yaw, 0.05, nullptr, nullptr)); });
   }
 }
 BENCHMARK(update_heading)->Apply(sizes);
@@ -90,7 +90,7 @@ BENCHMARK(update_heading)->Apply(sizes);
 void predict_increment(benchmark::State& state) {
   Course course(static_cast<int>(state.range(0)));
   cairn_pose increment;
-  bench::check(cairn_pose_identity(&increment));
+  bench::check(cairn_pose_identity(&increment, nullptr));
   increment.position[0] = 1e-3;
   for (auto _ : state) course.filter().predict(increment);
 }
@@ -99,13 +99,13 @@ BENCHMARK(predict_increment)->ArgName("landmarks")->Arg(60)->Arg(1000);
 void predict_twist(benchmark::State& state) {
   Course course(60);
   const double velocity[3] = {1.0, 0.0, 0.0}, rate[3] = {0.0, 0.0, 0.1};
-  for (auto _ : state) bench::check(cairn_filter_predict_twist(course.handle(), 0.01, velocity, rate));
+  for (auto _ : state) bench::check(cairn_filter_predict_twist(course.handle(), 0.01, velocity, rate, nullptr));
 }
 BENCHMARK(predict_twist);
 
 void predict_wheels(benchmark::State& state) {
   Course course(60);
-  for (auto _ : state) bench::check(cairn_filter_predict_wheels(course.handle(), 0.01, 3.0, 3.1));
+  for (auto _ : state) bench::check(cairn_filter_predict_wheels(course.handle(), 0.01, 3.0, 3.1, nullptr));
 }
 BENCHMARK(predict_wheels);
 

@@ -42,7 +42,7 @@ std::size_t landmarks_seen(const bench::Log& log) {
 void score_map(bench::Filter& filter, const bench::Log& log, bench::SquaredError& error) {
   for (const auto& [id, truth] : log.landmarks) {
     cairn_landmark landmark;
-    if (cairn_map_landmark(cairn_filter_map(filter.get()), id, &landmark) == CAIRN_OK) {
+    if (cairn_map_landmark(cairn_filter_map(filter.get()), id, &landmark, nullptr) == CAIRN_OK) {
       error.add(landmark.position, truth);
     }
   }
@@ -66,7 +66,7 @@ Result run(const bench::Log& log, bench::Syrk& syrk, std::size_t max_landmarks) 
     const cairn_update_report report = filter.last_update();
     result.rejected += report.rejected;
     cairn_pose pose;
-    bench::check(cairn_filter_pose(filter.get(), &pose, nullptr));
+    bench::check(cairn_filter_pose(filter.get(), &pose, nullptr, nullptr));
     result.pose.add(pose.position, step.truth);
     if (2 * k < log.steps.size()) continue;
     const std::size_t states = 6 + 3 * filter.landmarks();

@@ -9,7 +9,7 @@ static void assert_sound(cairn_filter* f) {
   const cairn_map* maps[] = {cairn_filter_map(f), cairn_filter_local_map(f)};
   cairn_pose pose;
   double covariance[36];
-  assert_ok(cairn_filter_pose(f, &pose, covariance));
+  assert_ok(cairn_filter_pose(f, &pose, covariance, NULL));
   for (int i = 0; i < 3; ++i) assert_true(isfinite(pose.position[i]));
   for (int i = 0; i < 36; ++i) assert_true(isfinite(covariance[i]));
   for (int i = 0; i < 6; ++i) assert_true(covariance[7 * i] >= 0);
@@ -18,9 +18,9 @@ static void assert_sound(cairn_filter* f) {
     double joint[9 * 64 * 64];
     uint64_t ids[64];
     size_t count = 0, needed = 0;
-    assert_ok(cairn_map_landmarks(maps[k], landmarks, LENGTH(landmarks), &count));
+    assert_ok(cairn_map_landmarks(maps[k], landmarks, LENGTH(landmarks), &count, NULL));
     for (size_t i = 0; i < count; ++i) ids[i] = landmarks[i].id;
-    assert_ok(cairn_map_joint_covariance(maps[k], ids, count, joint, LENGTH(joint), &needed));
+    assert_ok(cairn_map_joint_covariance(maps[k], ids, count, joint, LENGTH(joint), &needed, NULL));
     for (size_t i = 0; i < needed; ++i) assert_true(isfinite(joint[i]));
     for (size_t i = 0; i < 3 * count; ++i) assert_true(joint[i * (3 * count + 1)] >= 0);
     for (size_t i = 0; i < count; ++i)
@@ -36,7 +36,8 @@ static void a_far_return_is_refused_alone(void** state) {
   for (int32_t vehicle = CAIRN_VEHICLE_SPATIAL; vehicle <= CAIRN_VEHICLE_PLANAR; ++vehicle)
     for (int way = 0; way < 6; ++way)
       for (size_t k = 0; k < LENGTH(far_away); ++k) {
-        cairn_filter_options o = options_of(vehicle, way == 1 ? CAIRN_ERROR_STANDARD : CAIRN_ERROR_INVARIANT);
+        cairn_filter_options o =
+            options_of(vehicle, way == 1 ? CAIRN_STATE_ERROR_STANDARD : CAIRN_STATE_ERROR_INVARIANT);
         if (way == 2) o.submap_landmarks = 6, o.join = CAIRN_JOIN_DENSE;
         if (way == 3) o.submap_landmarks = 6, o.join = CAIRN_JOIN_SPARSE;
         if (way == 4) o.association = CAIRN_ASSOCIATION_JOINT;
@@ -51,13 +52,14 @@ static void a_far_return_is_refused_alone(void** state) {
           shot[NEAR] = sighting(99, far_away[k], 0.3);
           /* With the gates open, a known landmark far away is an outlier that the user has asked for. */
           if (n % 3 == 0 && way < 5 && way != 4) shot[0].z[0] = far_away[k];
-          assert_ok(cairn_filter_update(f, sensor, shot, NEAR + 1, m));
-          for (int i = 1; i < NEAR; ++i) assert_true(m[i].result == (n == 1 ? CAIRN_NEW : m[i].result));
+          assert_ok(cairn_filter_update(f, sensor, shot, NEAR + 1, m, NULL));
+          for (int i = 1; i < NEAR; ++i) assert_true(m[i].result == (n == 1 ? CAIRN_RESULT_NEW : m[i].result));
           if (way < 2)
-            for (int i = 1; i < NEAR; ++i) assert_int_equal(m[i].result, n == 1 ? CAIRN_NEW : CAIRN_MATCHED);
-          if (n % 3 == 0 && way < 2) assert_int_equal(m[0].result, CAIRN_REJECTED);
+            for (int i = 1; i < NEAR; ++i)
+              assert_int_equal(m[i].result, n == 1 ? CAIRN_RESULT_NEW : CAIRN_RESULT_MATCHED);
+          if (n % 3 == 0 && way < 2) assert_int_equal(m[0].result, CAIRN_RESULT_REJECTED);
           if (!(fabs(far_away[k]) <= 1e6) || (vehicle == CAIRN_VEHICLE_PLANAR && far_away[k] < 0)) {
-            assert_int_equal(m[NEAR].result, CAIRN_REJECTED);
+            assert_int_equal(m[NEAR].result, CAIRN_RESULT_REJECTED);
             assert_int_equal(m[NEAR].reason, CAIRN_REASON_NO_PLACE);
           }
           assert_sound(f);
@@ -69,7 +71,7 @@ static void a_far_return_is_refused_alone(void** state) {
 /* With open gates even a known landmark that is 1e12 standard deviations off is refused alone. */
 static void open_gates_do_not_let_the_impossible_in(void** state) {
   (void)state;
-  cairn_filter_options o = options_of(CAIRN_VEHICLE_SPATIAL, CAIRN_ERROR_INVARIANT);
+  cairn_filter_options o = options_of(CAIRN_VEHICLE_SPATIAL, CAIRN_STATE_ERROR_INVARIANT);
   o.gate_probability = o.batch_gate_probability = 1;
   cairn_filter* f = create(&o);
   const int32_t sensor = add_sensor(f, CAIRN_VEHICLE_SPATIAL);
@@ -79,9 +81,9 @@ static void open_gates_do_not_let_the_impossible_in(void** state) {
     step(f);
     for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(CAIRN_VEHICLE_SPATIAL, i, 0.1 * n);
     if (n > 1) shot[3].z[1] = n == 2 ? 1e20 : 1e160;
-    assert_ok(cairn_filter_update(f, sensor, shot, NEAR, m));
+    assert_ok(cairn_filter_update(f, sensor, shot, NEAR, m, NULL));
     for (int i = 0; i < NEAR; ++i)
-      assert_int_equal(m[i].result, n == 1 ? CAIRN_NEW : i == 3 ? CAIRN_REJECTED : CAIRN_MATCHED);
+      assert_int_equal(m[i].result, n == 1 ? CAIRN_RESULT_NEW : i == 3 ? CAIRN_RESULT_REJECTED : CAIRN_RESULT_MATCHED);
     if (n > 1) assert_int_equal(m[3].reason, CAIRN_REASON_GATE);
     assert_sound(f);
   }
@@ -100,7 +102,8 @@ static void a_fix_ends_a_start_that_is_not_known(void** state) {
   for (int32_t vehicle = CAIRN_VEHICLE_SPATIAL; vehicle <= CAIRN_VEHICLE_PLANAR; ++vehicle)
     for (int way = 0; way < 4; ++way)
       for (size_t k = 0; k < LENGTH(cases); ++k) {
-        cairn_filter_options o = options_of(vehicle, way == 1 ? CAIRN_ERROR_STANDARD : CAIRN_ERROR_INVARIANT);
+        cairn_filter_options o =
+            options_of(vehicle, way == 1 ? CAIRN_STATE_ERROR_STANDARD : CAIRN_STATE_ERROR_INVARIANT);
         if (way == 2) o.submap_landmarks = 6, o.join = CAIRN_JOIN_DENSE;
         if (way == 3) o.submap_landmarks = 6, o.join = CAIRN_JOIN_SPARSE;
         diagonal(o.initial_covariance, 6, 1e-4);
@@ -113,9 +116,9 @@ static void a_fix_ends_a_start_that_is_not_known(void** state) {
         cairn_match m;
         diagonal(noise, 3, variance);
         for (int n = 1; n <= 2; ++n) {
-          assert_ok(cairn_filter_update_position(f, cases[k].fix, noise, NULL, &m));
-          assert_int_equal(m.result, CAIRN_MATCHED);
-          assert_ok(cairn_filter_pose(f, &pose, covariance));
+          assert_ok(cairn_filter_update_position(f, cases[k].fix, noise, NULL, &m, NULL));
+          assert_int_equal(m.result, CAIRN_RESULT_MATCHED);
+          assert_ok(cairn_filter_pose(f, &pose, covariance, NULL));
           for (int i = 0; i < axes; ++i) {
             assert_near(covariance[7 * i], variance / n, 1e-3 * variance);
             assert_near(pose.position[i], cases[k].fix[i], 0.1 * cases[k].fix_sigma + 1e-15 * cases[k].sigma);
@@ -128,7 +131,7 @@ static void a_fix_ends_a_start_that_is_not_known(void** state) {
           cairn_observation shot[NEAR];
           step(f);
           for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(vehicle, i, 0.1 * n);
-          assert_ok(cairn_filter_update(f, sensor, shot, NEAR, NULL));
+          assert_ok(cairn_filter_update(f, sensor, shot, NEAR, NULL, NULL));
           assert_sound(f);
         }
         cairn_filter_destroy(f);
@@ -144,7 +147,8 @@ static void landmarks_before_the_first_fix_cost_nothing_else(void** state) {
     for (int way = 0; way < 4; ++way)
       for (double sigma = 1e4; sigma < 2e9; sigma *= 10) {
         if (way == 2 && sigma > 2e6) break; /* a limit of dense joining (docs/update.md) */
-        cairn_filter_options o = options_of(vehicle, way == 1 ? CAIRN_ERROR_STANDARD : CAIRN_ERROR_INVARIANT);
+        cairn_filter_options o =
+            options_of(vehicle, way == 1 ? CAIRN_STATE_ERROR_STANDARD : CAIRN_STATE_ERROR_INVARIANT);
         const double fix[3] = {0.3 * sigma, -0.1 * sigma, 0};
         double noise[9], covariance[36];
         if (way == 2) o.submap_landmarks = 6, o.join = CAIRN_JOIN_DENSE;
@@ -158,17 +162,17 @@ static void landmarks_before_the_first_fix_cost_nothing_else(void** state) {
           cairn_observation shot[NEAR];
           step(f);
           for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(vehicle, i, 0.1 * n);
-          const cairn_status status = cairn_filter_update(f, sensor, shot, NEAR, NULL);
+          const cairn_status status = cairn_filter_update(f, sensor, shot, NEAR, NULL, NULL);
           assert_true(status == CAIRN_OK || (sigma > 5e5 && status == CAIRN_ERROR_NUMERICAL));
           assert_sound(f);
           if (n < 6) continue;
           const double there[3] = {fix[0] + 0.1 * n, fix[1], 0};
-          const cairn_status fixed = cairn_filter_update_position(f, there, noise, NULL, NULL);
+          const cairn_status fixed = cairn_filter_update_position(f, there, noise, NULL, NULL, NULL);
           assert_true(fixed == CAIRN_OK || (sigma > 5e5 && fixed == CAIRN_ERROR_NUMERICAL));
           assert_sound(f);
         }
         if (sigma < 5e5) {
-          assert_ok(cairn_filter_pose(f, NULL, covariance));
+          assert_ok(cairn_filter_pose(f, NULL, covariance, NULL));
           for (int i = 0; i < 2; ++i) assert_true(covariance[7 * i] > 1e-4 && covariance[7 * i] < 2e-2);
         }
         cairn_filter_destroy(f);
@@ -178,7 +182,7 @@ static void landmarks_before_the_first_fix_cost_nothing_else(void** state) {
 /* A step whose noise is a million metres, after which known landmarks are seen: the pose is known again. */
 static void a_lost_vehicle_finds_its_landmarks(void** state) {
   (void)state;
-  for (int32_t error = CAIRN_ERROR_INVARIANT; error <= CAIRN_ERROR_STANDARD; ++error)
+  for (int32_t error = CAIRN_STATE_ERROR_INVARIANT; error <= CAIRN_STATE_ERROR_STANDARD; ++error)
     for (double sigma = 1e2; sigma < 2e9; sigma *= 10) {
       const cairn_filter_options o = options_of(CAIRN_VEHICLE_SPATIAL, error);
       cairn_filter* f = create(&o);
@@ -187,17 +191,17 @@ static void a_lost_vehicle_finds_its_landmarks(void** state) {
       cairn_observation shot[NEAR];
       double noise[36], covariance[36];
       for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(CAIRN_VEHICLE_SPATIAL, i, 0);
-      assert_ok(cairn_filter_update(f, sensor, shot, NEAR, NULL));
+      assert_ok(cairn_filter_update(f, sensor, shot, NEAR, NULL, NULL));
       diagonal(noise, 6, 1e-6);
       for (int i = 0; i < 3; ++i) noise[7 * i] = sigma * sigma;
-      assert_ok(cairn_filter_predict_increment(f, &stay, noise));
+      assert_ok(cairn_filter_predict_increment(f, &stay, noise, NULL));
       for (int n = 0; n < 4; ++n) {
         cairn_match m[NEAR];
-        assert_ok(cairn_filter_update(f, sensor, shot, NEAR, m));
-        for (int i = 0; i < NEAR; ++i) assert_int_equal(m[i].result, CAIRN_MATCHED);
+        assert_ok(cairn_filter_update(f, sensor, shot, NEAR, m, NULL));
+        for (int i = 0; i < NEAR; ++i) assert_int_equal(m[i].result, CAIRN_RESULT_MATCHED);
         assert_sound(f);
       }
-      assert_ok(cairn_filter_pose(f, NULL, covariance));
+      assert_ok(cairn_filter_pose(f, NULL, covariance, NULL));
       for (int i = 0; i < 3; ++i) assert_true(covariance[7 * i] > 1e-6 && covariance[7 * i] < 0.1);
       cairn_filter_destroy(f);
     }
@@ -209,7 +213,7 @@ static void a_drive_round_the_earth(void** state) {
   (void)state;
   cairn_filter* f[2];
   double c[2][36];
-  for (int32_t error = CAIRN_ERROR_INVARIANT; error <= CAIRN_ERROR_STANDARD; ++error) {
+  for (int32_t error = CAIRN_STATE_ERROR_INVARIANT; error <= CAIRN_STATE_ERROR_STANDARD; ++error) {
     const cairn_filter_options o = options_of(CAIRN_VEHICLE_SPATIAL, error);
     f[error] = create(&o);
     const int32_t sensor = add_sensor(f[error], CAIRN_VEHICLE_SPATIAL);
@@ -217,12 +221,12 @@ static void a_drive_round_the_earth(void** state) {
       const cairn_pose leap = {{1e5, 0, 0}, {1, 0, 0, 0}};
       double noise[36];
       diagonal(noise, 6, 1e-4);
-      assert_ok(cairn_filter_predict_increment(f[error], &leap, noise));
+      assert_ok(cairn_filter_predict_increment(f[error], &leap, noise, NULL));
       assert_sound(f[error]);
       if (n % 100 != 0) continue;
       const double here[3] = {1e5 * n, 0, 0}, precise[9] = {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4};
       for (int k = 0; k < 3; ++k) {
-        assert_ok(cairn_filter_update_position(f[error], here, precise, NULL, NULL));
+        assert_ok(cairn_filter_update_position(f[error], here, precise, NULL, NULL, NULL));
         assert_sound(f[error]);
       }
       for (int k = 0; k < 3; ++k) { /* landmarks here, while those behind are kept */
@@ -231,11 +235,11 @@ static void a_drive_round_the_earth(void** state) {
           shot[i] = seen(CAIRN_VEHICLE_SPATIAL, i, 0);
           shot[i].id += 8 * ((unsigned)n / 100);
         }
-        assert_ok(cairn_filter_update(f[error], sensor, shot, NEAR, NULL));
+        assert_ok(cairn_filter_update(f[error], sensor, shot, NEAR, NULL, NULL));
         assert_sound(f[error]);
       }
     }
-    assert_ok(cairn_filter_pose(f[error], NULL, c[error]));
+    assert_ok(cairn_filter_pose(f[error], NULL, c[error], NULL));
   }
   for (int i = 0; i < 6; ++i) assert_near(c[0][7 * i], c[1][7 * i], 0.05 * c[1][7 * i]);
   cairn_filter_destroy(f[0]);

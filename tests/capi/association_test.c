@@ -26,10 +26,10 @@ static void open_pushed(rig* r, cairn_filter_options options, const cairn_observ
   memset(options.initial_covariance, 0, sizeof options.initial_covariance);
   options.gate_probability = 0.99;
   rig_open(r, &options);
-  assert_ok(cairn_filter_update(r->filter, r->sensors[CARTESIAN], points, count, NULL));
+  assert_ok(cairn_filter_update(r->filter, r->sensors[CARTESIAN], points, count, NULL, NULL));
   diagonal(covariance, 6, 1e-8);
   covariance[0] = sigma * sigma;
-  assert_ok(cairn_filter_predict_increment(r->filter, &stay, covariance));
+  assert_ok(cairn_filter_predict_increment(r->filter, &stay, covariance, NULL));
 }
 
 static void without_ids_a_filter_decides_as_with_ids(void** state) {
@@ -77,7 +77,7 @@ static void pairs_that_contradict_each_other_are_not_accepted_together(void** st
   rig r;
   (void)state;
   open_pushed(&r, unnamed(CAIRN_ASSOCIATION_JOINT), points, 2, 1.0);
-  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, 2, m));
+  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, 2, m, NULL));
   check_one_of_two_matches(m);
   const cairn_update_report report = last_update(r.filter);
   assert_true(report.association_nodes >= 2 && report.association_exhausted == 0);
@@ -85,7 +85,7 @@ static void pairs_that_contradict_each_other_are_not_accepted_together(void** st
   rig_close(&r);
   /* Nearest neighbour matches both. The batch gate finds that they contradict each other. */
   open_pushed(&r, unnamed(CAIRN_ASSOCIATION_NEAREST), points, 2, 1.0);
-  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, 2, m));
+  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, 2, m, NULL));
   assert_true((m[0].reason == CAIRN_REASON_BATCH_GATE) != (m[1].reason == CAIRN_REASON_BATCH_GATE));
   assert_int_equal(last_update(r.filter).association_nodes, 0);
   rig_close(&r);
@@ -103,9 +103,9 @@ static void an_ambiguous_observation_needs_the_support_of_others(void** state) {
       looked[i] = points[i];
       looked[i].z[0] += 0.8;
     }
-    assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, count, m));
+    assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], looked, count, m, NULL));
     for (size_t i = 0; i < count; ++i) {
-      assert_int_equal(m[i].result, count == 3 ? CAIRN_MATCHED : CAIRN_REJECTED);
+      assert_int_equal(m[i].result, count == 3 ? CAIRN_RESULT_MATCHED : CAIRN_RESULT_REJECTED);
       assert_int_equal(m[i].reason, count == 3 ? CAIRN_REASON_NONE : CAIRN_REASON_AMBIGUOUS);
       if (count == 3) assert_int_equal(m[i].landmark, i);
     }
@@ -120,9 +120,9 @@ static void a_new_landmark_keeps_its_distance_from_known_ones(void** state) {
   const struct {
     double offset;
     int32_t result, reason;
-  } looks[] = {{0.4, CAIRN_MATCHED, CAIRN_REASON_NONE},
-               {0.6, CAIRN_REJECTED, CAIRN_REASON_GATE},
-               {0.7, CAIRN_NEW, CAIRN_REASON_NONE}};
+  } looks[] = {{0.4, CAIRN_RESULT_MATCHED, CAIRN_REASON_NONE},
+               {0.6, CAIRN_RESULT_REJECTED, CAIRN_REASON_GATE},
+               {0.7, CAIRN_RESULT_NEW, CAIRN_REASON_NONE}};
   (void)state;
   for (size_t k = 0; k < LENGTH(looks); ++k) {
     cairn_observation o = point;
@@ -133,10 +133,10 @@ static void a_new_landmark_keeps_its_distance_from_known_ones(void** state) {
     cairn_observation first = point;
     memcpy(first.covariance, o.covariance, sizeof first.covariance);
     open_pushed(&r, unnamed(CAIRN_ASSOCIATION_JOINT), &first, 1, 1e-4);
-    assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], &o, 1, &m));
+    assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], &o, 1, &m, NULL));
     assert_int_equal(m.result, looks[k].result);
     assert_int_equal(m.reason, looks[k].reason);
-    assert_int_equal(m.landmark, m.result == CAIRN_NEW ? 1 : 0);
+    assert_int_equal(m.landmark, m.result == CAIRN_RESULT_NEW ? 1 : 0);
     rig_close(&r);
   }
 }
@@ -150,7 +150,7 @@ static void one_landmark_is_seen_once_a_frame(void** state) {
   const struct {
     double offset;
     int32_t result, reason;
-  } looks[] = {{0.3, CAIRN_REJECTED, CAIRN_REASON_AMBIGUOUS}, {0.5, CAIRN_NEW, CAIRN_REASON_NONE}};
+  } looks[] = {{0.3, CAIRN_RESULT_REJECTED, CAIRN_REASON_AMBIGUOUS}, {0.5, CAIRN_RESULT_NEW, CAIRN_REASON_NONE}};
   (void)state;
   for (size_t k = 0; k < LENGTH(looks); ++k) {
     cairn_observation first = point, both[2];
@@ -160,15 +160,15 @@ static void one_landmark_is_seen_once_a_frame(void** state) {
     both[0] = both[1] = first;
     both[1].z[1] += looks[k].offset;
     open_pushed(&r, unnamed(CAIRN_ASSOCIATION_JOINT), &first, 1, 1e-4);
-    assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], both, 2, m));
-    assert_int_equal(m[0].result, CAIRN_MATCHED);
+    assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], both, 2, m, NULL));
+    assert_int_equal(m[0].result, CAIRN_RESULT_MATCHED);
     assert_int_equal(m[0].landmark, 0);
     assert_int_equal(m[1].result, looks[k].result);
     assert_int_equal(m[1].reason, looks[k].reason);
-    if (looks[k].result == CAIRN_NEW) { /* each observation is matched with its own landmark */
-      assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], both, 2, m));
+    if (looks[k].result == CAIRN_RESULT_NEW) { /* each observation is matched with its own landmark */
+      assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], both, 2, m, NULL));
       for (size_t i = 0; i < 2; ++i) {
-        assert_int_equal(m[i].result, CAIRN_MATCHED);
+        assert_int_equal(m[i].result, CAIRN_RESULT_MATCHED);
         assert_int_equal(m[i].landmark, i);
       }
     }
@@ -186,13 +186,13 @@ static void one_landmark_is_seen_once_a_frame(void** state) {
     for (size_t k = 0; k < 4; ++k) four[k].covariance[4 * i] = 0.01;
   }
   open_pushed(&refusing, unnamed(CAIRN_ASSOCIATION_NEAREST), known, 2, 0.25);
-  assert_ok(cairn_filter_update(refusing.filter, refusing.sensors[CARTESIAN], four, 4, of_four));
-  const size_t refused = of_four[0].result == CAIRN_REJECTED ? 0 : 2, taken = 2 - refused;
+  assert_ok(cairn_filter_update(refusing.filter, refusing.sensors[CARTESIAN], four, 4, of_four, NULL));
+  const size_t refused = of_four[0].result == CAIRN_RESULT_REJECTED ? 0 : 2, taken = 2 - refused;
   assert_int_equal(of_four[refused].reason, CAIRN_REASON_BATCH_GATE);
   assert_int_equal(of_four[refused + 1].reason, CAIRN_REASON_GATE);
   assert_int_equal(of_four[refused + 1].landmark, refused / 2);
-  assert_int_equal(of_four[taken].result, CAIRN_MATCHED);
-  assert_int_equal(of_four[taken + 1].result, CAIRN_NEW);
+  assert_int_equal(of_four[taken].result, CAIRN_RESULT_MATCHED);
+  assert_int_equal(of_four[taken + 1].result, CAIRN_RESULT_NEW);
   assert_int_equal(of_four[taken + 1].landmark, 2);
   rig_close(&refusing);
   /* No landmark is placed next to an observation that is itself doubtful. */
@@ -200,7 +200,7 @@ static void one_landmark_is_seen_once_a_frame(void** state) {
   cairn_match m[2];
   rig r;
   open_pushed(&r, unnamed(CAIRN_ASSOCIATION_JOINT), &point, 1, 1.0);
-  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], apart, 2, m));
+  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], apart, 2, m, NULL));
   for (size_t i = 0; i < 2; ++i) assert_int_equal(m[i].reason, CAIRN_REASON_AMBIGUOUS);
   rig_close(&r);
 }
@@ -220,8 +220,8 @@ static void persistent_errors_count_in_updates_only(void** state) {
   for (int i = 0; i < 3; ++i) again.covariance[4 * i] = 0.01;
   weaker = again;
   for (int i = 0; i < 3; ++i) weaker.covariance[4 * i] *= 4;
-  assert_ok(cairn_filter_update(a.filter, a.sensors[CARTESIAN], &again, 1, NULL));
-  assert_ok(cairn_filter_update(b.filter, b.sensors[CARTESIAN], &weaker, 1, NULL));
+  assert_ok(cairn_filter_update(a.filter, a.sensors[CARTESIAN], &again, 1, NULL, NULL));
+  assert_ok(cairn_filter_update(b.filter, b.sensors[CARTESIAN], &weaker, 1, NULL, NULL));
   snapshot of_a = {0, NULL}, of_b = {0, NULL};
   snapshot_take(&of_a, a.filter);
   snapshot_take(&of_b, b.filter);
@@ -240,8 +240,8 @@ static void persistent_errors_count_in_updates_only(void** state) {
   lasting = unnamed(CAIRN_ASSOCIATION_JOINT);
   lasting.error_persistence = 100;
   open_pushed(&a, lasting, &first, 1, 1e-4);
-  assert_ok(cairn_filter_update(a.filter, a.sensors[CARTESIAN], &off, 1, &m));
-  assert_int_equal(m.result, CAIRN_REJECTED);
+  assert_ok(cairn_filter_update(a.filter, a.sensors[CARTESIAN], &off, 1, &m, NULL));
+  assert_int_equal(m.result, CAIRN_RESULT_REJECTED);
   assert_int_equal(m.reason, CAIRN_REASON_GATE);
   rig_close(&a);
 }
@@ -257,7 +257,7 @@ static void the_limit_of_joint_tests_is_kept_and_reported(void** state) {
   open_pushed(&r, options, points, WORLD_LANDMARKS, 2.0);
   for (int i = 0; i < WORLD_LANDMARKS; ++i)
     points[i].z[0] += i % 3 == 0 ? 1.3 : i % 3 == 1 ? 0.4 : -0.7; /* offsets that no shift along x explains */
-  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], points, WORLD_LANDMARKS, m));
+  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], points, WORLD_LANDMARKS, m, NULL));
   const cairn_update_report report = last_update(r.filter);
   assert_int_equal(report.association_exhausted, 1);
   assert_true(report.association_nodes >= 1 && report.association_nodes <= 8 * WORLD_LANDMARKS);
@@ -286,12 +286,12 @@ static void closings_find_the_landmarks_of_the_map(void** state) {
       cairn_observation o[WORLD_LANDMARKS];
       size_t count = 0;
       const int at_step = i % 11;
-      if (i > 0) assert_ok(cairn_filter_predict_increment(r.filter, at_step == 0 ? &back : &step, covariance));
+      if (i > 0) assert_ok(cairn_filter_predict_increment(r.filter, at_step == 0 ? &back : &step, covariance, NULL));
       for (int l = 0; l < 12; ++l) {
         const double x = 2.5 * l - 2.0 * at_step;
         if (x > 1 && x < 9) o[count++] = at(x, l % 2 == 0 ? 3 : -3, 0.2 * l);
       }
-      assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, count, NULL));
+      assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, count, NULL, NULL));
       const cairn_closing_report report = last_closing(r.filter);
       assert_int_equal(report.status, CAIRN_OK);
       if (report.submaps == closings) continue;
@@ -303,10 +303,10 @@ static void closings_find_the_landmarks_of_the_map(void** state) {
       assert_int_equal(report.association_exhausted, 0);
       fused += report.landmarks_fused;
     }
-    assert_ok(cairn_map_size(cairn_filter_local_map(r.filter), &size));
-    if (size > 0) assert_ok(cairn_filter_close_submap(r.filter));
+    assert_ok(cairn_map_size(cairn_filter_local_map(r.filter), &size, NULL));
+    if (size > 0) assert_ok(cairn_filter_close_submap(r.filter, NULL));
     assert_true(closings >= 4 && fused >= 8);
-    assert_ok(cairn_map_size(cairn_filter_map(r.filter), &size));
+    assert_ok(cairn_map_size(cairn_filter_map(r.filter), &size, NULL));
     assert_int_equal(size, 11); /* the landmarks that were in sight, each once */
     rig_close(&r);
   }
@@ -326,11 +326,11 @@ static void a_frame_that_does_not_fit_places_what_fits(void** state) {
   const double kept = o[1].z[2];
   o[1].z[2] = NAN;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "observations[1].z",
-                 cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 2, NULL));
+                 cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 2, NULL, NULL));
   snapshot_take(&after, r.filter);
   assert_true(snapshot_same(&before, &after));
   o[1].z[2] = kept;
-  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 3, m));
+  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 3, m, NULL));
   for (int i = 0; i < 2; ++i) assert_int_equal(m[i].landmark, i); /* the failed call used no number */
   assert_int_equal(m[2].reason, CAIRN_REASON_NO_ROOM);
   assert_true(m[2].landmark == CAIRN_ID_NONE);
@@ -345,25 +345,27 @@ static void options_out_of_range_are_refused(void** state) {
   const int32_t ways[] = {-1, 3, 77};
   for (size_t i = 0; i < LENGTH(ways); ++i) {
     const cairn_filter_options options = unnamed(ways[i]);
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.association", cairn_filter_create(&options, &filter));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.association", cairn_filter_create(&options, &filter, NULL));
   }
   const uint32_t nodes[] = {0, 1000001, UINT32_MAX};
   for (size_t i = 0; i < LENGTH(nodes); ++i) {
     cairn_filter_options options = test_options();
     options.association_nodes = nodes[i];
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.association_nodes", cairn_filter_create(&options, &filter));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.association_nodes",
+                   cairn_filter_create(&options, &filter, NULL));
   }
   const double probabilities[] = {0, 1, -0.1, 1.5, NAN, INFINITY};
   for (size_t i = 0; i < LENGTH(probabilities); ++i) {
     cairn_filter_options options = test_options();
     options.new_probability = probabilities[i];
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.new_probability", cairn_filter_create(&options, &filter));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.new_probability", cairn_filter_create(&options, &filter, NULL));
   }
   const double persistences[] = {0, 0.5, -1, 1.1e6, NAN, INFINITY};
   for (size_t i = 0; i < LENGTH(persistences); ++i) {
     cairn_filter_options options = test_options();
     options.error_persistence = persistences[i];
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.error_persistence", cairn_filter_create(&options, &filter));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options.error_persistence",
+                   cairn_filter_create(&options, &filter, NULL));
   }
   assert_null(filter);
 }

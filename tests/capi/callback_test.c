@@ -27,7 +27,7 @@ static void a_negative_callback_aborts_the_whole_frame(void** state) {
   (void)state;
   for (int association = 0; association < 3; ++association)
     for (int at = 1;; ++at) {
-      cairn_filter_options o = options_of(CAIRN_VEHICLE_SPATIAL, CAIRN_ERROR_INVARIANT);
+      cairn_filter_options o = options_of(CAIRN_VEHICLE_SPATIAL, CAIRN_STATE_ERROR_INVARIANT);
       aborting a = {0, 0, at % 2 == 0 ? -1 : INT32_MIN};
       cairn_custom custom = test_point();
       const double lower[3] = {0, -50, -50}, upper[3] = {50, 50, 50};
@@ -39,10 +39,10 @@ static void a_negative_callback_aborts_the_whole_frame(void** state) {
       for (int i = 0; i < 6; ++i) o.initial_covariance[7 * i] = 1e-4;
       cairn_filter* f = create(&o);
       custom.predict = aborting_predict, custom.place = aborting_place, custom.user = &a;
-      assert_ok(cairn_filter_add_custom(f, &custom, &sensor));
-      assert_ok(cairn_filter_set_view(f, sensor, lower, upper));
+      assert_ok(cairn_filter_add_custom(f, &custom, &sensor, NULL));
+      assert_ok(cairn_filter_set_view(f, sensor, lower, upper, NULL));
       for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(CAIRN_VEHICLE_SPATIAL, 3 * i, 0);
-      assert_ok(cairn_filter_update(f, sensor, shot, 6, m));
+      assert_ok(cairn_filter_update(f, sensor, shot, 6, m, NULL));
       step(f);
       for (int i = 0; i < NEAR; ++i) shot[i].z[0] -= 0.1;
       snapshot_take(&before, f);
@@ -50,12 +50,12 @@ static void a_negative_callback_aborts_the_whole_frame(void** state) {
       memset(m, 0xa5, sizeof m);
       memcpy(kept, m, sizeof m);
       /* one known landmark is missed, two are new */
-      const cairn_status status = cairn_filter_update(f, sensor, shot + 1, NEAR - 1, m);
+      const cairn_status status = cairn_filter_update(f, sensor, shot + 1, NEAR - 1, m, NULL);
       const bool done = a.calls < at;
       snapshot_take(&after, f);
       if (done) {
         assert_ok(status);
-        assert_int_equal(m[5].result, CAIRN_NEW);
+        assert_int_equal(m[5].result, CAIRN_RESULT_NEW);
         assert_int_equal(last_update(f).removed, 1);
       } else {
         assert_int_equal(status, CAIRN_ERROR_CALLBACK);
@@ -63,8 +63,8 @@ static void a_negative_callback_aborts_the_whole_frame(void** state) {
         assert_true(snapshot_same(&before, &after));
         assert_memory_equal(m, kept, sizeof m);
         a.abort_at = 0; /* the same frame, given again, is taken in as if nothing had happened */
-        assert_ok(cairn_filter_update(f, sensor, shot + 1, NEAR - 1, m));
-        assert_int_equal(m[0].result, CAIRN_MATCHED);
+        assert_ok(cairn_filter_update(f, sensor, shot + 1, NEAR - 1, m, NULL));
+        assert_int_equal(m[0].result, CAIRN_RESULT_MATCHED);
         assert_int_equal(last_update(f).placed, 2);
       }
       snapshot_free(&before);
@@ -85,13 +85,13 @@ static void a_check_of_a_sensor_that_aborts_fails(void** state) {
   (void)state;
   custom.predict = aborting_predict, custom.place = aborting_place, custom.user = &a;
   assert_refused(NULL, CAIRN_ERROR_CALLBACK, "custom.predict returned -5",
-                 cairn_custom_check(&custom, &pose, landmark, &worst));
+                 cairn_custom_check(&custom, &pose, landmark, &worst, NULL));
 }
 
 /* A custom sensor of the whole world agrees with the built-in one although it asks for places before the commit. */
 static void a_custom_sensor_places_like_a_built_in_one(void** state) {
   (void)state;
-  cairn_filter_options o = options_of(CAIRN_VEHICLE_SPATIAL, CAIRN_ERROR_INVARIANT);
+  cairn_filter_options o = options_of(CAIRN_VEHICLE_SPATIAL, CAIRN_STATE_ERROR_INVARIANT);
   diagonal(o.initial_covariance, 6, 1e-2);
   cairn_pose pose[2];
   cairn_landmark landmark[2];
@@ -100,15 +100,15 @@ static void a_custom_sensor_places_like_a_built_in_one(void** state) {
     int32_t sensor = add_sensor(f, CAIRN_VEHICLE_SPATIAL);
     cairn_custom custom = test_point();
     for (int i = 0; i < 3; ++i) custom.sigma[i] = 0.1;
-    if (own == 1) assert_ok(cairn_filter_add_custom(f, &custom, &sensor));
+    if (own == 1) assert_ok(cairn_filter_add_custom(f, &custom, &sensor, NULL));
     for (int n = 0; n < 6; ++n) {
       cairn_observation shot[3];
       for (uint64_t i = 0; i < 3; ++i) shot[i] = seen(CAIRN_VEHICLE_SPATIAL, (uint64_t)n + i, 0.1 * n + 0.05);
       step(f);
-      assert_ok(cairn_filter_update(f, sensor, shot, 3, NULL));
+      assert_ok(cairn_filter_update(f, sensor, shot, 3, NULL, NULL));
     }
-    assert_ok(cairn_filter_pose(f, &pose[own], NULL));
-    assert_ok(cairn_map_landmark(cairn_filter_map(f), 7, &landmark[own]));
+    assert_ok(cairn_filter_pose(f, &pose[own], NULL, NULL));
+    assert_ok(cairn_map_landmark(cairn_filter_map(f), 7, &landmark[own], NULL));
     cairn_filter_destroy(f);
   }
   for (int i = 0; i < 3; ++i) assert_near(pose[0].position[i], pose[1].position[i], 1e-9);

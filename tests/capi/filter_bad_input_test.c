@@ -39,25 +39,28 @@ static void wheels_and_times(void** state) {
   static const double times[] = {0, -0.1, -0.0, NAN, INFINITY, -INFINITY};
   const double v[3] = {1, 0, 0}, w[3] = {0, 0, 0.1};
   for (size_t n = 0; n < LENGTH(times); ++n) {
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "dt", cairn_filter_predict_wheels(f, times[n], 1, 2));
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "dt", cairn_filter_predict_twist(f, times[n], v, w));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "dt", cairn_filter_predict_wheels(f, times[n], 1, 2, NULL));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "dt", cairn_filter_predict_twist(f, times[n], v, w, NULL));
   }
   for (size_t n = 0; n < LENGTH(not_finite); ++n) {
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "left_rad_per_s", cairn_filter_predict_wheels(f, 0.1, not_finite[n], 2));
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "right_rad_per_s", cairn_filter_predict_wheels(f, 0.1, 1, not_finite[n]));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "left_rad_per_s",
+                   cairn_filter_predict_wheels(f, 0.1, not_finite[n], 2, NULL));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "right_rad_per_s",
+                   cairn_filter_predict_wheels(f, 0.1, 1, not_finite[n], NULL));
   }
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_predict_wheels(NULL, 0.1, 1, 2));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_predict_wheels(NULL, 0.1, 1, 2, NULL));
 }
 
 static void twists(void** state) {
   bench* b = *state;
   cairn_filter* f = b->main.filter;
   double v[3] = {1, 0.1, 0.2}, w[3] = {0.1, 0.2, 0.1};
-  FOR_EACH_SPOILT(v, assert_refused(b, CAIRN_ERROR_ARGUMENT, "velocity", cairn_filter_predict_twist(f, 0.1, v, w)));
-  FOR_EACH_SPOILT(w, assert_refused(b, CAIRN_ERROR_ARGUMENT, "rate", cairn_filter_predict_twist(f, 0.1, v, w)));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "velocity", cairn_filter_predict_twist(f, 0.1, NULL, w));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "rate", cairn_filter_predict_twist(f, 0.1, v, NULL));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_predict_twist(NULL, 0.1, v, w));
+  FOR_EACH_SPOILT(v,
+                  assert_refused(b, CAIRN_ERROR_ARGUMENT, "velocity", cairn_filter_predict_twist(f, 0.1, v, w, NULL)));
+  FOR_EACH_SPOILT(w, assert_refused(b, CAIRN_ERROR_ARGUMENT, "rate", cairn_filter_predict_twist(f, 0.1, v, w, NULL)));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "velocity", cairn_filter_predict_twist(f, 0.1, NULL, w, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "rate", cairn_filter_predict_twist(f, 0.1, v, NULL, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_predict_twist(NULL, 0.1, v, w, NULL));
 }
 
 static void increments(void** state) {
@@ -67,17 +70,17 @@ static void increments(void** state) {
   double c[36];
   diagonal(c, 6, 1e-4);
   FOR_EACH_SPOILT(move.position, assert_refused(b, CAIRN_ERROR_ARGUMENT, "T_before_after",
-                                                cairn_filter_predict_increment(f, &move, c)));
+                                                cairn_filter_predict_increment(f, &move, c, NULL)));
   FOR_EACH_SPOILT(move.quaternion, assert_refused(b, CAIRN_ERROR_ARGUMENT, "T_before_after",
-                                                  cairn_filter_predict_increment(f, &move, c)));
-  FOR_EACH_SPOILT(c,
-                  assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_predict_increment(f, &move, c)));
+                                                  cairn_filter_predict_increment(f, &move, c, NULL)));
+  FOR_EACH_SPOILT(
+      c, assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_predict_increment(f, &move, c, NULL)));
   cairn_pose zero = move;
   memset(zero.quaternion, 0, sizeof zero.quaternion);
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_filter_predict_increment(f, &zero, c));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_filter_predict_increment(f, NULL, c));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_predict_increment(f, &move, NULL));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_predict_increment(NULL, &move, c));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_filter_predict_increment(f, &zero, c, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_filter_predict_increment(f, NULL, c, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_predict_increment(f, &move, NULL, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_predict_increment(NULL, &move, c, NULL));
   for (size_t n = 0; n < LENGTH(no_covariance); ++n)
     for (int block = 0; block < 4; ++block) { /* in each corner of the 6x6 */
       diagonal(c, 6, 4);
@@ -87,7 +90,7 @@ static void increments(void** state) {
       }
       if (block == 2) c[3] = 0.5;                     /* correlates two blocks, without the symmetric entry */
       if (block == 3) c[5] = c[30] = 4.1 + (double)n; /* correlates two blocks more than the variances allow */
-      assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_predict_increment(f, &move, c));
+      assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_predict_increment(f, &move, c, NULL));
     }
 }
 
@@ -103,11 +106,13 @@ static void refuse_frame(bench* b, const frame* f, cairn_status status, const ch
   cairn_match matches[WORLD_LANDMARKS + 1], kept[WORLD_LANDMARKS + 1];
   memset(matches, 0xa5, sizeof matches);
   memset(kept, 0xa5, sizeof kept);
-  assert_refused(b, status, name,
-                 cairn_filter_update(b->main.filter, b->main.sensors[f->sensor], f->observations, f->count, matches));
+  assert_refused(
+      b, status, name,
+      cairn_filter_update(b->main.filter, b->main.sensors[f->sensor], f->observations, f->count, matches, NULL));
   assert_memory_equal(matches, kept, sizeof kept);
-  assert_refused(b, status, name,
-                 cairn_filter_update(b->main.filter, b->main.sensors[f->sensor], f->observations, f->count, NULL));
+  assert_refused(
+      b, status, name,
+      cairn_filter_update(b->main.filter, b->main.sensors[f->sensor], f->observations, f->count, NULL, NULL));
 }
 
 static void values_of_observations(void** state) {
@@ -155,8 +160,8 @@ static void ids_of_observations(void** state) {
   f.observations[f.count - 1].id = f.observations[0].id;
   refuse_frame(b, &f, CAIRN_ERROR_ARGUMENT, "observations");
   f = frame_of(b, CARTESIAN); /* the same new landmark twice */
-  assert_ok(cairn_filter_remove_landmark(b->main.filter, f.observations[1].id));
-  assert_ok(cairn_filter_remove_landmark(b->shadow.filter, f.observations[1].id));
+  assert_ok(cairn_filter_remove_landmark(b->main.filter, f.observations[1].id, NULL));
+  assert_ok(cairn_filter_remove_landmark(b->shadow.filter, f.observations[1].id, NULL));
   f.observations[0].id = f.observations[1].id;
   refuse_frame(b, &f, CAIRN_ERROR_ARGUMENT, "observations");
 }
@@ -170,12 +175,14 @@ static void sensors_of_frames(void** state) {
   memset(kept, 0xa5, sizeof kept);
   for (size_t n = 0; n < LENGTH(unknown); ++n) {
     assert_refused(b, CAIRN_ERROR_NOT_FOUND, "sensor",
-                   cairn_filter_update(b->main.filter, unknown[n], f.observations, f.count, matches));
-    assert_refused(b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_update(b->main.filter, unknown[n], NULL, 0, NULL));
+                   cairn_filter_update(b->main.filter, unknown[n], f.observations, f.count, matches, NULL));
+    assert_refused(b, CAIRN_ERROR_NOT_FOUND, "sensor",
+                   cairn_filter_update(b->main.filter, unknown[n], NULL, 0, NULL, NULL));
   }
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_update(NULL, 0, f.observations, f.count, matches));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter",
+                 cairn_filter_update(NULL, 0, f.observations, f.count, matches, NULL));
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "observations",
-                 cairn_filter_update(b->main.filter, b->main.sensors[CARTESIAN], NULL, f.count, matches));
+                 cairn_filter_update(b->main.filter, b->main.sensors[CARTESIAN], NULL, f.count, matches, NULL));
   assert_memory_equal(matches, kept, sizeof kept);
 }
 
@@ -192,16 +199,16 @@ static void capacities(void** state) {
   many[WORLD_LANDMARKS] = many[0];
   many[WORLD_LANDMARKS].id = 1001;
   assert_refused(b, CAIRN_ERROR_CAPACITY, "max_observations",
-                 cairn_filter_update(b->main.filter, b->main.sensors[RANGE], many, WORLD_LANDMARKS + 1, matches));
+                 cairn_filter_update(b->main.filter, b->main.sensors[RANGE], many, WORLD_LANDMARKS + 1, matches, NULL));
   assert_refused(b, CAIRN_ERROR_CAPACITY, "max_observations",
-                 cairn_filter_update(b->main.filter, b->main.sensors[RANGE], many, SIZE_MAX / 2, matches));
+                 cairn_filter_update(b->main.filter, b->main.sensors[RANGE], many, SIZE_MAX / 2, matches, NULL));
   assert_memory_equal(matches, kept, sizeof kept);
   f = frame_of(b, RANGE); /* the map is full, but this observation cannot place a landmark: a match, not an error */
   f.observations[0].id = 1002;
   cairn_match m[WORLD_LANDMARKS];
   for (int k = 0; k < 2; ++k)
     assert_ok(cairn_filter_update(k == 0 ? b->main.filter : b->shadow.filter, b->main.sensors[RANGE], f.observations,
-                                  f.count, m));
+                                  f.count, m, NULL));
   assert_int_equal(m[0].reason, CAIRN_REASON_NO_PLACE);
 }
 
@@ -213,20 +220,20 @@ static void absolute_position(void** state) {
   memset(&m, 0xa5, sizeof m), kept = m;
   diagonal(c, 3, 1e3); /* no gate refuses anything */
   FOR_EACH_SPOILT(
-      z, assert_refused(b, CAIRN_ERROR_ARGUMENT, "position", cairn_filter_update_position(f, z, c, lever, &m)));
+      z, assert_refused(b, CAIRN_ERROR_ARGUMENT, "position", cairn_filter_update_position(f, z, c, lever, &m, NULL)));
   FOR_EACH_SPOILT(
-      c, assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_update_position(f, z, c, lever, &m)));
-  FOR_EACH_SPOILT(
-      lever, assert_refused(b, CAIRN_ERROR_ARGUMENT, "lever_arm", cairn_filter_update_position(f, z, c, lever, &m)));
+      c, assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_update_position(f, z, c, lever, &m, NULL)));
+  FOR_EACH_SPOILT(lever, assert_refused(b, CAIRN_ERROR_ARGUMENT, "lever_arm",
+                                        cairn_filter_update_position(f, z, c, lever, &m, NULL)));
   for (size_t n = 0; n < LENGTH(no_covariance); ++n)
     assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance",
-                   cairn_filter_update_position(f, z, no_covariance[n].values, NULL, &m));
+                   cairn_filter_update_position(f, z, no_covariance[n].values, NULL, &m, NULL));
   for (size_t n = 0; n < LENGTH(semidefinite); ++n)
     assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance",
-                   cairn_filter_update_position(f, z, semidefinite[n].values, NULL, &m));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "position", cairn_filter_update_position(f, NULL, c, lever, &m));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_update_position(f, z, NULL, lever, &m));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_update_position(NULL, z, c, lever, &m));
+                   cairn_filter_update_position(f, z, semidefinite[n].values, NULL, &m, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "position", cairn_filter_update_position(f, NULL, c, lever, &m, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_update_position(f, z, NULL, lever, &m, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_update_position(NULL, z, c, lever, &m, NULL));
   assert_memory_equal(&m, &kept, sizeof m);
 }
 
@@ -238,23 +245,25 @@ static void absolute_attitude_and_heading(void** state) {
   cairn_match m, kept;
   memset(&m, 0xa5, sizeof m), kept = m;
   diagonal(c, 3, 10);
-  FOR_EACH_SPOILT(q, assert_refused(b, CAIRN_ERROR_ARGUMENT, "quaternion", cairn_filter_update_attitude(f, q, c, &m)));
-  FOR_EACH_SPOILT(c, assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_update_attitude(f, q, c, &m)));
+  FOR_EACH_SPOILT(
+      q, assert_refused(b, CAIRN_ERROR_ARGUMENT, "quaternion", cairn_filter_update_attitude(f, q, c, &m, NULL)));
+  FOR_EACH_SPOILT(
+      c, assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_update_attitude(f, q, c, &m, NULL)));
   for (size_t n = 0; n < LENGTH(no_covariance); ++n)
     assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance",
-                   cairn_filter_update_attitude(f, q, no_covariance[n].values, &m));
+                   cairn_filter_update_attitude(f, q, no_covariance[n].values, &m, NULL));
   for (size_t n = 0; n < LENGTH(semidefinite); ++n)
     assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance",
-                   cairn_filter_update_attitude(f, q, semidefinite[n].values, &m));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "quaternion", cairn_filter_update_attitude(f, zero, c, &m));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "quaternion", cairn_filter_update_attitude(f, NULL, c, &m));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_update_attitude(f, q, NULL, &m));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_update_attitude(NULL, q, c, &m));
+                   cairn_filter_update_attitude(f, q, semidefinite[n].values, &m, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "quaternion", cairn_filter_update_attitude(f, zero, c, &m, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "quaternion", cairn_filter_update_attitude(f, NULL, c, &m, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_update_attitude(f, q, NULL, &m, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_update_attitude(NULL, q, c, &m, NULL));
   for (size_t n = 0; n < LENGTH(not_finite); ++n)
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "heading", cairn_filter_update_heading(f, not_finite[n], 0.1, &m));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "heading", cairn_filter_update_heading(f, not_finite[n], 0.1, &m, NULL));
   for (size_t n = 0; n < LENGTH(sigmas); ++n)
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "sigma", cairn_filter_update_heading(f, 0.1, sigmas[n], &m));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_update_heading(NULL, 0.1, 0.1, &m));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "sigma", cairn_filter_update_heading(f, 0.1, sigmas[n], &m, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_update_heading(NULL, 0.1, 0.1, &m, NULL));
   assert_memory_equal(&m, &kept, sizeof m);
 }
 
@@ -267,7 +276,7 @@ static void linear(void** state) {
   cairn_match m, kept;
   memset(&m, 0xa5, sizeof m), kept = m;
   diagonal(c, 3, 1e3);
-#define LINEAR(...) cairn_filter_update_linear(f, __VA_ARGS__, &m)
+#define LINEAR(...) cairn_filter_update_linear(f, __VA_ARGS__, &m, NULL)
   FOR_EACH_SPOILT(r, assert_refused(b, CAIRN_ERROR_ARGUMENT, "residual", LINEAR(r, 3, c, jp, ids, 2, jl)));
   FOR_EACH_SPOILT(c, assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", LINEAR(r, 3, c, jp, ids, 2, jl)));
   FOR_EACH_SPOILT(jp, assert_refused(b, CAIRN_ERROR_ARGUMENT, "jacobian_pose", LINEAR(r, 3, c, jp, ids, 2, jl)));
@@ -280,7 +289,8 @@ static void linear(void** state) {
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance", LINEAR(r, 3, NULL, jp, ids, 2, jl));
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "landmarks", LINEAR(r, 3, c, jp, NULL, 2, jl));
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "jacobian_landmarks", LINEAR(r, 3, c, jp, ids, 2, NULL));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_update_linear(NULL, r, 3, c, jp, ids, 2, jl, &m));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter",
+                 cairn_filter_update_linear(NULL, r, 3, c, jp, ids, 2, jl, &m, NULL));
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "rows", LINEAR(r, 0, c, jp, ids, 2, jl));
   assert_refused(b, CAIRN_ERROR_NOT_FOUND, "landmarks", LINEAR(r, 3, c, jp, unknown, 2, jl));
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "landmarks", LINEAR(r, 3, c, jp, twice, 2, jl));
@@ -295,9 +305,9 @@ static void linear(void** state) {
 
 static void removal(void** state) {
   bench* b = *state;
-  assert_refused(b, CAIRN_ERROR_NOT_FOUND, "id", cairn_filter_remove_landmark(b->main.filter, 4711));
-  assert_refused(b, CAIRN_ERROR_NOT_FOUND, "id", cairn_filter_remove_landmark(b->main.filter, CAIRN_ID_NONE));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_remove_landmark(NULL, 1));
+  assert_refused(b, CAIRN_ERROR_NOT_FOUND, "id", cairn_filter_remove_landmark(b->main.filter, 4711, NULL));
+  assert_refused(b, CAIRN_ERROR_NOT_FOUND, "id", cairn_filter_remove_landmark(b->main.filter, CAIRN_ID_NONE, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_remove_landmark(NULL, 1, NULL));
 }
 
 static void losses(void** state) {
@@ -307,15 +317,17 @@ static void losses(void** state) {
   static const int32_t unknown[] = {-1, 3, INT32_MIN, INT32_MAX};
   static const double widths[] = {0, -1, NAN, INFINITY, -INFINITY, 1.1e6};
   for (size_t n = 0; n < LENGTH(unknown); ++n)
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "loss", cairn_filter_set_loss(f, sensor, unknown[n], 1));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "loss", cairn_filter_set_loss(f, sensor, unknown[n], 1, NULL));
   for (size_t n = 0; n < LENGTH(widths); ++n) {
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "width", cairn_filter_set_loss(f, sensor, CAIRN_LOSS_HUBER, widths[n]));
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "width", cairn_filter_set_loss(f, sensor, CAIRN_LOSS_CAUCHY, widths[n]));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "width",
+                   cairn_filter_set_loss(f, sensor, CAIRN_LOSS_HUBER, widths[n], NULL));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "width",
+                   cairn_filter_set_loss(f, sensor, CAIRN_LOSS_CAUCHY, widths[n], NULL));
   }
-  assert_refused(b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_set_loss(f, SENSORS, CAIRN_LOSS_HUBER, 1));
-  assert_refused(b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_set_loss(f, -1, CAIRN_LOSS_NONE, 1));
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_set_loss(NULL, sensor, CAIRN_LOSS_HUBER, 1));
-  assert_ok(cairn_filter_set_loss(f, sensor, CAIRN_LOSS_NONE, NAN)); /* ignores the width */
+  assert_refused(b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_set_loss(f, SENSORS, CAIRN_LOSS_HUBER, 1, NULL));
+  assert_refused(b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_set_loss(f, -1, CAIRN_LOSS_NONE, 1, NULL));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_set_loss(NULL, sensor, CAIRN_LOSS_HUBER, 1, NULL));
+  assert_ok(cairn_filter_set_loss(f, sensor, CAIRN_LOSS_NONE, NAN, NULL)); /* ignores the width */
 }
 
 /* A result that would not be finite is a numerical error, and the state stays unchanged. */
@@ -325,21 +337,22 @@ static void overflow(void** state) {
   const double huge[3] = {1e300, 1e300, 1e300}, still[3] = {0, 0, 0};
   double covariance[36];
   cairn_pose far = pose_at(1e308, 0, 0, 0, 0, 0);
-  assert_refused(b, CAIRN_ERROR_NUMERICAL, "", cairn_filter_predict_twist(f, 1e10, huge, still));
-  assert_refused(b, CAIRN_ERROR_NUMERICAL, "", cairn_filter_predict_wheels(f, 1e200, 1e200, 1e200));
+  assert_refused(b, CAIRN_ERROR_NUMERICAL, "", cairn_filter_predict_twist(f, 1e10, huge, still, NULL));
+  assert_refused(b, CAIRN_ERROR_NUMERICAL, "", cairn_filter_predict_wheels(f, 1e200, 1e200, 1e200, NULL));
   const double fast[3] = {1e10, 0, 0};
-  assert_refused(b, CAIRN_ERROR_NUMERICAL, "longer than 1e+09 m", cairn_filter_predict_twist(f, 1, fast, still));
+  assert_refused(b, CAIRN_ERROR_NUMERICAL, "longer than 1e+09 m", cairn_filter_predict_twist(f, 1, fast, still, NULL));
   diagonal(covariance, 6, 0.01);
   assert_refused(b, CAIRN_ERROR_ARGUMENT, "T_before_after.position[0]",
-                 cairn_filter_predict_increment(f, &far, covariance));
+                 cairn_filter_predict_increment(f, &far, covariance, NULL));
   far.position[0] = 0;
   covariance[7] = 1e19;
-  assert_refused(b, CAIRN_ERROR_NUMERICAL, "position's noise", cairn_filter_predict_increment(f, &far, covariance));
+  assert_refused(b, CAIRN_ERROR_NUMERICAL, "position's noise",
+                 cairn_filter_predict_increment(f, &far, covariance, NULL));
   for (int i = 0; i < 6; ++i) {
     diagonal(covariance, 6, 0.01);
     covariance[7 * i] = i % 2 == 0 ? 1e308 : 1e-320;
     assert_refused(b, CAIRN_ERROR_ARGUMENT, "covariance: the variance at",
-                   cairn_filter_predict_increment(f, &far, covariance));
+                   cairn_filter_predict_increment(f, &far, covariance, NULL));
   }
 }
 
@@ -375,7 +388,7 @@ static void a_custom_sensor_that_gives_no_numbers_is_refused(void** state) {
   bench_open(&b, &options, 12);
   cairn_custom custom = test_point();
   custom.predict = poisoned_predict, custom.place = poisoned_place, custom.user = &where;
-  assert_ok(cairn_filter_add_custom(b.main.filter, &custom, &sensor));
+  assert_ok(cairn_filter_add_custom(b.main.filter, &custom, &sensor, NULL));
   cairn_observation o[2];
   memset(o, 0, sizeof o);
   o[0].id = 1, o[1].id = 500;
@@ -383,19 +396,19 @@ static void a_custom_sensor_that_gives_no_numbers_is_refused(void** state) {
   o[1].z[0] = 5, o[1].z[1] = 1;
   for (where = 0; where < 4; ++where) {
     cairn_match m[2];
-    assert_ok(cairn_filter_update(b.main.filter, sensor, o, 2, m));
-    assert_int_equal(m[0].result, CAIRN_REJECTED);
+    assert_ok(cairn_filter_update(b.main.filter, sensor, o, 2, m, NULL));
+    assert_int_equal(m[0].result, CAIRN_RESULT_REJECTED);
     assert_int_equal(m[0].reason, CAIRN_REASON_NO_IMAGE);
-    assert_int_equal(m[1].result, CAIRN_REJECTED);
+    assert_int_equal(m[1].result, CAIRN_RESULT_REJECTED);
     assert_int_equal(m[1].reason, CAIRN_REASON_NO_PLACE);
     bench_continue(&b, 3);
   }
   to_body(&b.world.truth, b.world.landmarks[0], o[0].z);
   where = -1; /* with numbers it is an ordinary sensor */
   cairn_match m[2];
-  assert_ok(cairn_filter_update(b.main.filter, sensor, o, 2, m));
-  assert_int_equal(m[0].result, CAIRN_MATCHED);
-  assert_int_equal(m[1].result, CAIRN_NEW);
+  assert_ok(cairn_filter_update(b.main.filter, sensor, o, 2, m, NULL));
+  assert_int_equal(m[0].result, CAIRN_RESULT_MATCHED);
+  assert_int_equal(m[1].result, CAIRN_RESULT_NEW);
   bench_close(&b);
 }
 

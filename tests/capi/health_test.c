@@ -6,7 +6,7 @@ static cairn_health health_of(const cairn_filter* filter) {
   cairn_health health;
   memset(&health, 0xff, sizeof health);
   health.struct_size = sizeof health;
-  assert_ok(cairn_filter_health(filter, &health));
+  assert_ok(cairn_filter_health(filter, &health, NULL));
   return health;
 }
 
@@ -14,7 +14,7 @@ static cairn_sensor_health sensor_of(const cairn_filter* filter, int32_t sensor)
   cairn_sensor_health health;
   memset(&health, 0xff, sizeof health);
   health.struct_size = sizeof health;
-  assert_ok(cairn_filter_sensor_health(filter, sensor, &health));
+  assert_ok(cairn_filter_sensor_health(filter, sensor, &health, NULL));
   return health;
 }
 
@@ -49,11 +49,11 @@ static void observations_are_counted_by_sensor(void** state) {
   (void)state;
   rig_open(&r, &options);
   cairn_observation o[2] = {point(1, 8, 2, 1), point(2, 8, -2, 1)};
-  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 2, NULL));
+  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 2, NULL, NULL));
   assert_int_equal(health_of(r.filter).updates, 1);
   assert_int_equal(sensor_of(r.filter, r.sensors[CARTESIAN]).compared, 0);
   o[1].z[1] = 40;
-  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 2, NULL));
+  assert_ok(cairn_filter_update(r.filter, r.sensors[CARTESIAN], o, 2, NULL, NULL));
   const cairn_sensor_health seen = sensor_of(r.filter, r.sensors[CARTESIAN]);
   assert_true(seen.compared == 2 && seen.refused == 1);
   assert_true(seen.nis_lower < 1.0 && seen.nis_upper > 1.0);
@@ -71,13 +71,13 @@ static void fixes_are_counted(void** state) {
   (void)state;
   rig_open(&r, &options);
   diagonal(covariance, 3, 0.01);
-  assert_ok(cairn_filter_pose(r.filter, &pose, NULL));
-  assert_ok(cairn_filter_update_position(r.filter, pose.position, covariance, NULL, NULL));
+  assert_ok(cairn_filter_pose(r.filter, &pose, NULL, NULL));
+  assert_ok(cairn_filter_update_position(r.filter, pose.position, covariance, NULL, NULL, NULL));
   assert_near(health_of(r.filter).refused_share, 0.0, 0.0);
   const double x = pose.position[0];
   for (int i = 0; i < 20; ++i) { /* no two agree, so no motion of the filter explains them */
     pose.position[0] = x + (i % 2 == 0 ? 1000.0 : -1000.0) * (i + 1);
-    assert_ok(cairn_filter_update_position(r.filter, pose.position, covariance, NULL, NULL));
+    assert_ok(cairn_filter_update_position(r.filter, pose.position, covariance, NULL, NULL, NULL));
   }
   const cairn_health health = health_of(r.filter);
   assert_int_equal(health.updates, 21);
@@ -98,17 +98,17 @@ static void fixes_that_agree_widen_the_motion(void** state) {
   (void)state;
   rig_open(&r, &options);
   diagonal(covariance, 3, 0.01);
-  assert_ok(cairn_filter_pose(r.filter, &pose, NULL));
+  assert_ok(cairn_filter_pose(r.filter, &pose, NULL, NULL));
   const double x = pose.position[0] + 1000;
   pose.position[0] = x;
   for (int i = 0; i < 20; ++i) {
-    assert_ok(cairn_filter_update_position(r.filter, pose.position, covariance, NULL, NULL));
+    assert_ok(cairn_filter_update_position(r.filter, pose.position, covariance, NULL, NULL, NULL));
     if (widened == 0 && (health_of(r.filter).reasons & CAIRN_DOUBT_WIDENED) != 0) widened = i + 1;
   }
   assert_int_equal(widened, 3); /* one and two fixes may be wrong */
   assert_true(health_of(r.filter).refused_share < 0.5);
   assert_int_not_equal(health_of(r.filter).verdict, CAIRN_VERDICT_LOST);
-  assert_ok(cairn_filter_pose(r.filter, &pose, NULL));
+  assert_ok(cairn_filter_pose(r.filter, &pose, NULL, NULL));
   assert_near(pose.position[0], x, 0.1);
   rig_close(&r);
 }
@@ -128,7 +128,7 @@ static void a_refused_call_leaves_it(void** state) {
   const cairn_health before = health_of(r.filter);
   const cairn_sensor_health sensor = sensor_of(r.filter, r.sensors[CARTESIAN]);
   cairn_observation twice[2] = {point(1, 8, 2, 1), point(1, 8, 2, 1)};
-  assert_status(cairn_filter_update(r.filter, r.sensors[CARTESIAN], twice, 2, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_filter_update(r.filter, r.sensors[CARTESIAN], twice, 2, NULL, NULL), CAIRN_ERROR_ARGUMENT);
   const cairn_health after = health_of(r.filter);
   const cairn_sensor_health sensor_after = sensor_of(r.filter, r.sensors[CARTESIAN]);
   assert_memory_equal(&before, &after, sizeof after);
@@ -145,19 +145,19 @@ static void bad_arguments_are_refused(void** state) {
   (void)state;
   rig_open(&r, &options);
   health.struct_size = sizeof health, sensor.struct_size = sizeof sensor;
-  assert_status(cairn_filter_health(NULL, &health), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_filter_health(r.filter, NULL), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_filter_sensor_health(NULL, 0, &sensor), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_filter_sensor_health(r.filter, 0, NULL), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_filter_sensor_health(r.filter, -1, &sensor), CAIRN_ERROR_NOT_FOUND);
-  assert_status(cairn_filter_sensor_health(r.filter, SENSORS, &sensor), CAIRN_ERROR_NOT_FOUND);
+  assert_status(cairn_filter_health(NULL, &health, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_filter_health(r.filter, NULL, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_filter_sensor_health(NULL, 0, &sensor, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_filter_sensor_health(r.filter, 0, NULL, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_filter_sensor_health(r.filter, -1, &sensor, NULL), CAIRN_ERROR_NOT_FOUND);
+  assert_status(cairn_filter_sensor_health(r.filter, SENSORS, &sensor, NULL), CAIRN_ERROR_NOT_FOUND);
   health.struct_size = 4;
-  assert_status(cairn_filter_health(r.filter, &health), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_filter_health(r.filter, &health, NULL), CAIRN_ERROR_ARGUMENT);
   rig_close(&r);
   cairn_filter_options wrong = test_options();
   cairn_filter* filter = NULL;
   wrong.noise_learning = 2;
-  assert_status(cairn_filter_create(&wrong, &filter), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_filter_create(&wrong, &filter, NULL), CAIRN_ERROR_ARGUMENT);
   assert_non_null(strstr(cairn_last_message(), "noise_learning"));
   assert_null(filter);
 }
@@ -170,7 +170,7 @@ static void an_older_struct_is_filled_as_far_as_it_goes(void** state) {
   rig_open(&r, &options);
   memset(&health, 0x55, sizeof health);
   health.struct_size = (uint32_t)offsetof(cairn_health, updates);
-  assert_ok(cairn_filter_health(r.filter, &health));
+  assert_ok(cairn_filter_health(r.filter, &health, NULL));
   assert_int_equal(health.verdict, CAIRN_VERDICT_GOOD);
   assert_true(health.updates == UINT64_C(0x5555555555555555));
   rig_close(&r);

@@ -11,14 +11,14 @@ typedef struct scene {
 static scene open_scene(void (*change)(cairn_filter_options*)) {
   scene s = {NULL, -1};
   cairn_filter_options options;
-  assert_ok(cairn_filter_options_init(&options, sizeof options));
+  assert_ok(cairn_filter_options_init(&options, sizeof options, NULL));
   options.vehicle = CAIRN_VEHICLE_PLANAR;
   options.max_landmarks = options.max_observations = 8;
   if (change != NULL) change(&options);
-  assert_ok(cairn_filter_create(&options, &s.filter));
+  assert_ok(cairn_filter_create(&options, &s.filter, NULL));
   cairn_cartesian point;
-  assert_ok(cairn_cartesian_init(&point, sizeof point));
-  assert_ok(cairn_filter_add_cartesian(s.filter, &point, &s.sensor));
+  assert_ok(cairn_cartesian_init(&point, sizeof point, NULL));
+  assert_ok(cairn_filter_add_cartesian(s.filter, &point, &s.sensor, NULL));
   return s;
 }
 
@@ -29,18 +29,18 @@ static void look(scene* s, const uint64_t* ids, const double (*points)[2], size_
     o[i].id = ids[i];
     o[i].z[0] = points[i][0], o[i].z[1] = points[i][1];
   }
-  assert_ok(cairn_filter_update(s->filter, s->sensor, o, count, matches));
+  assert_ok(cairn_filter_update(s->filter, s->sensor, o, count, matches, NULL));
 }
 
 static size_t map_size(const scene* s) {
   size_t size = 0;
-  assert_ok(cairn_map_size(cairn_filter_map(s->filter), &size));
+  assert_ok(cairn_map_size(cairn_filter_map(s->filter), &size, NULL));
   return size;
 }
 
 static cairn_landmark landmark(const scene* s, uint64_t id) {
   cairn_landmark out;
-  assert_ok(cairn_map_landmark(cairn_filter_map(s->filter), id, &out));
+  assert_ok(cairn_map_landmark(cairn_filter_map(s->filter), id, &out, NULL));
   return out;
 }
 
@@ -57,11 +57,11 @@ static void a_deferred_landmark_counts_after_enough_sightings(void** state) {
   scene s = open_scene(defer_three), plain = open_scene(NULL);
   cairn_match matches[4];
   look(&s, names, places, 2, matches);
-  assert_int_equal(matches[0].result, CAIRN_NEW);
+  assert_int_equal(matches[0].result, CAIRN_RESULT_NEW);
   assert_int_equal(map_size(&s), 0);
   assert_int_equal(last_update(s.filter).deferred, 2);
   look(&s, names, places, 2, matches);
-  assert_int_equal(matches[0].result, CAIRN_MATCHED);
+  assert_int_equal(matches[0].result, CAIRN_RESULT_MATCHED);
   assert_int_equal(map_size(&s), 0);
   look(&s, names, places, 1, matches); /* only the first landmark: it counts now */
   assert_int_equal(map_size(&s), 1);
@@ -71,7 +71,7 @@ static void a_deferred_landmark_counts_after_enough_sightings(void** state) {
   assert_int_equal(map_size(&s), 2);
   for (int i = 0; i < 2; ++i) assert_near(landmark(&s, names[i]).position[1], places[i][1], 1e-9);
   cairn_landmark missing;
-  assert_status(cairn_map_landmark(cairn_filter_map(s.filter), names[2], &missing), CAIRN_ERROR_NOT_FOUND);
+  assert_status(cairn_map_landmark(cairn_filter_map(s.filter), names[2], &missing, NULL), CAIRN_ERROR_NOT_FOUND);
   /* The estimate uses all their observations: deferral changes which landmarks are listed, not the estimate. */
   look(&plain, names, places, 2, NULL);
   look(&plain, names, places, 2, NULL);
@@ -82,7 +82,7 @@ static void a_deferred_landmark_counts_after_enough_sightings(void** state) {
     for (int k = 0; k < 9; ++k)
       assert_near(landmark(&s, names[i]).covariance[k], landmark(&plain, names[i]).covariance[k], 1e-15);
   /* A landmark that counts is removed, and the other landmarks keep their ids. */
-  assert_ok(cairn_filter_remove_landmark(s.filter, names[0]));
+  assert_ok(cairn_filter_remove_landmark(s.filter, names[0], NULL));
   assert_int_equal(map_size(&s), 1);
   assert_near(landmark(&s, names[1]).position[1], places[1][1], 1e-9);
   look(&s, names + 2, places + 2, 2, matches);
@@ -107,7 +107,7 @@ static void a_deferred_landmark_that_is_not_seen_again_is_removed(void** state) 
   assert_int_equal(removed, 1);
   assert_int_equal(map_size(&s), 1);
   look(&s, names, places, 1, &match);
-  assert_int_equal(match.result, CAIRN_NEW); /* removed */
+  assert_int_equal(match.result, CAIRN_RESULT_NEW); /* removed */
   cairn_filter_destroy(s.filter);
 }
 
@@ -125,7 +125,7 @@ static void a_landmark_in_view_that_is_missed_is_removed(void** state) {
   for (int k = 0; k < 3; ++k)
     look(&s, names, places, 1, NULL); /* no field of view is set: no landmark counts as missed */
   assert_int_equal(map_size(&s), 4);
-  assert_ok(cairn_filter_set_view(s.filter, s.sensor, lower, upper));
+  assert_ok(cairn_filter_set_view(s.filter, s.sensor, lower, upper, NULL));
   look(&s, names, places, 1, NULL);
   look(&s, names + 1, places + 1, 1, NULL);           /* number 12 was missed once, and is seen now */
   assert_int_equal(last_update(s.filter).removed, 1); /* number 13, missed twice; number 14 is out of view */
@@ -141,11 +141,11 @@ static void a_landmark_in_view_that_is_missed_is_removed(void** state) {
     assert_int_equal(matches[0].reason, CAIRN_REASON_GATE);
   }
   assert_int_equal(map_size(&s), 2);
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "lower", cairn_filter_set_view(s.filter, s.sensor, upper, lower));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "lower", cairn_filter_set_view(s.filter, s.sensor, NULL, upper));
-  assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_set_view(s.filter, 7, lower, upper));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "lower", cairn_filter_set_view(s.filter, s.sensor, upper, lower, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "lower", cairn_filter_set_view(s.filter, s.sensor, NULL, upper, NULL));
+  assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_set_view(s.filter, 7, lower, upper, NULL));
   const double wide[3] = {all[0], all[1], 0}, open[3] = {INFINITY, INFINITY, 0};
-  assert_ok(cairn_filter_set_view(s.filter, s.sensor, wide, open));
+  assert_ok(cairn_filter_set_view(s.filter, s.sensor, wide, open, NULL));
   look(&s, names + 1, places + 1, 1, NULL);
   look(&s, names + 1, places + 1, 1, NULL);
   assert_int_equal(map_size(&s), 1); /* number 14 was in view now */
@@ -160,8 +160,8 @@ static void merging_equals_observing_a_difference_of_zero(void** state) {
   cairn_match match;
   look(&s, names, twice, 2, NULL);
   look(&s, names, twice, 1, NULL); /* the first is observed twice as often: variances 0.005 and 0.01 */
-  assert_ok(cairn_filter_merge_landmarks(s.filter, names[0], names[1], &match));
-  assert_int_equal(match.result, CAIRN_MATCHED);
+  assert_ok(cairn_filter_merge_landmarks(s.filter, names[0], names[1], &match, NULL));
+  assert_int_equal(match.result, CAIRN_RESULT_MATCHED);
   assert_near(match.distance, (0.1 * 0.1 + 0.06 * 0.06) / 0.015, 1e-3);
   assert_int_equal(map_size(&s), 1);
   const cairn_landmark one = landmark(&s, names[0]);
@@ -172,14 +172,14 @@ static void merging_equals_observing_a_difference_of_zero(void** state) {
   /* A merge that contradicts the estimates is refused, and nothing changes. */
   look(&s, names + 1, places + 1, 1, NULL);
   const cairn_landmark before = landmark(&s, names[0]);
-  assert_ok(cairn_filter_merge_landmarks(s.filter, names[0], names[1], &match));
-  assert_int_equal(match.result, CAIRN_REJECTED);
+  assert_ok(cairn_filter_merge_landmarks(s.filter, names[0], names[1], &match, NULL));
+  assert_int_equal(match.result, CAIRN_RESULT_REJECTED);
   assert_int_equal(match.reason, CAIRN_REASON_GATE);
   const cairn_landmark after = landmark(&s, names[0]);
   assert_memory_equal(&before, &after, sizeof before);
   assert_int_equal(map_size(&s), 2);
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "itself", cairn_filter_merge_landmarks(s.filter, 11, 11, NULL));
-  assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "99", cairn_filter_merge_landmarks(s.filter, 11, 99, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "itself", cairn_filter_merge_landmarks(s.filter, 11, 11, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "99", cairn_filter_merge_landmarks(s.filter, 11, 99, NULL, NULL));
   cairn_filter_destroy(s.filter);
 }
 
@@ -189,7 +189,7 @@ static void a_split_landmark_becomes_two(void** state) {
   double covariance[9];
   diagonal(covariance, 3, 0.25);
   look(&s, names, places, 2, NULL);
-  assert_ok(cairn_filter_split_landmark(s.filter, names[0], 77, covariance));
+  assert_ok(cairn_filter_split_landmark(s.filter, names[0], 77, covariance, NULL));
   assert_int_equal(map_size(&s), 3);
   const cairn_landmark old = landmark(&s, names[0]), fresh = landmark(&s, 77);
   assert_near(fresh.position[0], old.position[0], 0);
@@ -197,22 +197,23 @@ static void a_split_landmark_becomes_two(void** state) {
   const uint64_t both[2] = {77, 11};
   double joint[36];
   size_t needed = 0;
-  assert_ok(cairn_map_joint_covariance(cairn_filter_map(s.filter), both, 2, joint, 36, &needed));
+  assert_ok(cairn_map_joint_covariance(cairn_filter_map(s.filter), both, 2, joint, 36, &needed, NULL));
   assert_near(joint[3], old.covariance[0], 1e-15); /* the new landmark shares the whole error of the old one */
   const double apart[2][2] = {{2.4, 0}, {2, 0}};
   cairn_match matches[2];
   for (int k = 0; k < 30; ++k) look(&s, both, apart, 2, matches);
-  assert_int_equal(matches[0].result, CAIRN_MATCHED);
+  assert_int_equal(matches[0].result, CAIRN_RESULT_MATCHED);
   assert_near(landmark(&s, 77).position[0] - landmark(&s, 11).position[0], 0.4, 0.01);
   covariance[0] = -1;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance", cairn_filter_split_landmark(s.filter, 11, 78, covariance));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance",
+                 cairn_filter_split_landmark(s.filter, 11, 78, covariance, NULL));
   diagonal(covariance, 3, 0.25);
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "77", cairn_filter_split_landmark(s.filter, 11, 77, covariance));
-  assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "99", cairn_filter_split_landmark(s.filter, 99, 78, covariance));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "77", cairn_filter_split_landmark(s.filter, 11, 77, covariance, NULL));
+  assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "99", cairn_filter_split_landmark(s.filter, 99, 78, covariance, NULL));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "fresh",
-                 cairn_filter_split_landmark(s.filter, 11, CAIRN_ID_NONE, covariance));
-  for (uint64_t id = 80; id < 85; ++id) assert_ok(cairn_filter_split_landmark(s.filter, 11, id, covariance));
-  assert_refused(NULL, CAIRN_ERROR_CAPACITY, "fresh", cairn_filter_split_landmark(s.filter, 11, 90, covariance));
+                 cairn_filter_split_landmark(s.filter, 11, CAIRN_ID_NONE, covariance, NULL));
+  for (uint64_t id = 80; id < 85; ++id) assert_ok(cairn_filter_split_landmark(s.filter, 11, id, covariance, NULL));
+  assert_refused(NULL, CAIRN_ERROR_CAPACITY, "fresh", cairn_filter_split_landmark(s.filter, 11, 90, covariance, NULL));
   cairn_filter_destroy(s.filter);
 }
 
@@ -238,25 +239,25 @@ static void likelihood_prefers_the_better_known_landmark(void** state) {
     o[1].z[0] = 6, o[1].z[1] = 5;
     o[1].covariance[0] = o[1].covariance[3] = 0.04;
     cairn_match match[2];
-    assert_ok(cairn_filter_update(s.filter, s.sensor, o, 2, match));
-    assert_int_equal(match[1].result, CAIRN_NEW);
+    assert_ok(cairn_filter_update(s.filter, s.sensor, o, 2, match, NULL));
+    assert_int_equal(match[1].result, CAIRN_RESULT_NEW);
     cairn_observation between;
     memset(&between, 0, sizeof between);
     between.z[0] = 4.6, between.z[1] = 5;
     between.covariance[0] = between.covariance[3] = 0.25;
     /* d^2: 4.6^2 / 1.25 = 16.9 is beyond the gate. At 2.9: 6.7 to number 0, and 33 to number 1. */
     between.z[0] = 2.9;
-    assert_ok(cairn_filter_update(s.filter, s.sensor, &between, 1, match));
+    assert_ok(cairn_filter_update(s.filter, s.sensor, &between, 1, match, NULL));
     assert_int_equal(match[0].landmark, 0);
     cairn_filter_destroy(s.filter);
 
     s = open_scene(likely ? by_likelihood : by_distance);
     o[1].z[0] = 3;
-    assert_ok(cairn_filter_update(s.filter, s.sensor, o, 2, match));
-    assert_int_equal(match[1].result, CAIRN_NEW);
+    assert_ok(cairn_filter_update(s.filter, s.sensor, o, 2, match, NULL));
+    assert_int_equal(match[1].result, CAIRN_RESULT_NEW);
     /* At 1.95: d^2 = 3.04 to number 0, 3.80 to number 1; with log det S: 3.49 and 1.33. */
     between.z[0] = 1.95;
-    assert_ok(cairn_filter_update(s.filter, s.sensor, &between, 1, match));
+    assert_ok(cairn_filter_update(s.filter, s.sensor, &between, 1, match, NULL));
     assert_int_equal(match[0].landmark, likely ? 1 : 0);
     cairn_filter_destroy(s.filter);
   }
@@ -277,9 +278,9 @@ static void options_are_checked(void** state) {
   for (size_t i = 0; i < LENGTH(bad); ++i) {
     cairn_filter_options options;
     cairn_filter* filter = NULL;
-    assert_ok(cairn_filter_options_init(&options, sizeof options));
+    assert_ok(cairn_filter_options_init(&options, sizeof options, NULL));
     memcpy((char*)&options + bad[i].at, &bad[i].value, sizeof bad[i].value);
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, bad[i].name, cairn_filter_create(&options, &filter));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, bad[i].name, cairn_filter_create(&options, &filter, NULL));
     assert_null(filter);
   }
 }
@@ -296,12 +297,12 @@ static void a_landmark_that_was_placed_wrongly_is_placed_again(void** state) {
   look(&s, names, (const double(*)[2])wrong, 4, NULL);
   assert_int_equal(map_size(&s), 4);
   look(&s, names, places, 4, matches);
-  assert_int_equal(matches[3].result, CAIRN_REJECTED);
+  assert_int_equal(matches[3].result, CAIRN_RESULT_REJECTED);
   assert_int_equal(matches[3].reason, CAIRN_REASON_GATE);
   assert_int_equal(map_size(&s), 3); /* nobody knows which is right: it does not count */
   assert_int_equal(last_update(s.filter).deferred, 1);
   look(&s, names, places, 4, matches);
-  assert_int_equal(matches[3].result, CAIRN_NEW);
+  assert_int_equal(matches[3].result, CAIRN_RESULT_NEW);
   assert_int_equal(matches[3].reason, CAIRN_REASON_NONE);
   assert_int_equal(matches[3].landmark, names[3]);
   assert_true(matches[3].distance > matches[3].threshold && matches[3].threshold > 0);
@@ -314,7 +315,7 @@ static void a_landmark_that_was_placed_wrongly_is_placed_again(void** state) {
   assert_int_equal(map_size(&s), 4);
   for (int i = 0; i < 4; ++i) assert_near(landmark(&s, names[i]).position[0], places[i][0], 1e-9);
   look(&s, names, places, 4, matches);
-  assert_int_equal(matches[3].result, CAIRN_MATCHED);
+  assert_int_equal(matches[3].result, CAIRN_RESULT_MATCHED);
   assert_int_equal(last_update(s.filter).placed_again, 0);
   cairn_filter_destroy(s.filter);
 }

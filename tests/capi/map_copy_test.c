@@ -23,12 +23,12 @@ static void a_copy_is_equal_and_does_not_change(void** state) {
     const cairn_map* map = cairn_filter_map(r.filter);
     map_take(&original, map);
     assert_true(size_of(map) > 10);
-    assert_ok(cairn_map_copy(map, &copy));
+    assert_ok(cairn_map_copy(map, &copy, NULL));
     map_take(&copied, copy);
     expect_equal(&original, &copied, size_of(map));
     map_take(&original, copy);
-    assert_ok(cairn_map_kind(map, &of_original));
-    assert_ok(cairn_map_kind(copy, &of_copy));
+    assert_ok(cairn_map_kind(map, &of_original, NULL));
+    assert_ok(cairn_map_kind(copy, &of_copy, NULL));
     assert_int_equal(of_original, kind == SPARSE ? CAIRN_MAP_SPARSE : CAIRN_MAP_DENSE);
     assert_int_equal(of_copy, of_original);
 
@@ -37,11 +37,11 @@ static void a_copy_is_equal_and_does_not_change(void** state) {
     assert_false(snapshot_same(&original, &copied)); /* the filter changed */
     map_take(&copied, copy);
     assert_true(snapshot_same(&original, &copied)); /* the copy did not change */
-    assert_ok(cairn_filter_remove_landmark(r.filter, 105));
+    assert_ok(cairn_filter_remove_landmark(r.filter, 105, NULL));
     rover_close(&r);
     map_take(&copied, copy);
     assert_true(snapshot_same(&original, &copied));
-    assert_ok(cairn_map_copy(copy, &second));
+    assert_ok(cairn_map_copy(copy, &second, NULL));
     cairn_map_destroy(copy);
     map_take(&copied, second);
     assert_true(snapshot_same(&original, &copied));
@@ -65,24 +65,24 @@ static void all_queries_work_on_copies(void** state) {
       cairn_landmark a[FIELD], b[FIELD];
       size_t in_a = 0, in_b = 0;
       memset(a, 0, sizeof a), memset(b, 0, sizeof b);
-      assert_ok(cairn_map_within(map, p, 15, a, FIELD, &in_a));
-      assert_ok(cairn_map_within(copy, p, 15, b, FIELD, &in_b));
+      assert_ok(cairn_map_within(map, p, 15, a, FIELD, &in_a, NULL));
+      assert_ok(cairn_map_within(copy, p, 15, b, FIELD, &in_b, NULL));
       assert_true(in_a == in_b && memcmp(a, b, sizeof a) == 0);
-      assert_ok(cairn_map_nearest(map, p, 7, a, FIELD, &in_a));
-      assert_ok(cairn_map_nearest(copy, p, 7, b, FIELD, &in_b));
+      assert_ok(cairn_map_nearest(map, p, 7, a, FIELD, &in_a, NULL));
+      assert_ok(cairn_map_nearest(copy, p, 7, b, FIELD, &in_b, NULL));
       assert_true(in_a == 7 && in_b == 7 && memcmp(a, b, sizeof a) == 0);
-      assert_ok(cairn_map_in_box(map, p, q, a, FIELD, &in_a));
-      assert_ok(cairn_map_in_box(copy, p, q, b, FIELD, &in_b));
+      assert_ok(cairn_map_in_box(map, p, q, a, FIELD, &in_a, NULL));
+      assert_ok(cairn_map_in_box(copy, p, q, b, FIELD, &in_b, NULL));
       assert_true(in_a == in_b && memcmp(a, b, sizeof a) == 0);
-      assert_ok(cairn_map_landmark(copy, b[0].id == 0 ? 101 : b[0].id, &a[0]));
+      assert_ok(cairn_map_landmark(copy, b[0].id == 0 ? 101 : b[0].id, &a[0], NULL));
     }
     cairn_landmark none;
     uint64_t unknown = 4711;
     double matrix[9];
     size_t needed;
-    assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "4711", cairn_map_landmark(copy, unknown, &none));
+    assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "4711", cairn_map_landmark(copy, unknown, &none, NULL));
     assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "4711",
-                   cairn_map_joint_covariance(copy, &unknown, 1, matrix, 9, &needed));
+                   cairn_map_joint_covariance(copy, &unknown, 1, matrix, 9, &needed, NULL));
     cairn_map_destroy(copy);
     rover_close(&r);
   }
@@ -95,13 +95,13 @@ static void the_open_submap_and_an_empty_map_are_copied_too(void** state) {
   int32_t kind = -1;
   snapshot a = {0, NULL}, b = {0, NULL};
   rover_open(&r, SPARSE, 8, pose_at(0, 0, 0, 0, 0, 0), 100);
-  assert_ok(cairn_map_copy(cairn_filter_map(r.filter), &copy));
+  assert_ok(cairn_map_copy(cairn_filter_map(r.filter), &copy, NULL));
   assert_int_equal(size_of(copy), 0);
   cairn_map_destroy(copy);
   rover_drive(&r, 1);
   assert_true(size_of(cairn_filter_local_map(r.filter)) > 2);
-  assert_ok(cairn_map_copy(cairn_filter_local_map(r.filter), &copy));
-  assert_ok(cairn_map_kind(copy, &kind));
+  assert_ok(cairn_map_copy(cairn_filter_local_map(r.filter), &copy, NULL));
+  assert_ok(cairn_map_kind(copy, &kind, NULL));
   assert_int_equal(kind, CAIRN_MAP_DENSE);
   map_take(&a, cairn_filter_local_map(r.filter));
   map_take(&b, copy);
@@ -135,12 +135,12 @@ static void null_is_refused(void** state) {
   size_t needed;
   rover_open(&r, SINGLE, 8, pose_at(0, 0, 0, 0, 0, 0), 100);
   const cairn_map* map = cairn_filter_map(r.filter);
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_copy(NULL, &copy));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "copy", cairn_map_copy(map, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_kind(NULL, &kind));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "kind", cairn_map_kind(map, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_merged_ids(NULL, NULL, 0, &needed));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "needed", cairn_map_merged_ids(map, NULL, 0, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_copy(NULL, &copy, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "copy", cairn_map_copy(map, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_kind(NULL, &kind, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "kind", cairn_map_kind(map, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_merged_ids(NULL, NULL, 0, &needed, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "needed", cairn_map_merged_ids(map, NULL, 0, NULL, NULL));
   assert_null(copy);
   rover_close(&r);
 }

@@ -18,14 +18,14 @@ static void a_merge_without_memory_changes_nothing(void** state) {
       cairn_map *map = rover_map(&west), *other = rover_map(&east), *twin = rover_map(&west);
       snapshot before[2] = {{0, NULL}, {0, NULL}}, after = {0, NULL};
       cairn_merge_options options;
-      assert_ok(cairn_merge_options_init(&options, sizeof options));
+      assert_ok(cairn_merge_options_init(&options, sizeof options, NULL));
       options.association = by;
       map_take(&before[0], map), map_take(&before[1], other);
       /* A merge by geometry makes hundreds of thousands of requests. The test samples them, ever more sparsely. */
       size_t refusals = 0;
       for (size_t at = 1;; at += by == CAIRN_MERGE_BY_ID ? 1 + at / 40 : 1 + at / 4) {
         arm_to_fail(at, refusals % 2 == 0);
-        const cairn_status status = cairn_map_merge(map, other, &options, NULL);
+        const cairn_status status = cairn_map_merge(map, other, &options, NULL, NULL);
         const bool failed = counter.failed;
         counter.armed = false;
         if (!failed) {
@@ -40,7 +40,7 @@ static void a_merge_without_memory_changes_nothing(void** state) {
       }
       print_message("kind %d, association %d: refused %zu times\n", kind, (int)by, refusals);
       assert_true(refusals > 20);
-      assert_ok(cairn_map_merge(twin, other, &options, NULL)); /* the same merge without failures */
+      assert_ok(cairn_map_merge(twin, other, &options, NULL, NULL)); /* the same merge without failures */
       map_take(&before[0], twin);
       same(&after, map, &before[0], "merged", 0);
       for (int i = 0; i < 2; ++i) snapshot_free(&before[i]);
@@ -61,7 +61,7 @@ static void a_copy_without_memory_does_not_exist(void** state) {
     size_t refusals = 0;
     for (size_t at = 1; copy == NULL; ++at) {
       arm_to_fail(at, false);
-      const cairn_status status = cairn_map_copy(map, &copy);
+      const cairn_status status = cairn_map_copy(map, &copy, NULL);
       const bool failed = counter.failed;
       counter.armed = false;
       assert_int_equal(status, failed ? CAIRN_ERROR_MEMORY : CAIRN_OK);

@@ -12,7 +12,7 @@ static cairn_merge_report new_report(void) {
 
 static cairn_merge_options new_options(int32_t association) {
   cairn_merge_options options;
-  assert_ok(cairn_merge_options_init(&options, sizeof options));
+  assert_ok(cairn_merge_options_init(&options, sizeof options, NULL));
   assert_int_equal(options.association, CAIRN_MERGE_BY_ID);
   options.association = association;
   return options;
@@ -20,15 +20,15 @@ static cairn_merge_options new_options(int32_t association) {
 
 static cairn_pose between(const rover* a, const rover* b) {
   cairn_pose back, T;
-  assert_ok(cairn_pose_inverse(&a->start, &back));
-  assert_ok(cairn_pose_compose(&back, &b->start, &T));
+  assert_ok(cairn_pose_inverse(&a->start, &back, NULL));
+  assert_ok(cairn_pose_compose(&back, &b->start, &T, NULL));
   return T;
 }
 
 /* Squared error of the transform, normalised by its covariance: chi-square with 6 degrees of freedom. */
 static double transform_nees(const cairn_merge_report* report, const cairn_pose* truth) {
   double L[36], e[6], sum = 0;
-  assert_ok(cairn_pose_error(truth, &report->T_map_other, e));
+  assert_ok(cairn_pose_error(truth, &report->T_map_other, e, NULL));
   memcpy(L, report->covariance, sizeof L);
   for (int c = 0; c < 6; ++c) {
     for (int r = c; r < 6; ++r) {
@@ -45,8 +45,8 @@ static double transform_nees(const cairn_merge_report* report, const cairn_pose*
 static size_t count_common(const cairn_map* a, const cairn_map* b) {
   cairn_landmark all[FIELD], one;
   size_t n, common = 0;
-  assert_ok(cairn_map_landmarks(a, all, FIELD, &n));
-  for (size_t i = 0; i < n; ++i) common += cairn_map_landmark(b, all[i].id, &one) == CAIRN_OK;
+  assert_ok(cairn_map_landmarks(a, all, FIELD, &n, NULL));
+  for (size_t i = 0; i < n; ++i) common += cairn_map_landmark(b, all[i].id, &one, NULL) == CAIRN_OK;
   return common;
 }
 
@@ -64,11 +64,11 @@ static void merged_maps_are_true_and_consistent(void** state) {
       cairn_merge_report report = new_report();
       cairn_landmark was[FIELD], is;
       size_t n;
-      assert_ok(cairn_map_landmarks(map, was, FIELD, &n));
+      assert_ok(cairn_map_landmarks(map, was, FIELD, &n, NULL));
       const size_t common = count_common(map, other), in_other = size_of(other);
       map_take(&before, other);
       (void)map_nees(other, &east.start, 100, &far_before);
-      assert_ok(cairn_map_merge(map, other, NULL, &report));
+      assert_ok(cairn_map_merge(map, other, NULL, &report, NULL));
       map_take(&after, other);
       assert_true(snapshot_same(&before, &after));
       assert_true(common >= 8 && in_other - common >= 8 && n - common >= 8);
@@ -79,8 +79,8 @@ static void merged_maps_are_true_and_consistent(void** state) {
       assert_true(report.distance <= report.threshold && report.broken_id == CAIRN_ID_NONE);
       for (size_t i = 0; i < n; ++i) {
         cairn_landmark there;
-        assert_ok(cairn_map_landmark(map, was[i].id, &is));
-        const bool paired = cairn_map_landmark(other, was[i].id, &there) == CAIRN_OK;
+        assert_ok(cairn_map_landmark(map, was[i].id, &is, NULL));
+        const bool paired = cairn_map_landmark(other, was[i].id, &there, NULL) == CAIRN_OK;
         assert_int_equal(is.observations, was[i].observations + (paired ? there.observations : 0));
         /* A merge never increases the covariance. */
         for (int k = 0; k < 3; ++k) assert_true(is.covariance[4 * k] <= was[i].covariance[4 * k] * 1.01);
@@ -112,16 +112,16 @@ static void dense_and_sparse_agree(void** state) {
     rover_west(&west, kind, 77), rover_east(&east, kind, 77, 100);
     cairn_map* other = rover_map(&east);
     merged[kind] = rover_map(&west);
-    assert_ok(cairn_map_merge(merged[kind], other, NULL, NULL));
+    assert_ok(cairn_map_merge(merged[kind], other, NULL, NULL, NULL));
     cairn_map_destroy(other);
     rover_close(&west), rover_close(&east);
   }
   cairn_landmark a[FIELD], b;
   size_t n;
-  assert_ok(cairn_map_landmarks(merged[JOINED], a, FIELD, &n));
+  assert_ok(cairn_map_landmarks(merged[JOINED], a, FIELD, &n, NULL));
   assert_int_equal(n, size_of(merged[SPARSE]));
   for (size_t i = 0; i < n; ++i) {
-    assert_ok(cairn_map_landmark(merged[SPARSE], a[i].id, &b));
+    assert_ok(cairn_map_landmark(merged[SPARSE], a[i].id, &b, NULL));
     for (int k = 0; k < 3; ++k) {
       const double sigma = sqrt(a[i].covariance[4 * k]);
       assert_near(b.position[k], a[i].position[k], 0.3 * sigma);
@@ -139,22 +139,22 @@ static void merged_maps_merge_on(void** state) {
     rover_west(&west, kind, 5), rover_east(&east, kind, 5, 100), rover_middle(&middle, kind, 5);
     cairn_map *a = rover_map(&west), *b = rover_map(&east), *c = rover_map(&middle), *copy = NULL;
     double far = 0;
-    assert_ok(
-        cairn_map_merge(b, cairn_filter_map(middle.filter), NULL, NULL)); /* the map of a filter may be the source */
-    assert_ok(cairn_map_copy(b, &copy));
-    assert_ok(cairn_map_merge(a, copy, NULL, NULL));
+    assert_ok(cairn_map_merge(b, cairn_filter_map(middle.filter), NULL, NULL,
+                              NULL)); /* the map of a filter may be the source */
+    assert_ok(cairn_map_copy(b, &copy, NULL));
+    assert_ok(cairn_map_merge(a, copy, NULL, NULL, NULL));
     cairn_map_destroy(copy), cairn_map_destroy(b);
     const double nees = map_nees(a, &west.start, 100, &far) / (3.0 * (double)size_of(a));
     assert_true(nees > 0.6 && nees < 1.4);
     assert_true(far < 1.0);
     /* Information that both maps share must count only once. */
-    assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(a, c, NULL, NULL));
-    assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(c, a, NULL, NULL));
+    assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(a, c, NULL, NULL, NULL));
+    assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(c, a, NULL, NULL, NULL));
 
     generator random = {3};
     cairn_landmark all[FIELD], got[FIELD];
     size_t n, needed;
-    assert_ok(cairn_map_landmarks(a, all, FIELD, &n));
+    assert_ok(cairn_map_landmarks(a, all, FIELD, &n, NULL));
     for (int i = 0; i < 30; ++i) {
       const double p[3] = {random_uniform(&random, 0, 95), random_uniform(&random, -12, 12), 0};
       const double upper[3] = {p[0] + 20, p[1] + 10, 5}, lower[3] = {p[0], p[1], -5};
@@ -164,11 +164,11 @@ static void merged_maps_merge_on(void** state) {
         inside += hypot(hypot(x[0] - p[0], x[1] - p[1]), x[2] - p[2]) <= 14;
         boxed += x[0] >= lower[0] && x[0] <= upper[0] && x[1] >= lower[1] && x[1] <= upper[1] && fabs(x[2]) <= 5;
       }
-      assert_ok(cairn_map_within(a, p, 14, got, FIELD, &needed));
+      assert_ok(cairn_map_within(a, p, 14, got, FIELD, &needed, NULL));
       assert_int_equal(needed, inside);
-      assert_ok(cairn_map_nearest(a, p, 5, got + 10, 5, &needed));
+      assert_ok(cairn_map_nearest(a, p, 5, got + 10, 5, &needed, NULL));
       if (inside >= 5) assert_memory_equal(got, got + 10, 5 * sizeof got[0]);
-      assert_ok(cairn_map_in_box(a, lower, upper, got, FIELD, &needed));
+      assert_ok(cairn_map_in_box(a, lower, upper, got, FIELD, &needed, NULL));
       assert_int_equal(needed, boxed);
     }
     cairn_map_destroy(a), cairn_map_destroy(c);
@@ -187,11 +187,11 @@ static void maps_merge_by_geometry(void** state) {
     cairn_merge_report report = new_report();
     cairn_landmark was[FIELD], of_other[FIELD], one;
     size_t n, in_other, needed, expected = 0;
-    assert_ok(cairn_map_landmarks(map, was, FIELD, &n));
-    assert_ok(cairn_map_landmarks(other, of_other, FIELD, &in_other));
-    assert_ok(cairn_map_merge(map, other, &options, &report));
+    assert_ok(cairn_map_landmarks(map, was, FIELD, &n, NULL));
+    assert_ok(cairn_map_landmarks(other, of_other, FIELD, &in_other, NULL));
+    assert_ok(cairn_map_merge(map, other, &options, &report, NULL));
     cairn_merged_id merged[FIELD];
-    assert_ok(cairn_map_merged_ids(map, merged, FIELD, &needed));
+    assert_ok(cairn_map_merged_ids(map, merged, FIELD, &needed, NULL));
     assert_int_equal(needed, in_other);
     uint64_t largest = was[n - 1].id > of_other[in_other - 1].id ? was[n - 1].id : of_other[in_other - 1].id;
     size_t renamed = 0, common = 0;
@@ -209,15 +209,15 @@ static void maps_merge_by_geometry(void** state) {
       double point[3], truth[3];
       field_landmark((unsigned)(m->other_id - 90), point);
       to_body(&west.start, point, truth);
-      assert_ok(cairn_map_landmark(map, m->id, &one));
+      assert_ok(cairn_map_landmark(map, m->id, &one, NULL));
       for (int k = 0; k < 3; ++k) assert_near(one.position[k], truth[k], 1.0);
     }
-    for (size_t i = 0; i < n; ++i) assert_ok(cairn_map_landmark(map, was[i].id, &one));
+    for (size_t i = 0; i < n; ++i) assert_ok(cairn_map_landmark(map, was[i].id, &one, NULL));
     assert_int_equal(report.common, common);
     assert_true(common + 3 >= expected && common <= expected);
     assert_int_equal(size_of(map), n + in_other - common);
-    assert_ok(cairn_map_merged_ids(map, NULL, 0, &needed));
-    assert_status(cairn_map_merged_ids(map, merged, in_other - 1, &needed), CAIRN_ERROR_BUFFER);
+    assert_ok(cairn_map_merged_ids(map, NULL, 0, &needed, NULL));
+    assert_status(cairn_map_merged_ids(map, merged, in_other - 1, &needed, NULL), CAIRN_ERROR_BUFFER);
     cairn_map_destroy(map), cairn_map_destroy(other);
     rover_close(&west), rover_close(&east);
   }
@@ -243,17 +243,17 @@ static void a_known_transform_helps(void** state) {
       options.has_transform = known < 3;
       options.T_map_other = between(&west, &east);
       for (int i = 0; i < 6; ++i) options.covariance[7 * i] = i < 3 ? metres * metres : radians * radians;
-      assert_ok(cairn_map_merge(map, other, &options, &report));
+      assert_ok(cairn_map_merge(map, other, &options, &report, NULL));
       assert_int_equal(report.rows, 3 * report.common - (known < 3 ? 0 : 6));
       double far = 0;
       const double nees = map_nees(map, &west.start, 100, &far) / (3.0 * (double)size_of(map));
       assert_true(nees > 0.5 && nees < 1.5);
       cairn_landmark last[FIELD];
       size_t n;
-      assert_ok(cairn_map_landmarks(map, last, FIELD, &n));
+      assert_ok(cairn_map_landmarks(map, last, FIELD, &n, NULL));
       sigmas[known] = sqrt(last[n - 1].covariance[0] + last[n - 1].covariance[4] + last[n - 1].covariance[8]);
       double error[6];
-      assert_ok(cairn_pose_error(&options.T_map_other, &report.T_map_other, error));
+      assert_ok(cairn_pose_error(&options.T_map_other, &report.T_map_other, error, NULL));
       if (known == 0)
         for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 1e-12);
       cairn_map_destroy(map), cairn_map_destroy(other);
@@ -275,12 +275,12 @@ static void maps_tied_to_a_frame_stay_in_it(void** state) {
     cairn_merge_options options = new_options(CAIRN_MERGE_BY_ID);
     options.has_transform = 1;
     options.T_map_other = between(&west, &east);
-    assert_ok(cairn_map_merge(a, b, &options, NULL));
+    assert_ok(cairn_map_merge(a, b, &options, NULL, NULL));
     if (kind == SPARSE)
-      assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(c, a, NULL, NULL));
+      assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(c, a, NULL, NULL, NULL));
     else
-      assert_ok(cairn_map_merge(c, a, NULL, NULL));
-    if (kind == SPARSE) assert_ok(cairn_map_merge(a, c, NULL, NULL));
+      assert_ok(cairn_map_merge(c, a, NULL, NULL, NULL));
+    if (kind == SPARSE) assert_ok(cairn_map_merge(a, c, NULL, NULL, NULL));
     const double nees = kind == SPARSE ? map_nees(a, &west.start, 100, NULL) : map_nees(c, &middle.start, 100, NULL);
     assert_true(nees / (3.0 * (double)size_of(a)) < 1.4);
     cairn_map_destroy(a), cairn_map_destroy(b), cairn_map_destroy(c);
@@ -326,40 +326,40 @@ static void refusals_change_nothing(void** state) {
     cairn_merge_report report = new_report();
     cairn_map *copy = NULL, *empty = NULL;
     rover empty_rover, foreign;
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_merge(NULL, d.other, NULL, NULL));
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "other", cairn_map_merge(d.map, NULL, NULL, NULL));
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "other", cairn_map_merge(d.map, d.map, NULL, NULL));
-    assert_ok(cairn_map_copy(d.map, &copy));
-    assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(d.map, copy, NULL, NULL));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "map", cairn_map_merge(NULL, d.other, NULL, NULL, NULL));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "other", cairn_map_merge(d.map, NULL, NULL, NULL, NULL));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "other", cairn_map_merge(d.map, d.map, NULL, NULL, NULL));
+    assert_ok(cairn_map_copy(d.map, &copy, NULL));
+    assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(d.map, copy, NULL, NULL, NULL));
     assert_refused(NULL, CAIRN_ERROR_STATE, "other",
-                   cairn_map_merge(d.map, cairn_filter_map(d.west.filter), NULL, NULL));
+                   cairn_map_merge(d.map, cairn_filter_map(d.west.filter), NULL, NULL, NULL));
     assert_refused(NULL, CAIRN_ERROR_STATE, "cairn_map_copy",
-                   cairn_map_merge((cairn_map*)(uintptr_t)cairn_filter_map(d.west.filter), d.other, NULL, NULL));
+                   cairn_map_merge((cairn_map*)(uintptr_t)cairn_filter_map(d.west.filter), d.other, NULL, NULL, NULL));
     cairn_map_destroy(copy);
     /* a map of the other kind */
     rover_east(&foreign, kind == SPARSE ? JOINED : SPARSE, 1, 100);
     copy = rover_map(&foreign);
-    assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(d.map, copy, NULL, NULL));
+    assert_refused(NULL, CAIRN_ERROR_STATE, "other", cairn_map_merge(d.map, copy, NULL, NULL, NULL));
     cairn_map_destroy(copy), rover_close(&foreign);
     /* nothing in common; an empty map */
     rover_east(&foreign, kind, 1, 500);
     copy = rover_map(&foreign);
-    assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "other", cairn_map_merge(d.map, copy, NULL, &report));
+    assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "other", cairn_map_merge(d.map, copy, NULL, &report, NULL));
     assert_true(report.common == 0 && report.broken_id == CAIRN_ID_NONE);
     cairn_map_destroy(copy), rover_close(&foreign);
     rover_open(&empty_rover, kind, 1, pose_at(0, 0, 0, 0, 0, 0), 1);
-    assert_ok(cairn_map_copy(cairn_filter_map(empty_rover.filter), &empty));
+    assert_ok(cairn_map_copy(cairn_filter_map(empty_rover.filter), &empty, NULL));
     for (int32_t by = CAIRN_MERGE_BY_ID; by <= CAIRN_MERGE_BY_GEOMETRY; ++by) {
       options.association = by;
-      assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "other", cairn_map_merge(d.map, empty, &options, NULL));
-      assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "map", cairn_map_merge(empty, d.other, &options, NULL));
+      assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "other", cairn_map_merge(d.map, empty, &options, NULL, NULL));
+      assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "map", cairn_map_merge(empty, d.other, &options, NULL, NULL));
     }
     assert_int_equal(size_of(empty), 0);
     cairn_map_destroy(empty), rover_close(&empty_rover);
     /* max_landmarks */
     options = new_options(CAIRN_MERGE_BY_ID);
     options.max_landmarks = size_of(d.map) + size_of(d.other) - count_common(d.map, d.other) - 1;
-    assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_landmarks", cairn_map_merge(d.map, d.other, &options, NULL));
+    assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_landmarks", cairn_map_merge(d.map, d.other, &options, NULL, NULL));
     /* values that no option may have */
     struct {
       const char* name;
@@ -374,15 +374,16 @@ static void refusals_change_nothing(void** state) {
         options = new_options(CAIRN_MERGE_BY_ID);
         options.has_transform = 1;
         *fields[i].value = k < 3 ? not_finite[k] : fields[i].bad;
-        assert_refused(NULL, CAIRN_ERROR_ARGUMENT, fields[i].name, cairn_map_merge(d.map, d.other, &options, NULL));
+        assert_refused(NULL, CAIRN_ERROR_ARGUMENT, fields[i].name,
+                       cairn_map_merge(d.map, d.other, &options, NULL, NULL));
       }
     options = new_options(2);
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "association", cairn_map_merge(d.map, d.other, &options, NULL));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "association", cairn_map_merge(d.map, d.other, &options, NULL, NULL));
     duo_same(&d);
     /* after all these refusals the merge succeeds */
     options.association = CAIRN_MERGE_BY_ID;
     options.max_landmarks = size_of(d.map) + size_of(d.other) - count_common(d.map, d.other);
-    assert_ok(cairn_map_merge(d.map, d.other, &options, &report));
+    assert_ok(cairn_map_merge(d.map, d.other, &options, &report, NULL));
     duo_close(&d);
   }
 }
@@ -395,10 +396,11 @@ static void contradictions_are_named(void** state) {
     cairn_merge_report report = new_report();
     cairn_landmark one;
     duo_open(&d, kind, 101);
-    assert_refused(NULL, CAIRN_ERROR_NUMERICAL, "contradicts landmark", cairn_map_merge(d.map, d.other, NULL, &report));
+    assert_refused(NULL, CAIRN_ERROR_NUMERICAL, "contradicts landmark",
+                   cairn_map_merge(d.map, d.other, NULL, &report, NULL));
     assert_true(report.common > 8 && report.distance > report.threshold);
     assert_int_equal(report.broken_id, report.broken_other_id);
-    assert_ok(cairn_map_landmark(d.map, report.broken_id, &one));
+    assert_ok(cairn_map_landmark(d.map, report.broken_id, &one, NULL));
     char name[32];
     snprintf(name, sizeof name, "%llu", (unsigned long long)report.broken_id);
     assert_non_null(strstr(cairn_last_message(), name));
@@ -408,7 +410,7 @@ static void contradictions_are_named(void** state) {
     options.has_transform = 1;
     options.T_map_other = pose_at(5, 5, 5, 0, 0, 1);
     for (int i = 0; i < 6; ++i) options.covariance[7 * i] = 1e-4;
-    assert_status(cairn_map_merge(d.map, d.other, &options, &report), CAIRN_ERROR_NUMERICAL);
+    assert_status(cairn_map_merge(d.map, d.other, &options, &report, NULL), CAIRN_ERROR_NUMERICAL);
     duo_same(&d);
     duo_close(&d);
   }
@@ -425,14 +427,14 @@ static void structs_of_other_sizes(void** state) {
     unsigned char bytes[1024];
   } box;
   memset(&box, 0x5a, sizeof box);
-  assert_ok(cairn_merge_options_init(&box.options, 24));
+  assert_ok(cairn_merge_options_init(&box.options, 24, NULL));
   for (size_t i = 24; i < sizeof box; ++i) assert_int_equal(box.bytes[i], 0x5a);
-  assert_status(cairn_merge_options_init(&box.options, 4), CAIRN_ERROR_ARGUMENT);
-  assert_ok(cairn_merge_options_init(&box.options, 24));
+  assert_status(cairn_merge_options_init(&box.options, 4, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_ok(cairn_merge_options_init(&box.options, 24, NULL));
   cairn_merge_options old = box.options;
   memset(&box, 0x5a, sizeof box);
   box.report.struct_size = 24;
-  assert_ok(cairn_map_merge(d.map, d.other, &old, &box.report));
+  assert_ok(cairn_map_merge(d.map, d.other, &old, &box.report, NULL));
   assert_true(box.report.common > 8);
   for (size_t i = 24; i < sizeof box; ++i) assert_int_equal(box.bytes[i], 0x5a);
   duo_close(&d);

@@ -7,7 +7,7 @@ const double plane_points[POINTS][3] = {{4, 1, 0},  {8, -3, 0}, {12, 2, 0}, {14,
 
 cairn_filter_options plane_options(int32_t vehicle, int32_t error) {
   cairn_filter_options options;
-  assert_ok(cairn_filter_options_init(&options, sizeof options));
+  assert_ok(cairn_filter_options_init(&options, sizeof options, NULL));
   options.vehicle = vehicle, options.error = error;
   options.max_landmarks = options.max_observations = POINTS;
   options.gate_probability = options.batch_gate_probability = 1; /* bounds by rows, of which space has more */
@@ -20,7 +20,7 @@ cairn_filter_options plane_options(int32_t vehicle, int32_t error) {
 
 cairn_filter* plane_filter(const cairn_filter_options* options) {
   cairn_filter* filter = NULL;
-  assert_ok(cairn_filter_create(options, &filter));
+  assert_ok(cairn_filter_create(options, &filter, NULL));
   return filter;
 }
 
@@ -39,7 +39,7 @@ void plane_polar(const cairn_pose* sensor, const double point[3], double* range,
 
 cairn_range_bearing plane_radar(void) {
   cairn_range_bearing radar;
-  assert_ok(cairn_range_bearing_init(&radar, sizeof radar));
+  assert_ok(cairn_range_bearing_init(&radar, sizeof radar, NULL));
   radar.range_sigma = 0.1, radar.bearing_sigma = 0.01;
   return radar;
 }
@@ -55,9 +55,9 @@ void plane_compare(const cairn_filter* plane, const cairn_filter* space, double 
   cairn_landmark la[POINTS], lb[POINTS];
   uint64_t ids[POINTS];
   double ja[(6 + 3 * POINTS) * (6 + 3 * POINTS)], jb[(6 + 3 * POINTS) * (6 + 3 * POINTS)];
-  assert_ok(cairn_filter_pose(plane, &pa, ca));
-  assert_ok(cairn_filter_pose(space, &pb, cb));
-  assert_ok(cairn_pose_error(&pa, &pb, error));
+  assert_ok(cairn_filter_pose(plane, &pa, ca, NULL));
+  assert_ok(cairn_filter_pose(space, &pb, cb, NULL));
+  assert_ok(cairn_pose_error(&pa, &pb, error, NULL));
   for (int i = 0; i < 6; ++i) assert_near(error[i], 0, tolerance);
   for (int i = 0; i < 36; ++i) {
     const bool counts = in_plane(i / 6) && in_plane(i % 6);
@@ -67,8 +67,8 @@ void plane_compare(const cairn_filter* plane, const cairn_filter* space, double 
       assert_true(ca[i] == 0);
   }
   assert_true(pa.position[2] == 0 && pa.quaternion[1] == 0 && pa.quaternion[2] == 0);
-  assert_ok(cairn_map_landmarks(cairn_filter_map(plane), la, POINTS, &na));
-  assert_ok(cairn_map_landmarks(cairn_filter_map(space), lb, POINTS, &nb));
+  assert_ok(cairn_map_landmarks(cairn_filter_map(plane), la, POINTS, &na, NULL));
+  assert_ok(cairn_map_landmarks(cairn_filter_map(space), lb, POINTS, &nb, NULL));
   assert_int_equal(na, nb);
   for (size_t i = 0; i < na; ++i) {
     ids[i] = la[i].id;
@@ -83,8 +83,8 @@ void plane_compare(const cairn_filter* plane, const cairn_filter* space, double 
         assert_true(la[i].covariance[k] == 0);
     }
   }
-  assert_ok(cairn_filter_joint_covariance(plane, ids, na, ja, LENGTH(ja), &needed));
-  assert_ok(cairn_filter_joint_covariance(space, ids, na, jb, LENGTH(jb), &needed));
+  assert_ok(cairn_filter_joint_covariance(plane, ids, na, ja, LENGTH(ja), &needed, NULL));
+  assert_ok(cairn_filter_joint_covariance(space, ids, na, jb, LENGTH(jb), &needed, NULL));
   const size_t side = 6 + 3 * na;
   assert_int_equal(needed, side * side);
   for (size_t i = 0; i < side * side; ++i) {

@@ -6,7 +6,7 @@ static void without_ids_a_filter_decides_as_with_ids(void** state) {
   static const int32_t ways[] = {CAIRN_ASSOCIATION_NEAREST, CAIRN_ASSOCIATION_JOINT};
   (void)state;
   for (size_t k = 0; k < LENGTH(ways); ++k) {
-    cairn_filter_options options = plane_options(CAIRN_VEHICLE_PLANAR, CAIRN_ERROR_INVARIANT);
+    cairn_filter_options options = plane_options(CAIRN_VEHICLE_PLANAR, CAIRN_STATE_ERROR_INVARIANT);
     const cairn_range_bearing radar = plane_radar();
     generator random = {31};
     cairn_pose truth;
@@ -21,15 +21,15 @@ static void without_ids_a_filter_decides_as_with_ids(void** state) {
     cairn_filter* known = plane_filter(&options);
     options.association = ways[k];
     cairn_filter* unknown = plane_filter(&options);
-    assert_ok(cairn_filter_add_range_bearing(known, &radar, &sensor));
-    assert_ok(cairn_filter_add_range_bearing(unknown, &radar, &sensor));
+    assert_ok(cairn_filter_add_range_bearing(known, &radar, &sensor, NULL));
+    assert_ok(cairn_filter_add_range_bearing(unknown, &radar, &sensor, NULL));
     for (int step = 0; step < 60; ++step) {
       const cairn_pose moved = pose_at(0.5, 0, 0, 0, 0, 0.1);
       cairn_observation o[POINTS];
       cairn_match known_matches[POINTS], found_matches[POINTS];
       double c[36];
       size_t count = 0;
-      assert_ok(cairn_pose_compose(&truth, &moved, &truth));
+      assert_ok(cairn_pose_compose(&truth, &moved, &truth, NULL));
       diagonal(c, 6, 1e-4);
       c[35] = 1e-5;
       for (size_t l = 0; l < POINTS; ++l) {
@@ -38,11 +38,11 @@ static void without_ids_a_filter_decides_as_with_ids(void** state) {
         if (range > 9 || range < 1) continue;
         o[count++] = sighting(l + 1, range + random_normal(&random, 0.03), bearing + random_normal(&random, 0.003));
       }
-      assert_ok(cairn_filter_predict_increment(known, &moved, c));
-      assert_ok(cairn_filter_predict_increment(unknown, &moved, c));
-      assert_ok(cairn_filter_update(known, sensor, o, count, known_matches));
+      assert_ok(cairn_filter_predict_increment(known, &moved, c, NULL));
+      assert_ok(cairn_filter_predict_increment(unknown, &moved, c, NULL));
+      assert_ok(cairn_filter_update(known, sensor, o, count, known_matches, NULL));
       for (size_t i = 0; i < count; ++i) o[i].id = step % 2 == 0 ? CAIRN_ID_NONE : 5;
-      assert_ok(cairn_filter_update(unknown, sensor, o, count, found_matches));
+      assert_ok(cairn_filter_update(unknown, sensor, o, count, found_matches, NULL));
       matched += check_same_matches(known_matches, found_matches, count, name_of);
     }
     assert_true(matched > 150);
@@ -56,7 +56,7 @@ static void without_ids_a_filter_decides_as_with_ids(void** state) {
  * by `sigma`. */
 static cairn_filter* open_pushed(int32_t way, uint32_t nodes, const cairn_observation* points, size_t count,
                                  double sigma) {
-  cairn_filter_options options = plane_options(CAIRN_VEHICLE_PLANAR, CAIRN_ERROR_INVARIANT);
+  cairn_filter_options options = plane_options(CAIRN_VEHICLE_PLANAR, CAIRN_STATE_ERROR_INVARIANT);
   const cairn_pose stay = pose_at(0, 0, 0, 0, 0, 0);
   cairn_cartesian cartesian;
   double covariance[36];
@@ -66,12 +66,12 @@ static cairn_filter* open_pushed(int32_t way, uint32_t nodes, const cairn_observ
   options.initial_pose = stay;
   memset(options.initial_covariance, 0, sizeof options.initial_covariance);
   cairn_filter* f = plane_filter(&options);
-  assert_ok(cairn_cartesian_init(&cartesian, sizeof cartesian));
-  assert_ok(cairn_filter_add_cartesian(f, &cartesian, &sensor));
-  assert_ok(cairn_filter_update(f, sensor, points, count, NULL));
+  assert_ok(cairn_cartesian_init(&cartesian, sizeof cartesian, NULL));
+  assert_ok(cairn_filter_add_cartesian(f, &cartesian, &sensor, NULL));
+  assert_ok(cairn_filter_update(f, sensor, points, count, NULL, NULL));
   diagonal(covariance, 6, 1e-8);
   covariance[0] = sigma * sigma;
-  assert_ok(cairn_filter_predict_increment(f, &stay, covariance));
+  assert_ok(cairn_filter_predict_increment(f, &stay, covariance, NULL));
   return f;
 }
 
@@ -81,13 +81,13 @@ static void pairs_that_contradict_each_other_are_not_accepted_together(void** st
   cairn_match m[2];
   (void)state;
   cairn_filter* f = open_pushed(CAIRN_ASSOCIATION_JOINT, 2000, points, 2, 1.0);
-  assert_ok(cairn_filter_update(f, 0, looked, 2, m));
+  assert_ok(cairn_filter_update(f, 0, looked, 2, m, NULL));
   const int refused = check_one_of_two_matches(m);
   assert_near(m[refused].threshold, 9.21034037197618, 1e-9); /* chi-square quantile 0.99, 2 degrees of freedom */
   assert_true(last_update(f).association_nodes >= 2 && last_update(f).association_exhausted == 0);
   cairn_filter_destroy(f);
   f = open_pushed(CAIRN_ASSOCIATION_NEAREST, 2000, points, 2, 1.0);
-  assert_ok(cairn_filter_update(f, 0, looked, 2, m));
+  assert_ok(cairn_filter_update(f, 0, looked, 2, m, NULL));
   assert_true((m[0].reason == CAIRN_REASON_BATCH_GATE) != (m[1].reason == CAIRN_REASON_BATCH_GATE));
   assert_int_equal(last_update(f).association_nodes, 0);
   cairn_filter_destroy(f);
@@ -99,19 +99,19 @@ static void a_new_landmark_keeps_its_distance_from_known_ones(void** state) {
   const struct {
     double offset;
     int32_t result, reason;
-  } looks[] = {{0.42, CAIRN_MATCHED, CAIRN_REASON_NONE},
-               {0.44, CAIRN_REJECTED, CAIRN_REASON_GATE},
-               {0.60, CAIRN_REJECTED, CAIRN_REASON_GATE},
-               {0.62, CAIRN_NEW, CAIRN_REASON_NONE}};
+  } looks[] = {{0.42, CAIRN_RESULT_MATCHED, CAIRN_REASON_NONE},
+               {0.44, CAIRN_RESULT_REJECTED, CAIRN_REASON_GATE},
+               {0.60, CAIRN_RESULT_REJECTED, CAIRN_REASON_GATE},
+               {0.62, CAIRN_RESULT_NEW, CAIRN_REASON_NONE}};
   (void)state;
   for (size_t k = 0; k < LENGTH(looks); ++k) {
     const cairn_observation point = sighting(0, 10, 0), looked = sighting(0, 10, looks[k].offset);
     cairn_match m;
     cairn_filter* f = open_pushed(CAIRN_ASSOCIATION_JOINT, 2000, &point, 1, 1e-4);
-    assert_ok(cairn_filter_update(f, 0, &looked, 1, &m));
+    assert_ok(cairn_filter_update(f, 0, &looked, 1, &m, NULL));
     assert_int_equal(m.result, looks[k].result);
     assert_int_equal(m.reason, looks[k].reason);
-    assert_int_equal(m.landmark, m.result == CAIRN_NEW ? 1 : 0);
+    assert_int_equal(m.landmark, m.result == CAIRN_RESULT_NEW ? 1 : 0);
     cairn_filter_destroy(f);
   }
 }
@@ -124,9 +124,9 @@ static void an_ambiguous_observation_needs_the_support_of_others(void** state) {
     cairn_match m[3];
     cairn_filter* f = open_pushed(CAIRN_ASSOCIATION_JOINT, 2000, points, 3, 1.0);
     for (size_t i = 0; i < count; ++i) looked[i] = points[i], looked[i].z[0] += 0.8;
-    assert_ok(cairn_filter_update(f, 0, looked, count, m));
+    assert_ok(cairn_filter_update(f, 0, looked, count, m, NULL));
     for (size_t i = 0; i < count; ++i) {
-      assert_int_equal(m[i].result, count == 3 ? CAIRN_MATCHED : CAIRN_REJECTED);
+      assert_int_equal(m[i].result, count == 3 ? CAIRN_RESULT_MATCHED : CAIRN_RESULT_REJECTED);
       assert_int_equal(m[i].reason, count == 3 ? CAIRN_REASON_NONE : CAIRN_REASON_AMBIGUOUS);
       if (count == 3) assert_int_equal(m[i].landmark, i);
     }
@@ -142,7 +142,7 @@ static void the_limit_of_joint_tests_is_kept_and_reported(void** state) {
   cairn_filter* f = open_pushed(CAIRN_ASSOCIATION_JOINT, 1, points, POINTS, 2.0);
   for (int i = 0; i < POINTS; ++i)
     points[i].z[0] += i % 3 == 0 ? 1.3 : i % 3 == 1 ? 0.4 : -0.7; /* offsets that no shift along x explains */
-  assert_ok(cairn_filter_update(f, 0, points, POINTS, m));
+  assert_ok(cairn_filter_update(f, 0, points, POINTS, m, NULL));
   const cairn_update_report report = last_update(f);
   assert_int_equal(report.association_exhausted, 1);
   assert_true(report.association_nodes >= 1 && report.association_nodes <= 8 * POINTS);

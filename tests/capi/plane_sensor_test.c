@@ -5,7 +5,7 @@
 /* The pose is known exactly and the observations have no noise: landmarks are placed exactly, and their covariance is
  * the stated noise. */
 static void range_and_bearing_place_landmarks(void** state) {
-  cairn_filter_options options = plane_options(CAIRN_VEHICLE_PLANAR, CAIRN_ERROR_INVARIANT);
+  cairn_filter_options options = plane_options(CAIRN_VEHICLE_PLANAR, CAIRN_STATE_ERROR_INVARIANT);
   cairn_range_bearing radar;
   cairn_pose sensor_pose;
   cairn_observation o[POINTS];
@@ -14,11 +14,11 @@ static void range_and_bearing_place_landmarks(void** state) {
   (void)state;
   memset(options.initial_covariance, 0, sizeof options.initial_covariance);
   cairn_filter* f = plane_filter(&options);
-  assert_ok(cairn_range_bearing_init(&radar, sizeof radar));
+  assert_ok(cairn_range_bearing_init(&radar, sizeof radar, NULL));
   radar.T_body_sensor = pose_at(0.4, -0.3, 0, 0, 0, -2.0);
   radar.range_sigma = 0.2, radar.bearing_sigma = 0.03;
-  assert_ok(cairn_filter_add_range_bearing(f, &radar, &sensor));
-  assert_ok(cairn_pose_compose(&options.initial_pose, &radar.T_body_sensor, &sensor_pose));
+  assert_ok(cairn_filter_add_range_bearing(f, &radar, &sensor, NULL));
+  assert_ok(cairn_pose_compose(&options.initial_pose, &radar.T_body_sensor, &sensor_pose, NULL));
   for (size_t l = 0; l < POINTS; ++l) {
     double range, bearing;
     plane_polar(&sensor_pose, plane_points[l], &range, &bearing);
@@ -26,12 +26,12 @@ static void range_and_bearing_place_landmarks(void** state) {
     o[l].z[2] = NAN;                                                /* not read: two values count */
     if (l == 3) o[l].covariance[0] = 0.5, o[l].covariance[1] = o[l].covariance[2] = 1e-3, o[l].covariance[3] = 1e-2;
   }
-  assert_ok(cairn_filter_update(f, sensor, o, POINTS, m));
+  assert_ok(cairn_filter_update(f, sensor, o, POINTS, m, NULL));
   for (size_t l = 0; l < POINTS; ++l) {
     cairn_landmark landmark;
     double range, bearing;
-    assert_int_equal(m[l].result, CAIRN_NEW);
-    assert_ok(cairn_map_landmark(cairn_filter_map(f), l, &landmark));
+    assert_int_equal(m[l].result, CAIRN_RESULT_NEW);
+    assert_ok(cairn_map_landmark(cairn_filter_map(f), l, &landmark, NULL));
     for (int k = 0; k < 3; ++k) assert_near(landmark.position[k], plane_points[l][k], 1e-12);
     plane_polar(&sensor_pose, plane_points[l], &range, &bearing);
     const double at = bearing + 0.1 - 2.0, c = cos(at), s = sin(at); /* bearing in the map */
@@ -43,14 +43,14 @@ static void range_and_bearing_place_landmarks(void** state) {
                     J[i][0] * J[k][0] * rr + (J[i][0] * J[k][1] + J[i][1] * J[k][0]) * rb + J[i][1] * J[k][1] * bb,
                     1e-12 + 1e-12 * range * range);
   }
-  assert_ok(cairn_filter_update(f, sensor, o, POINTS, m));
+  assert_ok(cairn_filter_update(f, sensor, o, POINTS, m, NULL));
   for (size_t l = 0; l < POINTS; ++l) {
-    assert_int_equal(m[l].result, CAIRN_MATCHED);
+    assert_int_equal(m[l].result, CAIRN_RESULT_MATCHED);
     assert_near(m[l].distance, 0, 1e-18);
   }
   /* Nothing is seen at less than near_range. */
   o[0] = sighting(77, 0.001, 0);
-  assert_ok(cairn_filter_update(f, sensor, o, 1, m));
+  assert_ok(cairn_filter_update(f, sensor, o, 1, m, NULL));
   assert_int_equal(m[0].reason, CAIRN_REASON_NO_PLACE);
   cairn_filter_destroy(f);
 }
@@ -90,7 +90,7 @@ static int32_t caller_place(void* user, const cairn_pose* pose, const double* z,
 }
 
 static void a_custom_sensor_equals_the_built_in_one(void** state) {
-  const cairn_filter_options options = plane_options(CAIRN_VEHICLE_PLANAR, CAIRN_ERROR_INVARIANT);
+  const cairn_filter_options options = plane_options(CAIRN_VEHICLE_PLANAR, CAIRN_STATE_ERROR_INVARIANT);
   cairn_filter* filters[2] = {plane_filter(&options), plane_filter(&options)};
   cairn_range_bearing radar;
   cairn_custom custom;
@@ -100,33 +100,33 @@ static void a_custom_sensor_equals_the_built_in_one(void** state) {
   int32_t sensors[2];
   int calls = 0;
   (void)state;
-  assert_ok(cairn_range_bearing_init(&radar, sizeof radar));
-  assert_ok(cairn_custom_init(&custom, sizeof custom));
+  assert_ok(cairn_range_bearing_init(&radar, sizeof radar, NULL));
+  assert_ok(cairn_custom_init(&custom, sizeof custom, NULL));
   custom.rows = 2, custom.predict = caller_predict, custom.place = caller_place, custom.user = &calls;
   custom.angle_mask = 2, custom.sigma[0] = radar.range_sigma, custom.sigma[1] = radar.bearing_sigma;
   custom.relative = 1;
-  assert_ok(cairn_filter_add_range_bearing(filters[0], &radar, &sensors[0]));
-  assert_ok(cairn_filter_add_custom(filters[1], &custom, &sensors[1]));
+  assert_ok(cairn_filter_add_range_bearing(filters[0], &radar, &sensors[0], NULL));
+  assert_ok(cairn_filter_add_custom(filters[1], &custom, &sensors[1], NULL));
   for (int step = 0; step < 40; ++step) {
     const cairn_pose moved = pose_at(0.6, 0, 0, 0, 0, 0.12);
     cairn_observation o[POINTS];
     cairn_match m[2][POINTS];
     double covariance[36];
     diagonal(covariance, 6, 1e-3);
-    assert_ok(cairn_pose_compose(&truth, &moved, &truth));
+    assert_ok(cairn_pose_compose(&truth, &moved, &truth, NULL));
     for (size_t l = 0; l < POINTS; ++l) {
       double range, bearing;
       plane_polar(&truth, plane_points[l], &range, &bearing);
       o[l] = sighting(l, range + random_normal(&random, 0.1), bearing + random_normal(&random, 0.01));
     }
     for (int k = 0; k < 2; ++k) {
-      assert_ok(cairn_filter_predict_increment(filters[k], &moved, covariance));
-      assert_ok(cairn_filter_update(filters[k], sensors[k], o, POINTS, m[k]));
+      assert_ok(cairn_filter_predict_increment(filters[k], &moved, covariance, NULL));
+      assert_ok(cairn_filter_update(filters[k], sensors[k], o, POINTS, m[k], NULL));
     }
     for (size_t l = 0; l < POINTS; ++l) assert_int_equal(m[0][l].result, m[1][l].result);
-    assert_ok(cairn_filter_pose(filters[0], &pa, ca));
-    assert_ok(cairn_filter_pose(filters[1], &pb, cb));
-    assert_ok(cairn_pose_error(&pa, &pb, error));
+    assert_ok(cairn_filter_pose(filters[0], &pa, ca, NULL));
+    assert_ok(cairn_filter_pose(filters[1], &pb, cb, NULL));
+    assert_ok(cairn_pose_error(&pa, &pb, error, NULL));
     for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 1e-9);
     for (int i = 0; i < 36; ++i) assert_near(ca[i], cb[i], 1e-10);
   }
@@ -134,13 +134,16 @@ static void a_custom_sensor_equals_the_built_in_one(void** state) {
   /* In the plane a sensor has 1 or 2 rows. With 1 row it cannot place landmarks. */
   int32_t number = -1;
   custom.rows = 3;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.rows", cairn_filter_add_custom(filters[0], &custom, &number));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.rows",
+                 cairn_filter_add_custom(filters[0], &custom, &number, NULL));
   custom.rows = 0;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.rows", cairn_filter_add_custom(filters[0], &custom, &number));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.rows",
+                 cairn_filter_add_custom(filters[0], &custom, &number, NULL));
   custom.rows = 1, custom.angle_mask = 0;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.place", cairn_filter_add_custom(filters[0], &custom, &number));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.place",
+                 cairn_filter_add_custom(filters[0], &custom, &number, NULL));
   custom.place = NULL;
-  assert_ok(cairn_filter_add_custom(filters[0], &custom, &number));
+  assert_ok(cairn_filter_add_custom(filters[0], &custom, &number, NULL));
   for (int k = 0; k < 2; ++k) cairn_filter_destroy(filters[k]);
 }
 

@@ -10,13 +10,13 @@ enum { NEAR = 8 };
 
 static inline cairn_filter* create(const cairn_filter_options* options) {
   cairn_filter* f = NULL;
-  assert_ok(cairn_filter_create(options, &f));
+  assert_ok(cairn_filter_create(options, &f, NULL));
   return f;
 }
 
 static inline cairn_filter_options options_of(int32_t vehicle, int32_t error) {
   cairn_filter_options o;
-  assert_ok(cairn_filter_options_init(&o, sizeof o));
+  assert_ok(cairn_filter_options_init(&o, sizeof o, NULL));
   o.vehicle = vehicle, o.error = error, o.max_landmarks = 60, o.max_observations = 20;
   return o;
 }
@@ -25,11 +25,11 @@ static inline int32_t add_sensor(cairn_filter* f, int32_t vehicle) {
   int32_t sensor = -1;
   if (vehicle == CAIRN_VEHICLE_PLANAR) {
     const cairn_range_bearing radar = plane_radar();
-    assert_ok(cairn_filter_add_range_bearing(f, &radar, &sensor));
+    assert_ok(cairn_filter_add_range_bearing(f, &radar, &sensor, NULL));
   } else {
     cairn_cartesian cartesian;
-    assert_ok(cairn_cartesian_init(&cartesian, sizeof cartesian));
-    assert_ok(cairn_filter_add_cartesian(f, &cartesian, &sensor));
+    assert_ok(cairn_cartesian_init(&cartesian, sizeof cartesian, NULL));
+    assert_ok(cairn_filter_add_cartesian(f, &cartesian, &sensor, NULL));
   }
   return sensor;
 }
@@ -44,7 +44,7 @@ static inline cairn_observation seen(int32_t vehicle, uint64_t id, double x) {
 
 static inline void step(cairn_filter* f) {
   const double v[3] = {0.1, 0, 0}, w[3] = {0, 0, 0};
-  assert_ok(cairn_filter_predict_twist(f, 1.0, v, w));
+  assert_ok(cairn_filter_predict_twist(f, 1.0, v, w, NULL));
 }
 
 #endif

@@ -29,7 +29,7 @@ static inline void field_landmark(unsigned i, double point[3]) {
 
 static inline cairn_filter_options rover_options(int kind) {
   cairn_filter_options options;
-  assert_ok(cairn_filter_options_init(&options, sizeof options));
+  assert_ok(cairn_filter_options_init(&options, sizeof options, NULL));
   options.max_landmarks = FIELD;
   options.max_observations = SEEN;
   options.gate_probability = options.batch_gate_probability = 1;
@@ -46,9 +46,9 @@ static inline void rover_open(rover* r, int kind, uint64_t seed, cairn_pose star
   r->random.state = seed;
   r->start = r->truth = start;
   r->first_id = first_id;
-  assert_ok(cairn_filter_create(&options, &r->filter));
-  assert_ok(cairn_cartesian_init(&cartesian, sizeof cartesian));
-  assert_ok(cairn_filter_add_cartesian(r->filter, &cartesian, &sensor));
+  assert_ok(cairn_filter_create(&options, &r->filter, NULL));
+  assert_ok(cairn_cartesian_init(&cartesian, sizeof cartesian, NULL));
+  assert_ok(cairn_filter_add_cartesian(r->filter, &cartesian, &sensor, NULL));
 }
 
 static inline void rover_close(rover* r) {
@@ -68,12 +68,12 @@ static inline void rover_drive(rover* r, unsigned steps) {
     double covariance[36];
     cairn_observation o[SEEN];
     size_t count = 0;
-    assert_ok(cairn_pose_compose(&r->truth, &ahead, &next));
+    assert_ok(cairn_pose_compose(&r->truth, &ahead, &next, NULL));
     r->truth = next;
-    assert_ok(cairn_pose_compose(&ahead, &slip, &felt));
+    assert_ok(cairn_pose_compose(&ahead, &slip, &felt, NULL));
     diagonal(covariance, 6, metres * metres);
     for (int i = 3; i < 6; ++i) covariance[7 * i] = radians * radians;
-    assert_ok(cairn_filter_predict_increment(r->filter, &felt, covariance));
+    assert_ok(cairn_filter_predict_increment(r->filter, &felt, covariance, NULL));
     memset(o, 0, sizeof o);
     for (unsigned i = 0; i < FIELD && count < SEEN; ++i) {
       double point[3];
@@ -85,7 +85,7 @@ static inline void rover_drive(rover* r, unsigned steps) {
       diagonal(o[count].covariance, 3, seen * seen);
       ++count;
     }
-    assert_ok(cairn_filter_update(r->filter, 0, o, count, NULL));
+    assert_ok(cairn_filter_update(r->filter, 0, o, count, NULL, NULL));
   }
 }
 
@@ -106,15 +106,15 @@ static inline void rover_middle(rover* r, int kind, uint64_t seed) {
 /* A copy of the rover's map, with the landmarks of the open submap. */
 static inline cairn_map* rover_map(rover* r) {
   cairn_map* map = NULL;
-  (void)cairn_filter_close_submap(r->filter); /* there may be no open submap, or an empty one */
-  assert_ok(cairn_map_copy(cairn_filter_map(r->filter), &map));
+  (void)cairn_filter_close_submap(r->filter, NULL); /* there may be no open submap, or an empty one */
+  assert_ok(cairn_map_copy(cairn_filter_map(r->filter), &map, NULL));
   assert_non_null(map);
   return map;
 }
 
 static inline size_t size_of(const cairn_map* map) {
   size_t count = 0;
-  assert_ok(cairn_map_size(map, &count));
+  assert_ok(cairn_map_size(map, &count, NULL));
   return count;
 }
 
@@ -122,7 +122,7 @@ static inline size_t size_of(const cairn_map* map) {
 static inline void map_take(snapshot* s, const cairn_map* map) {
   const size_t n = size_of(map);
   size_t renamed = 0, needed = 0;
-  assert_ok(cairn_map_merged_ids(map, NULL, 0, &renamed));
+  assert_ok(cairn_map_merged_ids(map, NULL, 0, &renamed, NULL));
   snapshot_free(s);
   const size_t landmarks = n * sizeof(cairn_landmark), joint = 9 * n * n * sizeof(double);
   s->size = landmarks + joint + renamed * sizeof(cairn_merged_id);
@@ -131,10 +131,10 @@ static inline void map_take(snapshot* s, const cairn_map* map) {
   uint64_t ids[4 * FIELD];
   assert_true(n <= LENGTH(ids));
   cairn_landmark* all = (cairn_landmark*)(void*)s->bytes;
-  assert_ok(cairn_map_landmarks(map, all, n, &needed));
+  assert_ok(cairn_map_landmarks(map, all, n, &needed, NULL));
   for (size_t i = 0; i < n; ++i) ids[i] = all[i].id;
-  assert_ok(cairn_map_joint_covariance(map, ids, n, (double*)(void*)(s->bytes + landmarks), 9 * n * n, &needed));
-  assert_ok(cairn_map_merged_ids(map, (cairn_merged_id*)(void*)(s->bytes + landmarks + joint), renamed, &needed));
+  assert_ok(cairn_map_joint_covariance(map, ids, n, (double*)(void*)(s->bytes + landmarks), 9 * n * n, &needed, NULL));
+  assert_ok(cairn_map_merged_ids(map, (cairn_merged_id*)(void*)(s->bytes + landmarks + joint), renamed, &needed, NULL));
 }
 
 /* Squared error of all landmarks of a map in the frame `start` of the world, normalised by their joint covariance:
@@ -147,7 +147,7 @@ static inline double map_nees(const cairn_map* map, const cairn_pose* start, uin
   uint64_t ids[FIELD];
   double *P = calloc(m * m, sizeof *P), error[3 * FIELD], sum = 0;
   assert_non_null(P);
-  assert_ok(cairn_map_landmarks(map, all, FIELD, &needed));
+  assert_ok(cairn_map_landmarks(map, all, FIELD, &needed, NULL));
   for (size_t i = 0; i < n; ++i) {
     double point[3], truth[3], square = 0;
     ids[i] = all[i].id;
@@ -157,7 +157,7 @@ static inline double map_nees(const cairn_map* map, const cairn_pose* start, uin
     for (size_t k = 0; k < 3; ++k) square += error[3 * i + k] * error[3 * i + k];
     if (far != NULL && sqrt(square) > *far) *far = sqrt(square);
   }
-  assert_ok(cairn_map_joint_covariance(map, ids, n, P, m * m, &needed));
+  assert_ok(cairn_map_joint_covariance(map, ids, n, P, m * m, &needed, NULL));
   for (size_t c = 0; c < m; ++c) { /* Cholesky factorisation with forward substitution in the same loop */
     for (size_t r = c; r < m; ++r) {
       for (size_t k = 0; k < c; ++k) P[r * m + c] -= P[r * m + k] * P[c * m + k];

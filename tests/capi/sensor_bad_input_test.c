@@ -11,17 +11,17 @@ typedef union description {
 } description;
 
 static cairn_status init(int kind, void* d, size_t size) {
-  if (kind == HEAD) return cairn_stereo_head_init(d, size);
-  if (kind == CAMERA) return cairn_stereo_camera_init(d, size);
-  if (kind == CARTESIAN) return cairn_cartesian_init(d, size);
-  return cairn_custom_init(d, size);
+  if (kind == HEAD) return cairn_stereo_head_init(d, size, NULL);
+  if (kind == CAMERA) return cairn_stereo_camera_init(d, size, NULL);
+  if (kind == CARTESIAN) return cairn_cartesian_init(d, size, NULL);
+  return cairn_custom_init(d, size, NULL);
 }
 
 static cairn_status add(cairn_filter* filter, int kind, const void* d, int32_t* sensor) {
-  if (kind == HEAD) return cairn_filter_add_stereo_head(filter, d, sensor);
-  if (kind == CAMERA) return cairn_filter_add_stereo_camera(filter, d, sensor);
-  if (kind == CARTESIAN) return cairn_filter_add_cartesian(filter, d, sensor);
-  return cairn_filter_add_custom(filter, d, sensor);
+  if (kind == HEAD) return cairn_filter_add_stereo_head(filter, d, sensor, NULL);
+  if (kind == CAMERA) return cairn_filter_add_stereo_camera(filter, d, sensor, NULL);
+  if (kind == CARTESIAN) return cairn_filter_add_cartesian(filter, d, sensor, NULL);
+  return cairn_filter_add_custom(filter, d, sensor, NULL);
 }
 
 enum { KINDS = POINT + 1 };
@@ -235,7 +235,7 @@ static void structs_of_other_versions_work(void** state) {
   (void)state;
   exact.T_body_sensor.position[0] = 0.4;
   memset(&old, 0xff, sizeof old); /* as sigma: NaN */
-  assert_ok(cairn_cartesian_init(&old, offsetof(cairn_cartesian, sigma)));
+  assert_ok(cairn_cartesian_init(&old, offsetof(cairn_cartesian, sigma), NULL));
   old.T_body_sensor.position[0] = 0.4;
   memset(&future, 0xff, sizeof future);
   future.now = exact;
@@ -246,9 +246,9 @@ static void structs_of_other_versions_work(void** state) {
     cairn_filter* filter = NULL;
     cairn_observation o = {3, {4, 5, 6}, {0}};
     int32_t sensor;
-    assert_ok(cairn_filter_create(&options, &filter));
-    assert_ok(cairn_filter_add_cartesian(filter, all[k], &sensor));
-    assert_ok(cairn_filter_update(filter, sensor, &o, 1, NULL));
+    assert_ok(cairn_filter_create(&options, &filter, NULL));
+    assert_ok(cairn_filter_add_cartesian(filter, all[k], &sensor, NULL));
+    assert_ok(cairn_filter_update(filter, sensor, &o, 1, NULL, NULL));
     snapshot_take(k == 0 ? &a : &c, filter);
     if (k > 0) assert_true(snapshot_same(&a, &c));
     cairn_filter_destroy(filter);
@@ -262,14 +262,15 @@ static void point_head_refuses(void** state) {
   cairn_filter* f = b->main.filter;
   const int32_t head = b->main.sensors[HEAD];
   static const int32_t unknown[] = {-1, SENSORS, 99, INT32_MAX, INT32_MIN};
-  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_point_head(NULL, head, 0.1, 0.1));
+  assert_refused(b, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_point_head(NULL, head, 0.1, 0.1, NULL));
   for (size_t n = 0; n < LENGTH(unknown); ++n)
-    assert_refused(b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_point_head(f, unknown[n], 0.1, 0.1));
+    assert_refused(b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_point_head(f, unknown[n], 0.1, 0.1, NULL));
   for (int kind = CAMERA; kind < SENSORS; ++kind)
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "sensor", cairn_filter_point_head(f, b->main.sensors[kind], 0.1, 0.1));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "sensor",
+                   cairn_filter_point_head(f, b->main.sensors[kind], 0.1, 0.1, NULL));
   for (size_t n = 0; n < LENGTH(not_finite); ++n) {
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "pan", cairn_filter_point_head(f, head, not_finite[n], 0.1));
-    assert_refused(b, CAIRN_ERROR_ARGUMENT, "stick", cairn_filter_point_head(f, head, 0.1, not_finite[n]));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "pan", cairn_filter_point_head(f, head, not_finite[n], 0.1, NULL));
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "stick", cairn_filter_point_head(f, head, 0.1, not_finite[n], NULL));
   }
 }
 
@@ -285,29 +286,29 @@ static void custom_check_refuses(void** state) {
   cairn_custom custom = test_point();
   double worst = 4711;
   (void)state;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom", cairn_custom_check(NULL, &pose, landmark, &worst));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "pose", cairn_custom_check(&custom, NULL, landmark, &worst));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", cairn_custom_check(&custom, &pose, NULL, &worst));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "worst", cairn_custom_check(&custom, &pose, landmark, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom", cairn_custom_check(NULL, &pose, landmark, &worst, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "pose", cairn_custom_check(&custom, NULL, landmark, &worst, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", cairn_custom_check(&custom, &pose, NULL, &worst, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "worst", cairn_custom_check(&custom, &pose, landmark, NULL, NULL));
   for (int i = 0; i < 7; ++i)
     for (size_t n = 0; n < LENGTH(not_finite); ++n) {
       cairn_pose bad = pose;
       double where[3] = {5, 6, 7};
       *(i < 3 ? &bad.position[i] : &bad.quaternion[i - 3]) = not_finite[n];
       where[i % 3] = not_finite[n];
-      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "pose", cairn_custom_check(&custom, &bad, landmark, &worst));
-      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", cairn_custom_check(&custom, &pose, where, &worst));
+      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "pose", cairn_custom_check(&custom, &bad, landmark, &worst, NULL));
+      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", cairn_custom_check(&custom, &pose, where, &worst, NULL));
     }
   custom.rows = 4;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rows", cairn_custom_check(&custom, &pose, landmark, &worst));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rows", cairn_custom_check(&custom, &pose, landmark, &worst, NULL));
   custom = test_point();
   custom.struct_size = 3;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "struct_size", cairn_custom_check(&custom, &pose, landmark, &worst));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "struct_size", cairn_custom_check(&custom, &pose, landmark, &worst, NULL));
   custom = test_point();
   custom.predict = NULL;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "predict", cairn_custom_check(&custom, &pose, landmark, &worst));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "predict", cairn_custom_check(&custom, &pose, landmark, &worst, NULL));
   custom.predict = blind_predict;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", cairn_custom_check(&custom, &pose, landmark, &worst));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", cairn_custom_check(&custom, &pose, landmark, &worst, NULL));
   assert_true(worst == 4711);
 }
 

@@ -6,7 +6,7 @@ static void head_defaults(void** state) {
   cairn_stereo_head h;
   (void)state;
   memset(&h, 0x5a, sizeof h);
-  assert_ok(cairn_stereo_head_init(&h, sizeof h));
+  assert_ok(cairn_stereo_head_init(&h, sizeof h, NULL));
   assert_int_equal(h.struct_size, sizeof h);
   assert_int_equal(h.encoder_mode, CAIRN_ENCODER_PER_OBSERVATION);
   for (int i = 0; i < 3; ++i) assert_true(h.platform[i] == 0 && h.stick[i] == 0);
@@ -25,7 +25,7 @@ static void camera_defaults(void** state) {
   double p[3];
   (void)state;
   memset(&c, 0x5a, sizeof c);
-  assert_ok(cairn_stereo_camera_init(&c, sizeof c));
+  assert_ok(cairn_stereo_camera_init(&c, sizeof c, NULL));
   assert_int_equal(c.struct_size, sizeof c);
   assert_int_equal(c.reserved, 0);
   assert_true(c.fu == 500 && c.fv == 500 && c.cu == 320 && c.cv == 240 && c.baseline == 0.2);
@@ -43,8 +43,8 @@ static void cartesian_and_custom_defaults(void** state) {
   (void)state;
   memset(&c, 0x5a, sizeof c);
   memset(&u, 0x5a, sizeof u);
-  assert_ok(cairn_cartesian_init(&c, sizeof c));
-  assert_ok(cairn_custom_init(&u, sizeof u));
+  assert_ok(cairn_cartesian_init(&c, sizeof c, NULL));
+  assert_ok(cairn_custom_init(&u, sizeof u, NULL));
   assert_int_equal(c.struct_size, sizeof c);
   assert_int_equal(u.struct_size, sizeof u);
   assert_true(c.reserved == 0 && u.relative == 0 && u.angle_mask == 0 && u.rows == 3);
@@ -95,12 +95,12 @@ static void every_sensor_places_where_it_looks(void** state) {
       open_known(&r, &w);
       o.id = 42;
       see(&w, sensors[s], mount, points[n], o.z);
-      assert_ok(cairn_filter_point_head(r.filter, r.sensors[HEAD], mount[0], mount[1]));
-      assert_ok(cairn_filter_update(r.filter, r.sensors[sensors[s]], &o, 1, &match));
-      assert_int_equal(match.result, CAIRN_NEW);
+      assert_ok(cairn_filter_point_head(r.filter, r.sensors[HEAD], mount[0], mount[1], NULL));
+      assert_ok(cairn_filter_update(r.filter, r.sensors[sensors[s]], &o, 1, &match, NULL));
+      assert_int_equal(match.result, CAIRN_RESULT_NEW);
       assert_int_equal(match.reason, CAIRN_REASON_NONE);
       assert_int_equal(match.landmark, 42);
-      assert_ok(cairn_map_landmark(cairn_filter_map(r.filter), 42, &landmark));
+      assert_ok(cairn_map_landmark(cairn_filter_map(r.filter), 42, &landmark, NULL));
       for (int i = 0; i < 3; ++i) assert_near(landmark.position[i], points[n][i], 1e-9);
       assert_int_equal(landmark.observations, 1);
       rig_close(&r);
@@ -138,14 +138,14 @@ static void expect_placed(int sensor, cairn_stereo_head head, bool shared) {
   world_init(&w, 77);
   memset(options.initial_covariance, 0, sizeof options.initial_covariance);
   options.initial_pose = w.truth = pose_at(1, -2, 0.5, 0.2, -0.1, 0.7);
-  assert_ok(cairn_filter_create(&options, &filter));
+  assert_ok(cairn_filter_create(&options, &filter, NULL));
   if (sensor == HEAD) {
-    assert_ok(cairn_filter_add_stereo_head(filter, &head, &added));
-    assert_ok(cairn_filter_point_head(filter, added, mount[0], mount[1]));
+    assert_ok(cairn_filter_add_stereo_head(filter, &head, &added, NULL));
+    assert_ok(cairn_filter_point_head(filter, added, mount[0], mount[1], NULL));
   } else {
     cairn_stereo_camera camera = test_camera();
     memcpy(camera.sigma, sigma, sizeof sigma);
-    assert_ok(cairn_filter_add_stereo_camera(filter, &camera, &added));
+    assert_ok(cairn_filter_add_stereo_camera(filter, &camera, &added, NULL));
   }
   memset(o, 0, sizeof o);
   for (int k = 0; k < 2; ++k) {
@@ -153,8 +153,8 @@ static void expect_placed(int sensor, cairn_stereo_head head, bool shared) {
     see(&w, sensor, mount, points[k], o[k].z);
     differences(&w, sensor, mount, points[k], H[k], M[k]);
   }
-  assert_ok(cairn_filter_update(filter, added, o, 2, NULL));
-  assert_ok(cairn_map_joint_covariance(cairn_filter_map(filter), ids, 2, joint, 36, &needed));
+  assert_ok(cairn_filter_update(filter, added, o, 2, NULL, NULL));
+  assert_ok(cairn_map_joint_covariance(cairn_filter_map(filter), ids, 2, joint, 36, &needed, NULL));
   const double mounts[2] = {head.pan_sigma * head.pan_sigma, head.stick_sigma * head.stick_sigma};
   for (int a = 0; a < 2; ++a)
     for (int c = 0; c < 2; ++c)
@@ -196,7 +196,7 @@ static void expect_equal_to_the_built_in_one(uint32_t relative) {
   rig_open(&a, &options);
   rig_open(&b, &options);
   custom.relative = relative;
-  assert_ok(cairn_filter_add_custom(b.filter, &custom, &b.sensors[CARTESIAN])); /* replaces the built-in sensor */
+  assert_ok(cairn_filter_add_custom(b.filter, &custom, &b.sensors[CARTESIAN], NULL)); /* replaces the built-in sensor */
   for (int n = 0; n < 30; ++n) {
     frame f;
     cairn_match ma[WORLD_LANDMARKS], mb[WORLD_LANDMARKS];
@@ -209,15 +209,15 @@ static void expect_equal_to_the_built_in_one(uint32_t relative) {
       assert_near(ma[i].distance, mb[i].distance, 1e-6);
     }
   }
-  assert_ok(cairn_filter_pose(a.filter, &pa, ca));
-  assert_ok(cairn_filter_pose(b.filter, &pb, cb));
-  assert_ok(cairn_pose_error(&pa, &pb, error));
+  assert_ok(cairn_filter_pose(a.filter, &pa, ca, NULL));
+  assert_ok(cairn_filter_pose(b.filter, &pb, cb, NULL));
+  assert_ok(cairn_pose_error(&pa, &pb, error, NULL));
   for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 1e-9);
   for (int i = 0; i < 36; ++i) assert_near(ca[i], cb[i], 1e-9);
   for (uint64_t id = 1; id <= WORLD_LANDMARKS; ++id) {
     cairn_landmark la, lb;
-    assert_ok(cairn_map_landmark(cairn_filter_map(a.filter), id, &la));
-    assert_ok(cairn_map_landmark(cairn_filter_map(b.filter), id, &lb));
+    assert_ok(cairn_map_landmark(cairn_filter_map(a.filter), id, &la, NULL));
+    assert_ok(cairn_map_landmark(cairn_filter_map(b.filter), id, &lb, NULL));
     for (int i = 0; i < 3; ++i) assert_near(la.position[i], lb.position[i], 1e-9);
     for (int i = 0; i < 9; ++i) assert_near(la.covariance[i], lb.covariance[i], 1e-9);
     assert_int_equal(la.observations, lb.observations);
@@ -267,7 +267,7 @@ static void check_accepts_right_jacobians(void** state) {
                                       random_uniform(&random, -3, 3));
       const double landmark[3] = {random_uniform(&random, 6, 12), random_uniform(&random, -9, 9), 3};
       double worst = NAN;
-      assert_ok(cairn_custom_check(&sensors[s], &pose, landmark, &worst));
+      assert_ok(cairn_custom_check(&sensors[s], &pose, landmark, &worst, NULL));
       assert_true(worst >= 0 && worst < 1e-5);
     }
 }
@@ -283,7 +283,7 @@ static void check_exposes_every_wrong_entry(void** state) {
       cairn_custom custom = test_point();
       double worst = 0;
       custom.predict = spoilt_predict, custom.place = spoilt_place, custom.user = &s;
-      assert_ok(cairn_custom_check(&custom, &pose, landmark, &worst));
+      assert_ok(cairn_custom_check(&custom, &pose, landmark, &worst, NULL));
       if (!(worst > 1e-2)) fail_msg("matrix %d entry %d: worst %g", matrix, entry, worst);
     }
 }

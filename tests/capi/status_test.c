@@ -43,9 +43,9 @@ static void version_equals_the_header(void** state) {
 
 static void enumerations_are_pinned(void** state) {
   (void)state;
-  assert_int_equal(CAIRN_MATCHED, 1);
-  assert_int_equal(CAIRN_NEW, 2);
-  assert_int_equal(CAIRN_REJECTED, 3);
+  assert_int_equal(CAIRN_RESULT_MATCHED, 1);
+  assert_int_equal(CAIRN_RESULT_NEW, 2);
+  assert_int_equal(CAIRN_RESULT_REJECTED, 3);
   assert_int_equal(CAIRN_REASON_NO_PLACE, 4);
   assert_int_equal(CAIRN_REASON_NO_ROOM, 6);
   assert_int_equal(CAIRN_REASON_CONTRADICTED, 7);
@@ -75,10 +75,10 @@ static void a_failure_leaves_one_line_until_the_next_failure(void** state) {
   cairn_pose pose;
   char kept[512];
   (void)state;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "pose", cairn_pose_identity(NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "pose", cairn_pose_identity(NULL, NULL));
   snprintf(kept, sizeof kept, "%s", cairn_last_message());
   assert_true(strlen(kept) > strlen("pose")); /* the message has the cause, not only the name */
-  assert_ok(cairn_pose_identity(&pose));
+  assert_ok(cairn_pose_identity(&pose, NULL));
   assert_string_equal(cairn_last_message(), kept);
 }
 
@@ -92,7 +92,7 @@ static void* visit(void* argument) {
   visitor* v = argument;
   double rest[3];
   snprintf(v->first, sizeof v->first, "%s", cairn_last_message());
-  (void)cairn_quaternion_log(NULL, rest);
+  (void)cairn_quaternion_log(NULL, rest, NULL);
   v->buffer = cairn_last_message();
   snprintf(v->own, sizeof v->own, "%s", v->buffer);
   return NULL;
@@ -103,7 +103,7 @@ static void each_thread_has_its_own_message(void** state) {
   pthread_t thread;
   char before[512];
   (void)state;
-  assert_int_equal(cairn_pose_identity(NULL), CAIRN_ERROR_ARGUMENT);
+  assert_int_equal(cairn_pose_identity(NULL, NULL), CAIRN_ERROR_ARGUMENT);
   snprintf(before, sizeof before, "%s", cairn_last_message());
   assert_int_equal(pthread_create(&thread, NULL, visit, &v), 0);
   assert_int_equal(pthread_join(thread, NULL), 0);

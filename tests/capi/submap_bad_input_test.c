@@ -57,20 +57,20 @@ static void null_pointers(void** state) {
   pair_open(&p, NULL, 7, CAIRN_JOIN_SPARSE);
   pair_drive(&p, 20);
   const cairn_filter* f = p.filter;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_close_submap(NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_last_closing(NULL, &report));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_local_pose(NULL, &pose, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_base_pose(NULL, &pose, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_submap_count(NULL, &count));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_submap(NULL, 0, &pose, NULL, 0, &count));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_close_submap(NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_last_closing(NULL, &report, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_local_pose(NULL, &pose, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_base_pose(NULL, &pose, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_submap_count(NULL, &count, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_submap(NULL, 0, &pose, NULL, 0, &count, NULL));
   assert_null(cairn_filter_local_map(NULL));
-  assert_left_alone(&p, CAIRN_ERROR_ARGUMENT, "report", cairn_filter_last_closing(f, NULL));
-  assert_left_alone(&p, CAIRN_ERROR_ARGUMENT, "count", cairn_filter_submap_count(f, NULL));
-  assert_left_alone(&p, CAIRN_ERROR_ARGUMENT, "needed", cairn_filter_submap(f, 0, &pose, ids, 4, NULL));
-  assert_left_alone(&p, CAIRN_ERROR_ARGUMENT, "ids", cairn_filter_submap(f, 0, &pose, NULL, 4, &count));
-  assert_left_alone(&p, CAIRN_ERROR_ARGUMENT, "struct_size", cairn_filter_last_closing(f, &report));
-  assert_ok(cairn_filter_local_pose(f, NULL, NULL));
-  assert_ok(cairn_filter_base_pose(f, NULL, NULL));
+  assert_left_alone(&p, CAIRN_ERROR_ARGUMENT, "report", cairn_filter_last_closing(f, NULL, NULL));
+  assert_left_alone(&p, CAIRN_ERROR_ARGUMENT, "count", cairn_filter_submap_count(f, NULL, NULL));
+  assert_left_alone(&p, CAIRN_ERROR_ARGUMENT, "needed", cairn_filter_submap(f, 0, &pose, ids, 4, NULL, NULL));
+  assert_left_alone(&p, CAIRN_ERROR_ARGUMENT, "ids", cairn_filter_submap(f, 0, &pose, NULL, 4, &count, NULL));
+  assert_left_alone(&p, CAIRN_ERROR_ARGUMENT, "struct_size", cairn_filter_last_closing(f, &report, NULL));
+  assert_ok(cairn_filter_local_pose(f, NULL, NULL, NULL));
+  assert_ok(cairn_filter_base_pose(f, NULL, NULL, NULL));
   pair_close(&p);
 }
 
@@ -84,12 +84,13 @@ static void indices(void** state) {
     cairn_pose pose;
     uint64_t ids[64];
     size_t needed = 0;
-    assert_left_alone(&p, CAIRN_ERROR_NOT_FOUND, "index", cairn_filter_submap(p.filter, 0, &pose, ids, 64, &needed));
-    assert_ok(cairn_filter_close_submap(p.filter));
-    assert_ok(cairn_filter_submap(p.filter, 0, &pose, ids, 64, &needed));
+    assert_left_alone(&p, CAIRN_ERROR_NOT_FOUND, "index",
+                      cairn_filter_submap(p.filter, 0, &pose, ids, 64, &needed, NULL));
+    assert_ok(cairn_filter_close_submap(p.filter, NULL));
+    assert_ok(cairn_filter_submap(p.filter, 0, &pose, ids, 64, &needed, NULL));
     for (size_t i = 0; i < LENGTH(beyond); ++i)
       assert_left_alone(&p, CAIRN_ERROR_NOT_FOUND, "index",
-                        cairn_filter_submap(p.filter, beyond[i], &pose, ids, 64, &needed));
+                        cairn_filter_submap(p.filter, beyond[i], &pose, ids, 64, &needed, NULL));
     pair_close(&p);
   }
 }
@@ -99,24 +100,24 @@ static void nothing_to_close(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j) {
     pair_open(&p, NULL, 500, joins[j]);
-    assert_left_alone(&p, CAIRN_ERROR_STATE, "submap", cairn_filter_close_submap(p.filter));
+    assert_left_alone(&p, CAIRN_ERROR_STATE, "submap", cairn_filter_close_submap(p.filter, NULL));
     ring_frame blind; /* without observations a drive is not a submap yet */
     ring_next(&p.course, &blind);
     blind.count = 0;
     assert_ok(ring_take(p.filter, &blind));
     assert_ok(ring_take(p.twin, &blind));
-    assert_left_alone(&p, CAIRN_ERROR_STATE, "landmark", cairn_filter_close_submap(p.filter));
+    assert_left_alone(&p, CAIRN_ERROR_STATE, "landmark", cairn_filter_close_submap(p.filter, NULL));
     pair_drive(&p, 8);
-    assert_ok(cairn_filter_close_submap(p.filter));
-    assert_left_alone(&p, CAIRN_ERROR_STATE, "landmark", cairn_filter_close_submap(p.filter));
-    assert_ok(cairn_filter_close_submap(p.twin));
+    assert_ok(cairn_filter_close_submap(p.filter, NULL));
+    assert_left_alone(&p, CAIRN_ERROR_STATE, "landmark", cairn_filter_close_submap(p.filter, NULL));
+    assert_ok(cairn_filter_close_submap(p.twin, NULL));
     pair_drive(&p, 20);
     assert_alike(&p);
     pair_close(&p);
   }
   pair_open(&p, NULL, 0, CAIRN_JOIN_AUTO);
   pair_drive(&p, 8);
-  assert_left_alone(&p, CAIRN_ERROR_STATE, "submap_landmarks", cairn_filter_close_submap(p.filter));
+  assert_left_alone(&p, CAIRN_ERROR_STATE, "submap_landmarks", cairn_filter_close_submap(p.filter, NULL));
   pair_drive(&p, 8);
   assert_alike(&p);
   pair_close(&p);
@@ -128,13 +129,13 @@ static void options(void** state) {
   size_t bytes = 0;
   (void)state;
   ring_init(&course, 22);
-#define REFUSED(field, value)                                                                    \
-  do {                                                                                           \
-    cairn_filter_options o = ring_options(&course, 7, CAIRN_JOIN_AUTO);                          \
-    o.field = value;                                                                             \
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, #field, cairn_filter_create(&o, &f));             \
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, #field, cairn_filter_required_bytes(&o, &bytes)); \
-    assert_null(f);                                                                              \
+#define REFUSED(field, value)                                                                          \
+  do {                                                                                                 \
+    cairn_filter_options o = ring_options(&course, 7, CAIRN_JOIN_AUTO);                                \
+    o.field = value;                                                                                   \
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, #field, cairn_filter_create(&o, &f, NULL));             \
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, #field, cairn_filter_required_bytes(&o, &bytes, NULL)); \
+    assert_null(f);                                                                                    \
   } while (0)
   REFUSED(submap_landmarks, 4097);
   REFUSED(submap_landmarks, UINT32_MAX);
@@ -151,14 +152,14 @@ static void options(void** state) {
   REFUSED(max_landmarks, 10000001);
   cairn_filter_options dense = ring_options(&course, 7, CAIRN_JOIN_DENSE);
   dense.max_landmarks = 30001;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "max_landmarks", cairn_filter_create(&dense, &f));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "max_landmarks", cairn_filter_create(&dense, &f, NULL));
   dense.submap_landmarks = 0, dense.join = CAIRN_JOIN_SPARSE; /* a single map has no submaps to join */
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "max_landmarks", cairn_filter_create(&dense, &f));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "max_landmarks", cairn_filter_create(&dense, &f, NULL));
 #undef REFUSED
   cairn_filter_options huge =
       ring_options(&course, 4096, CAIRN_JOIN_SPARSE); /* only a bound: no memory is allocated for it */
   huge.max_landmarks = 10000000, huge.submap_landmarks = 20;
-  assert_ok(cairn_filter_required_bytes(&huge, &bytes));
+  assert_ok(cairn_filter_required_bytes(&huge, &bytes, NULL));
   assert_true(bytes < 10000000);
 }
 
@@ -175,11 +176,11 @@ static void extreme_policies(void** state) {
       if (kind == 2) o.submap_distance = o.submap_extent = o.submap_sigma = 1e300;
       cairn_filter* f = ring_filter(&o);
       ring_drive(&course, &f, 1, RING_STEPS);
-      assert_ok(cairn_filter_submap_count(f, &count));
+      assert_ok(cairn_filter_submap_count(f, &count, NULL));
       if (kind == 2) assert_int_equal(count, 0);
       if (kind < 2) assert_true(count > RING_STEPS * 3 / 4);
       cairn_pose pose;
-      assert_ok(cairn_filter_pose(f, &pose, NULL));
+      assert_ok(cairn_filter_pose(f, &pose, NULL, NULL));
       for (int i = 0; i < 3; ++i) assert_near(pose.position[i], course.truth.position[i], 1.5);
       cairn_filter_destroy(f);
     }
@@ -192,26 +193,26 @@ static void a_map_that_is_full(void** state) {
   for (size_t j = 0; j < LENGTH(joins); ++j) {
     pair p;
     cairn_filter_options o;
-    assert_ok(cairn_filter_options_init(&o, sizeof o));
+    assert_ok(cairn_filter_options_init(&o, sizeof o, NULL));
     o.max_landmarks = 12;
     pair_open(&p, &o, 9, joins[j]);
     size_t closed = 0, count = 0;
     for (int step = 0; step < RING_STEPS && last_closing(p.filter).status == CAIRN_OK; ++step) pair_drive(&p, 1);
     assert_int_equal(last_closing(p.filter).status, CAIRN_ERROR_CAPACITY);
     assert_int_equal(last_closing(p.filter).reason, CAIRN_CLOSED_BY_LANDMARKS);
-    assert_ok(cairn_filter_submap_count(p.filter, &closed));
-    assert_left_alone(&p, CAIRN_ERROR_CAPACITY, "max_landmarks", cairn_filter_close_submap(p.filter));
+    assert_ok(cairn_filter_submap_count(p.filter, &closed, NULL));
+    assert_left_alone(&p, CAIRN_ERROR_CAPACITY, "max_landmarks", cairn_filter_close_submap(p.filter, NULL));
     pair_drive(&p, 2);
-    assert_ok(cairn_filter_submap_count(p.filter, &count));
+    assert_ok(cairn_filter_submap_count(p.filter, &count, NULL));
     assert_int_equal(count, closed);
     assert_alike(&p);
     /* When there is room, the next attempt closes the submap. */
     uint64_t ids[64];
     size_t needed = 0;
-    assert_ok(cairn_filter_submap(p.filter, 0, NULL, ids, 64, &needed));
-    for (size_t i = 0; i < needed; ++i) (void)cairn_filter_remove_landmark(p.filter, ids[i]);
-    assert_ok(cairn_filter_close_submap(p.filter));
-    assert_ok(cairn_filter_submap_count(p.filter, &count));
+    assert_ok(cairn_filter_submap(p.filter, 0, NULL, ids, 64, &needed, NULL));
+    for (size_t i = 0; i < needed; ++i) (void)cairn_filter_remove_landmark(p.filter, ids[i], NULL);
+    assert_ok(cairn_filter_close_submap(p.filter, NULL));
+    assert_ok(cairn_filter_submap_count(p.filter, &count, NULL));
     assert_int_equal(count, closed + 1);
     pair_close(&p);
   }
@@ -237,8 +238,8 @@ static void exact_knowledge(void** state) {
             const cairn_pose before = course.truth;
             ring_next(&course, &seen);
             cairn_pose inverse, exact;
-            assert_ok(cairn_pose_inverse(&before, &inverse));
-            assert_ok(cairn_pose_compose(&inverse, &course.truth, &exact));
+            assert_ok(cairn_pose_inverse(&before, &inverse, NULL));
+            assert_ok(cairn_pose_compose(&inverse, &course.truth, &exact, NULL));
             for (int i = 0; i < 6; ++i) {
               const bool noisy = axes == 2 ? i < 3 : axes == 3 && (i < 2 || i == 5);
               if (!noisy) seen.covariance[7 * i] = 0;
@@ -259,7 +260,7 @@ static void exact_knowledge(void** state) {
             }
             assert_ok(ring_take(f, &seen));
           }
-          assert_ok(cairn_filter_close_submap(f));
+          assert_ok(cairn_filter_close_submap(f, NULL));
           const cairn_closing_report r = last_closing(f);
           assert_true(r.landmarks > 0 && isfinite(r.distance) && isfinite(r.moved_max));
           cairn_pose pose;
@@ -267,15 +268,15 @@ static void exact_knowledge(void** state) {
           cairn_landmark l[RING_LANDMARKS];
           uint64_t ids[RING_LANDMARKS];
           size_t n = 0, needed = 0;
-          assert_ok(cairn_filter_pose(f, &pose, P));
+          assert_ok(cairn_filter_pose(f, &pose, P, NULL));
           for (int i = 0; i < 3; ++i) assert_near(pose.position[i], course.truth.position[i], 1.2);
           for (int i = 0; i < 6; ++i) assert_true(P[7 * i] >= 0 && P[7 * i] < 1);
-          assert_ok(cairn_map_landmarks(cairn_filter_map(f), l, LENGTH(l), &n));
+          assert_ok(cairn_map_landmarks(cairn_filter_map(f), l, LENGTH(l), &n, NULL));
           for (size_t i = 0; i < n; ++i) {
             ids[i] = l[i].id;
             for (int k = 0; k < 3; ++k) assert_true(l[i].covariance[4 * k] > 0 && l[i].covariance[4 * k] < 1);
           }
-          assert_ok(cairn_filter_joint_covariance(f, ids, n, joint, LENGTH(joint), &needed));
+          assert_ok(cairn_filter_joint_covariance(f, ids, n, joint, LENGTH(joint), &needed, NULL));
           for (size_t i = 0; i < needed; ++i) assert_true(isfinite(joint[i]));
         }
         cairn_filter_destroy(f);

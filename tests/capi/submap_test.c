@@ -3,17 +3,17 @@
 #include "submaps.h"
 
 static const int32_t joins[] = {CAIRN_JOIN_DENSE, CAIRN_JOIN_SPARSE};
-static const int32_t errors[] = {CAIRN_ERROR_INVARIANT, CAIRN_ERROR_STANDARD};
+static const int32_t errors[] = {CAIRN_STATE_ERROR_INVARIANT, CAIRN_STATE_ERROR_STANDARD};
 
 static size_t submaps_of(const cairn_filter* f) {
   size_t count = 0;
-  assert_ok(cairn_filter_submap_count(f, &count));
+  assert_ok(cairn_filter_submap_count(f, &count, NULL));
   return count;
 }
 
 static size_t landmarks_of(const cairn_map* map) {
   size_t count = 0;
-  assert_ok(cairn_map_size(map, &count));
+  assert_ok(cairn_map_size(map, &count, NULL));
   return count;
 }
 
@@ -30,7 +30,7 @@ static void check_report(const cairn_filter* f, int32_t reason, int32_t join) {
   assert_int_equal(r.refactored > 0, join == CAIRN_JOIN_SPARSE);
   if (r.rows > 0) assert_true(r.threshold > 0 && (r.distance <= r.threshold || r.landmarks_refused > 0));
   size_t ids = 0;
-  assert_ok(cairn_filter_submap(f, r.submaps - 1, NULL, NULL, 0, &ids));
+  assert_ok(cairn_filter_submap(f, r.submaps - 1, NULL, NULL, 0, &ids, NULL));
   assert_int_equal(ids, r.landmarks);
 }
 
@@ -72,7 +72,7 @@ static void each_reason_closes(void** state) {
         assert_int_equal(landmarks_of(cairn_filter_local_map(f)), 0);
       }
       ring_drive(&course, &f, 1, 1);
-      assert_ok(cairn_filter_close_submap(f));
+      assert_ok(cairn_filter_close_submap(f, NULL));
       check_report(f, CAIRN_CLOSED_BY_CALLER, joins[j]);
       cairn_filter_destroy(f);
     }
@@ -90,28 +90,28 @@ static void a_fix_closes_first(void** state) {
       cairn_filter* f = ring_filter(&o);
       ring_drive(&course, &f, 1, 20);
       assert_int_equal(submaps_of(f), 0);
-      assert_ok(cairn_filter_pose(f, NULL, before));
+      assert_ok(cairn_filter_pose(f, NULL, before, NULL));
       diagonal(c, 3, kind == 0 ? 1e-4 : 1e-6);
       rotation_matrix(course.truth.quaternion, m);
-      if (kind == 0) assert_ok(cairn_filter_update_position(f, course.truth.position, c, NULL, &match));
-      if (kind == 1) assert_ok(cairn_filter_update_attitude(f, course.truth.quaternion, c, &match));
-      if (kind == 2) assert_ok(cairn_filter_update_heading(f, atan2(m[3], m[0]), 1e-3, &match));
-      assert_int_equal(match.result, CAIRN_MATCHED);
+      if (kind == 0) assert_ok(cairn_filter_update_position(f, course.truth.position, c, NULL, &match, NULL));
+      if (kind == 1) assert_ok(cairn_filter_update_attitude(f, course.truth.quaternion, c, &match, NULL));
+      if (kind == 2) assert_ok(cairn_filter_update_heading(f, atan2(m[3], m[0]), 1e-3, &match, NULL));
+      assert_int_equal(match.result, CAIRN_RESULT_MATCHED);
       check_report(f, CAIRN_CLOSED_BY_FIX, joins[j]);
-      assert_ok(cairn_filter_pose(f, NULL, after));
+      assert_ok(cairn_filter_pose(f, NULL, after, NULL));
       if (kind == 0)
         for (int i = 0; i < 3; ++i) assert_true(after[7 * i] <= 1e-4 && after[7 * i] < before[7 * i]);
       if (kind > 0) assert_true(after[35] <= (kind == 1 ? 1.01e-6 : 2e-6) && after[35] < before[35]);
       /* A second closing right after the first has nothing to close. A drive without landmarks can be closed too. */
-      assert_ok(cairn_filter_update_position(f, course.truth.position, c, NULL, &match));
+      assert_ok(cairn_filter_update_position(f, course.truth.position, c, NULL, &match, NULL));
       assert_int_equal(submaps_of(f), 1);
       ring_frame blind;
       ring_next(&course, &blind);
       blind.count = 0;
       assert_ok(ring_take(f, &blind));
       diagonal(c, 3, 1e-2);
-      assert_ok(cairn_filter_update_position(f, course.truth.position, c, NULL, &match));
-      assert_int_equal(match.result, CAIRN_MATCHED);
+      assert_ok(cairn_filter_update_position(f, course.truth.position, c, NULL, &match, NULL));
+      assert_int_equal(match.result, CAIRN_RESULT_MATCHED);
       check_report(f, CAIRN_CLOSED_BY_FIX, joins[j]);
       assert_int_equal(submaps_of(f), 2);
       cairn_filter_destroy(f);
@@ -146,10 +146,10 @@ static void poses_compose(void** state) {
         double P[36], B[36], L[36], to_base[36] = {0}, to_local[36] = {0}, from_base[36], from_local[36];
         double R[9], arm[3], hat[9];
         ring_drive(&course, &f, 1, 1);
-        assert_ok(cairn_filter_pose(f, &pose, P));
-        assert_ok(cairn_filter_base_pose(f, &base, B));
-        assert_ok(cairn_filter_local_pose(f, &local, L));
-        assert_ok(cairn_pose_compose(&base, &local, &expected));
+        assert_ok(cairn_filter_pose(f, &pose, P, NULL));
+        assert_ok(cairn_filter_base_pose(f, &base, B, NULL));
+        assert_ok(cairn_filter_local_pose(f, &local, L, NULL));
+        assert_ok(cairn_pose_compose(&base, &local, &expected, NULL));
         for (int i = 0; i < 3; ++i) assert_near(pose.position[i], expected.position[i], 1e-12);
         for (int i = 0; i < 4; ++i) assert_near(pose.quaternion[i], expected.quaternion[i], 1e-12);
         rotation_matrix(base.quaternion, R);
@@ -185,18 +185,18 @@ static void the_list_of_submaps(void** state) {
     size_t needed = 0;
     for (size_t i = 0; i < count; ++i) {
       cairn_pose base;
-      assert_ok(cairn_filter_submap(f, i, &base, NULL, 0, &needed));
+      assert_ok(cairn_filter_submap(f, i, &base, NULL, 0, &needed, NULL));
       assert_true(needed >= 7 && needed <= LENGTH(ids));
       memset(ids, 0xa5, sizeof ids), memset(canary, 0xa5, sizeof canary);
       const size_t whole = needed;
-      assert_status(cairn_filter_submap(f, i, NULL, ids, whole - 1, &needed), CAIRN_ERROR_BUFFER);
+      assert_status(cairn_filter_submap(f, i, NULL, ids, whole - 1, &needed, NULL), CAIRN_ERROR_BUFFER);
       assert_int_equal(needed, whole);
       assert_memory_equal(ids, canary, sizeof ids);
-      assert_ok(cairn_filter_submap(f, i, NULL, ids, whole, &needed));
+      assert_ok(cairn_filter_submap(f, i, NULL, ids, whole, &needed, NULL));
       assert_memory_equal(ids + whole, canary, (LENGTH(ids) - whole) * sizeof ids[0]);
       for (size_t a = 0; a < whole; ++a) {
         cairn_landmark l;
-        assert_ok(cairn_map_landmark(cairn_filter_map(f), ids[a], &l));
+        assert_ok(cairn_map_landmark(cairn_filter_map(f), ids[a], &l, NULL));
         held[ids[a]] = true;
         for (size_t b = 0; b < a; ++b) assert_int_not_equal(ids[a], ids[b]);
       }
@@ -208,7 +208,7 @@ static void the_list_of_submaps(void** state) {
     size_t in_list = 0;
     for (size_t i = 0; i < LENGTH(held); ++i) in_list += held[i];
     assert_int_equal(in_list, landmarks_of(cairn_filter_map(f)));
-    assert_status(cairn_filter_submap(f, count, NULL, NULL, 0, &needed), CAIRN_ERROR_NOT_FOUND);
+    assert_status(cairn_filter_submap(f, count, NULL, NULL, 0, &needed, NULL), CAIRN_ERROR_NOT_FOUND);
     cairn_filter_destroy(f);
   }
 }
@@ -225,7 +225,7 @@ static void maps_while_a_submap_is_open(void** state) {
     const size_t first = landmarks_of(cairn_filter_local_map(f));
     assert_true(first > 3);
     assert_int_equal(landmarks_of(cairn_filter_map(f)), 0);
-    assert_ok(cairn_filter_close_submap(f));
+    assert_ok(cairn_filter_close_submap(f, NULL));
     assert_int_equal(landmarks_of(cairn_filter_map(f)), first);
     assert_int_equal(landmarks_of(cairn_filter_local_map(f)), 0);
     ring_drive(&course, &f, 1, 25);
@@ -234,27 +234,27 @@ static void maps_while_a_submap_is_open(void** state) {
     cairn_pose base;
     size_t n = 0, fresh = 0, needed = 0;
     double joint[81];
-    assert_ok(cairn_map_landmarks(cairn_filter_local_map(f), l, LENGTH(l), &n));
-    assert_ok(cairn_filter_base_pose(f, &base, NULL));
+    assert_ok(cairn_map_landmarks(cairn_filter_local_map(f), l, LENGTH(l), &n, NULL));
+    assert_ok(cairn_filter_base_pose(f, &base, NULL, NULL));
     for (size_t i = 0; i < n; ++i) {
       double there[3], truth[3];
       cairn_landmark known;
-      assert_ok(cairn_pose_apply(&base, l[i].position, there));
+      assert_ok(cairn_pose_apply(&base, l[i].position, there, NULL));
       ring_landmark((unsigned)l[i].id - 1, truth);
       for (int k = 0; k < 3; ++k) assert_near(there[k], truth[k], 0.8);
-      if (cairn_map_landmark(cairn_filter_map(f), l[i].id, &known) == CAIRN_OK) continue;
+      if (cairn_map_landmark(cairn_filter_map(f), l[i].id, &known, NULL) == CAIRN_OK) continue;
       ++fresh; /* not yet in the map, so the map does not know it */
-      assert_status(cairn_filter_joint_covariance(f, &l[i].id, 1, joint, LENGTH(joint), &needed),
+      assert_status(cairn_filter_joint_covariance(f, &l[i].id, 1, joint, LENGTH(joint), &needed, NULL),
                     CAIRN_ERROR_NOT_FOUND);
     }
     assert_true(fresh > 3);
     /* Removed from both. */
-    assert_ok(cairn_filter_remove_landmark(f, l[0].id));
+    assert_ok(cairn_filter_remove_landmark(f, l[0].id, NULL));
     assert_int_equal(landmarks_of(cairn_filter_local_map(f)), n - 1);
-    assert_status(cairn_map_landmark(cairn_filter_local_map(f), l[0].id, &l[1]), CAIRN_ERROR_NOT_FOUND);
-    assert_status(cairn_map_landmark(cairn_filter_map(f), l[0].id, &l[1]), CAIRN_ERROR_NOT_FOUND);
-    assert_ok(cairn_filter_close_submap(f));
-    assert_status(cairn_map_landmark(cairn_filter_map(f), l[0].id, &l[1]), CAIRN_ERROR_NOT_FOUND);
+    assert_status(cairn_map_landmark(cairn_filter_local_map(f), l[0].id, &l[1], NULL), CAIRN_ERROR_NOT_FOUND);
+    assert_status(cairn_map_landmark(cairn_filter_map(f), l[0].id, &l[1], NULL), CAIRN_ERROR_NOT_FOUND);
+    assert_ok(cairn_filter_close_submap(f, NULL));
+    assert_status(cairn_map_landmark(cairn_filter_map(f), l[0].id, &l[1], NULL), CAIRN_ERROR_NOT_FOUND);
     cairn_filter_destroy(f);
   }
 }
@@ -271,16 +271,16 @@ static void a_single_map_has_no_submaps(void** state) {
   cairn_filter* f = ring_filter(&o);
   ring_drive(&course, &f, 1, 20);
   assert_int_equal(submaps_of(f), 0);
-  assert_ok(cairn_filter_pose(f, &pose, P));
-  assert_ok(cairn_filter_local_pose(f, &local, L));
-  assert_ok(cairn_filter_base_pose(f, &base, B));
+  assert_ok(cairn_filter_pose(f, &pose, P, NULL));
+  assert_ok(cairn_filter_local_pose(f, &local, L, NULL));
+  assert_ok(cairn_filter_base_pose(f, &base, B, NULL));
   assert_memory_equal(&pose, &local, sizeof pose);
   assert_memory_equal(P, L, sizeof P);
   const cairn_pose identity = {{0, 0, 0}, {1, 0, 0, 0}};
   assert_memory_equal(&base, &identity, sizeof base);
   for (int i = 0; i < 36; ++i) assert_true(B[i] == 0);
   assert_int_equal(landmarks_of(cairn_filter_map(f)), landmarks_of(cairn_filter_local_map(f)));
-  assert_status(cairn_filter_submap(f, 0, NULL, NULL, 0, &needed), CAIRN_ERROR_NOT_FOUND);
+  assert_status(cairn_filter_submap(f, 0, NULL, NULL, 0, &needed, NULL), CAIRN_ERROR_NOT_FOUND);
   const cairn_closing_report r = last_closing(f);
   memset(&none, 0, sizeof none);
   none.struct_size = r.struct_size;
@@ -301,12 +301,12 @@ static void structs_of_older_versions(void** state) {
   ring_init(&course, 11);
   const size_t old = offsetof(cairn_filter_options, submap_landmarks);
   memset(&u, 0xa5, sizeof u);
-  assert_ok(cairn_filter_options_init(&u.options, old));
+  assert_ok(cairn_filter_options_init(&u.options, old, NULL));
   for (size_t i = old; i < sizeof u; ++i) assert_int_equal(u.bytes[i], 0xa5);
   u.options.max_landmarks = RING_LANDMARKS;
   cairn_filter* f = ring_filter(&u.options); /* with 0xa5a5a5a5 in the place of submap_landmarks */
   ring_drive(&course, &f, 1, 3);
-  assert_status(cairn_filter_close_submap(f), CAIRN_ERROR_STATE);
+  assert_status(cairn_filter_close_submap(f, NULL), CAIRN_ERROR_STATE);
   cairn_filter_destroy(f);
 
   const cairn_filter_options o = ring_options(&course, 7, CAIRN_JOIN_AUTO);
@@ -319,7 +319,7 @@ static void structs_of_older_versions(void** state) {
   for (size_t k = 0; k < LENGTH(sizes); ++k) {
     memset(&u, 0xa5, sizeof u);
     u.report.struct_size = (uint32_t)sizes[k];
-    assert_ok(cairn_filter_last_closing(f, &u.report));
+    assert_ok(cairn_filter_last_closing(f, &u.report, NULL));
     assert_memory_equal(u.bytes + sizeof(uint32_t), (const unsigned char*)&whole + sizeof(uint32_t),
                         sizes[k] - sizeof(uint32_t));
     for (size_t i = sizes[k]; i < sizeof u; ++i) assert_int_equal(u.bytes[i], 0xa5);
@@ -342,11 +342,11 @@ static void pose_and_map_jointly(void** state) {
     const cairn_map* map = cairn_filter_map(f);
     cairn_pose pose;
     double P[36], joint[225], of_map[81];
-    assert_ok(cairn_filter_pose(f, &pose, P));
-    assert_ok(cairn_map_nearest(map, pose.position, 3, some, 3, &needed));
+    assert_ok(cairn_filter_pose(f, &pose, P, NULL));
+    assert_ok(cairn_map_nearest(map, pose.position, 3, some, 3, &needed, NULL));
     const uint64_t ids[3] = {some[0].id, some[1].id, some[2].id};
-    assert_ok(cairn_filter_joint_covariance(f, ids, 3, joint, LENGTH(joint), &needed));
-    assert_ok(cairn_map_joint_covariance(map, ids, 3, of_map, LENGTH(of_map), &needed));
+    assert_ok(cairn_filter_joint_covariance(f, ids, 3, joint, LENGTH(joint), &needed, NULL));
+    assert_ok(cairn_map_joint_covariance(map, ids, 3, of_map, LENGTH(of_map), &needed, NULL));
     for (int r = 0; r < 15; ++r)
       for (int c = 0; c < 15; ++c) {
         const double scale = sqrt(joint[16 * r] * joint[16 * c]);
@@ -370,7 +370,7 @@ static void auto_picks_by_capacity(void** state) {
     for (int32_t join = CAIRN_JOIN_AUTO; join <= CAIRN_JOIN_SPARSE; ++join) {
       cairn_filter_options o = ring_options(&course, 7, join);
       o.max_landmarks = large ? 101 : 100;
-      assert_ok(cairn_filter_required_bytes(&o, &bytes[join]));
+      assert_ok(cairn_filter_required_bytes(&o, &bytes[join], NULL));
       f[join] = ring_filter(&o);
     }
     ring_drive(&course, f, 3, 40);
@@ -398,8 +398,8 @@ static void the_same_bits_twice(void** state) {
       for (unsigned step = 0; step < 2 * RING_STEPS; ++step) {
         cairn_landmark l;
         ring_drive(&course, f, 2, 1);
-        (void)cairn_map_landmark(cairn_filter_map(f[0]), 1 + step % RING_LANDMARKS,
-                                 &l); /* one filter is queried, the other is not */
+        (void)cairn_map_landmark(cairn_filter_map(f[0]), 1 + step % RING_LANDMARKS, &l,
+                                 NULL); /* one filter is queried, the other is not */
         if (step % 10 != 9) continue;
         submaps_take(&a, f[0]);
         submaps_take(&b, f[1]);
@@ -427,10 +427,10 @@ static void submaps_and_a_single_map_agree(void** state) {
     for (int i = 0; i < 3; ++i) {
       size_t n = 0;
       double nees = 0;
-      if (i > 0) (void)cairn_filter_close_submap(f[i]);
-      assert_ok(cairn_map_landmarks(cairn_filter_map(f[i]), l[i], RING_LANDMARKS, &n));
+      if (i > 0) (void)cairn_filter_close_submap(f[i], NULL);
+      assert_ok(cairn_map_landmarks(cairn_filter_map(f[i]), l[i], RING_LANDMARKS, &n, NULL));
       assert_int_equal(n, RING_LANDMARKS);
-      assert_ok(cairn_filter_pose_nees(f[i], &course.truth, &nees));
+      assert_ok(cairn_filter_pose_nees(f[i], &course.truth, &nees, NULL));
       assert_true(nees > 0 && nees < 25);
     }
     for (int i = 1; i < 3; ++i)

@@ -19,7 +19,7 @@ void check_status(cairn_status actual, cairn_status expected, const char* call, 
 
 cairn_filter_options test_options(void) {
   cairn_filter_options options;
-  assert_ok(cairn_filter_options_init(&options, sizeof options));
+  assert_ok(cairn_filter_options_init(&options, sizeof options, NULL));
   options.max_landmarks = WORLD_LANDMARKS;
   options.max_observations = WORLD_LANDMARKS;
   options.max_sensors = SENSORS;
@@ -35,12 +35,12 @@ void rig_open(rig* r, const cairn_filter_options* options) {
   const cairn_cartesian cartesian = test_cartesian();
   const cairn_custom point = test_point(), range = test_range();
   r->filter = NULL;
-  assert_ok(cairn_filter_create(options, &r->filter));
-  assert_ok(cairn_filter_add_stereo_head(r->filter, &head, &r->sensors[HEAD]));
-  assert_ok(cairn_filter_add_stereo_camera(r->filter, &camera, &r->sensors[CAMERA]));
-  assert_ok(cairn_filter_add_cartesian(r->filter, &cartesian, &r->sensors[CARTESIAN]));
-  assert_ok(cairn_filter_add_custom(r->filter, &point, &r->sensors[POINT]));
-  assert_ok(cairn_filter_add_custom(r->filter, &range, &r->sensors[RANGE]));
+  assert_ok(cairn_filter_create(options, &r->filter, NULL));
+  assert_ok(cairn_filter_add_stereo_head(r->filter, &head, &r->sensors[HEAD], NULL));
+  assert_ok(cairn_filter_add_stereo_camera(r->filter, &camera, &r->sensors[CAMERA], NULL));
+  assert_ok(cairn_filter_add_cartesian(r->filter, &cartesian, &r->sensors[CARTESIAN], NULL));
+  assert_ok(cairn_filter_add_custom(r->filter, &point, &r->sensors[POINT], NULL));
+  assert_ok(cairn_filter_add_custom(r->filter, &range, &r->sensors[RANGE], NULL));
 }
 
 void rig_close(rig* r) {
@@ -51,23 +51,24 @@ void rig_close(rig* r) {
 cairn_status rig_take(rig* r, const frame* f, cairn_match* matches) {
   double covariance[9];
   cairn_status status = CAIRN_OK;
-  if (f->motion == WHEELS) status = cairn_filter_predict_wheels(r->filter, f->dt, f->left, f->right);
-  if (f->motion == TWIST) status = cairn_filter_predict_twist(r->filter, f->dt, f->velocity, f->rate);
+  if (f->motion == WHEELS) status = cairn_filter_predict_wheels(r->filter, f->dt, f->left, f->right, NULL);
+  if (f->motion == TWIST) status = cairn_filter_predict_twist(r->filter, f->dt, f->velocity, f->rate, NULL);
   if (f->motion == INCREMENT)
-    status = cairn_filter_predict_increment(r->filter, &f->increment, f->increment_covariance);
+    status = cairn_filter_predict_increment(r->filter, &f->increment, f->increment_covariance, NULL);
   if (status == CAIRN_OK && f->sensor == HEAD)
-    status = cairn_filter_point_head(r->filter, r->sensors[HEAD], f->pan, f->stick);
+    status = cairn_filter_point_head(r->filter, r->sensors[HEAD], f->pan, f->stick, NULL);
   if (status == CAIRN_OK)
-    status = cairn_filter_update(r->filter, r->sensors[f->sensor], f->observations, f->count, matches);
+    status = cairn_filter_update(r->filter, r->sensors[f->sensor], f->observations, f->count, matches, NULL);
   if (status == CAIRN_OK && f->has_position) {
     diagonal(covariance, 3, 0.25);
-    status = cairn_filter_update_position(r->filter, f->position, covariance, NULL, NULL);
+    status = cairn_filter_update_position(r->filter, f->position, covariance, NULL, NULL, NULL);
   }
   if (status == CAIRN_OK && f->has_attitude) {
     diagonal(covariance, 3, 1e-4);
-    status = cairn_filter_update_attitude(r->filter, f->quaternion, covariance, NULL);
+    status = cairn_filter_update_attitude(r->filter, f->quaternion, covariance, NULL, NULL);
   }
-  if (status == CAIRN_OK && f->has_heading) status = cairn_filter_update_heading(r->filter, f->heading, 0.02, NULL);
+  if (status == CAIRN_OK && f->has_heading)
+    status = cairn_filter_update_heading(r->filter, f->heading, 0.02, NULL, NULL);
   return status;
 }
 
@@ -81,7 +82,7 @@ cairn_update_report last_update(const cairn_filter* filter) {
   cairn_update_report report;
   memset(&report, 0, sizeof report);
   report.struct_size = sizeof report;
-  assert_ok(cairn_filter_last_update(filter, &report));
+  assert_ok(cairn_filter_last_update(filter, &report, NULL));
   return report;
 }
 
@@ -89,8 +90,8 @@ size_t check_same_matches(const cairn_match* known, const cairn_match* found, si
   size_t matched = 0;
   for (size_t i = 0; i < count; ++i) {
     assert_int_equal(found[i].result, known[i].result);
-    if (found[i].result == CAIRN_NEW) name_of[found[i].landmark] = known[i].landmark;
-    if (found[i].result != CAIRN_MATCHED) continue;
+    if (found[i].result == CAIRN_RESULT_NEW) name_of[found[i].landmark] = known[i].landmark;
+    if (found[i].result != CAIRN_RESULT_MATCHED) continue;
     assert_int_equal(name_of[found[i].landmark], known[i].landmark);
     ++matched;
   }
@@ -98,10 +99,10 @@ size_t check_same_matches(const cairn_match* known, const cairn_match* found, si
 }
 
 int check_one_of_two_matches(const cairn_match matches[2]) {
-  const int matched = matches[0].result == CAIRN_MATCHED ? 0 : 1, refused = 1 - matched;
-  assert_int_equal(matches[matched].result, CAIRN_MATCHED);
+  const int matched = matches[0].result == CAIRN_RESULT_MATCHED ? 0 : 1, refused = 1 - matched;
+  assert_int_equal(matches[matched].result, CAIRN_RESULT_MATCHED);
   assert_int_equal(matches[matched].landmark, matched);
-  assert_int_equal(matches[refused].result, CAIRN_REJECTED);
+  assert_int_equal(matches[refused].result, CAIRN_RESULT_REJECTED);
   assert_int_equal(matches[refused].reason, CAIRN_REASON_AMBIGUOUS);
   assert_int_equal(matches[refused].landmark, refused);
   assert_true(matches[refused].distance < matches[refused].threshold);
@@ -111,8 +112,8 @@ int check_one_of_two_matches(const cairn_match matches[2]) {
 void check_same_pose(const cairn_filter* a, const cairn_filter* b) {
   cairn_pose pose_a, pose_b;
   double covariance_a[36], covariance_b[36];
-  assert_ok(cairn_filter_pose(a, &pose_a, covariance_a));
-  assert_ok(cairn_filter_pose(b, &pose_b, covariance_b));
+  assert_ok(cairn_filter_pose(a, &pose_a, covariance_a, NULL));
+  assert_ok(cairn_filter_pose(b, &pose_b, covariance_b, NULL));
   assert_memory_equal(&pose_a, &pose_b, sizeof pose_a);
   assert_memory_equal(covariance_a, covariance_b, sizeof covariance_a);
 }
@@ -121,7 +122,7 @@ void snapshot_take(snapshot* s, const cairn_filter* filter) {
   const cairn_map* map = cairn_filter_map(filter);
   size_t n = 0, needed = 0;
   assert_non_null(map);
-  assert_ok(cairn_map_size(map, &n));
+  assert_ok(cairn_map_size(map, &n, NULL));
   const size_t side = 6 + 3 * n;
   const size_t head = sizeof(cairn_pose) + 36 * sizeof(double) + sizeof(cairn_update_report);
   snapshot_free(s);
@@ -132,18 +133,18 @@ void snapshot_take(snapshot* s, const cairn_filter* filter) {
   cairn_pose pose;
   double covariance[36];
   const cairn_update_report report = last_update(filter);
-  assert_ok(cairn_filter_pose(filter, &pose, covariance));
+  assert_ok(cairn_filter_pose(filter, &pose, covariance, NULL));
   memcpy(s->bytes, &pose, sizeof pose);
   memcpy(s->bytes + sizeof pose, covariance, sizeof covariance);
   memcpy(s->bytes + sizeof pose + sizeof covariance, &report, sizeof report);
   cairn_landmark* landmarks = (cairn_landmark*)(void*)(s->bytes + head);
-  assert_ok(cairn_map_landmarks(map, n == 0 ? NULL : landmarks, n, &needed));
+  assert_ok(cairn_map_landmarks(map, n == 0 ? NULL : landmarks, n, &needed, NULL));
   assert_int_equal(needed, n);
   uint64_t* ids = calloc(n + 1, sizeof *ids);
   assert_non_null(ids);
   for (size_t i = 0; i < n; ++i) ids[i] = landmarks[i].id;
   double* joint = (double*)(void*)(s->bytes + head + n * sizeof(cairn_landmark));
-  assert_ok(cairn_filter_joint_covariance(filter, n == 0 ? NULL : ids, n, joint, side * side, &needed));
+  assert_ok(cairn_filter_joint_covariance(filter, n == 0 ? NULL : ids, n, joint, side * side, &needed, NULL));
   assert_int_equal(needed, side * side);
   free(ids);
 }
@@ -215,9 +216,9 @@ void refusal_expected(bench* b, const char* name) {
   double rest[3];
   size_t count;
   if (strstr(name, "map") == NULL)
-    assert_status(cairn_map_size(NULL, &count), CAIRN_ERROR_ARGUMENT);
+    assert_status(cairn_map_size(NULL, &count, NULL), CAIRN_ERROR_ARGUMENT);
   else
-    assert_status(cairn_quaternion_log(NULL, rest), CAIRN_ERROR_ARGUMENT);
+    assert_status(cairn_quaternion_log(NULL, rest, NULL), CAIRN_ERROR_ARGUMENT);
   if (b != NULL) snapshot_take(&b->before, b->main.filter);
 }
 

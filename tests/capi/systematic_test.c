@@ -17,7 +17,7 @@ static void landmark_at(int i, double out[3]) {
 
 static cairn_filter_options biased_options(void) {
   cairn_filter_options o;
-  assert_ok(cairn_filter_options_init(&o, sizeof o));
+  assert_ok(cairn_filter_options_init(&o, sizeof o, NULL));
   o.max_landmarks = LANDMARKS;
   o.max_observations = LANDMARKS;
   for (int i = 0; i < 3; ++i) {
@@ -37,17 +37,17 @@ static cairn_filter* drive(const cairn_filter_options* options, bool calibrate, 
   int32_t number = -1;
   double mount_quaternion[4] = {1, kMountTurn[0] / 2, kMountTurn[1] / 2, kMountTurn[2] / 2};
   double length = 0;
-  assert_ok(cairn_filter_create(options, &filter));
-  assert_ok(cairn_cartesian_init(&sensor, sizeof sensor));
-  assert_ok(cairn_filter_add_cartesian(filter, &sensor, &number));
-  assert_ok(cairn_twist_noise_init(&noise, sizeof noise));
+  assert_ok(cairn_filter_create(options, &filter, NULL));
+  assert_ok(cairn_cartesian_init(&sensor, sizeof sensor, NULL));
+  assert_ok(cairn_filter_add_cartesian(filter, &sensor, &number, NULL));
+  assert_ok(cairn_twist_noise_init(&noise, sizeof noise, NULL));
   for (int i = 0; i < 3; ++i) noise.velocity_sigma[i] = 0.02, noise.rate_sigma[i] = 0.002;
-  assert_ok(cairn_filter_set_twist_noise(filter, &noise));
+  assert_ok(cairn_filter_set_twist_noise(filter, &noise, NULL));
   if (calibrate) {
     cairn_calibration calibration;
-    assert_ok(cairn_calibration_init(&calibration, sizeof calibration));
+    assert_ok(cairn_calibration_init(&calibration, sizeof calibration, NULL));
     for (int i = 0; i < 3; ++i) calibration.mount_turn_sigma[i] = 0.03;
-    assert_ok(cairn_filter_calibrate_sensor(filter, number, &calibration));
+    assert_ok(cairn_filter_calibrate_sensor(filter, number, &calibration, NULL));
   }
   for (int i = 0; i < 4; ++i) length += mount_quaternion[i] * mount_quaternion[i];
   for (int i = 0; i < 4; ++i) mount_quaternion[i] /= sqrt(length);
@@ -60,21 +60,21 @@ static cairn_filter* drive(const cairn_filter_options* options, bool calibrate, 
     cairn_filter* guide = NULL; /* integrates the truth */
     cairn_filter_options plain;
     cairn_pose mount = {{0, 0, 0}, {1, 0, 0, 0}}, sensor_pose;
-    assert_ok(cairn_filter_options_init(&plain, sizeof plain));
+    assert_ok(cairn_filter_options_init(&plain, sizeof plain, NULL));
     plain.max_landmarks = plain.max_observations = 1;
     plain.initial_pose = *truth;
-    assert_ok(cairn_filter_create(&plain, &guide));
-    assert_ok(cairn_filter_predict_twist(guide, 0.5, v, w));
-    assert_ok(cairn_filter_pose(guide, truth, NULL));
+    assert_ok(cairn_filter_create(&plain, &guide, NULL));
+    assert_ok(cairn_filter_predict_twist(guide, 0.5, v, w, NULL));
+    assert_ok(cairn_filter_pose(guide, truth, NULL, NULL));
     cairn_filter_destroy(guide);
     for (int i = 0; i < 3; ++i) {
       measured_v[i] = v[i] + kVelocityBias[i] + random_normal(&random, 0.02);
       measured_w[i] = w[i] + kRateBias[i] + random_normal(&random, 0.002);
     }
-    assert_ok(cairn_filter_predict_twist(filter, 0.5, measured_v, measured_w));
+    assert_ok(cairn_filter_predict_twist(filter, 0.5, measured_v, measured_w, NULL));
     memset(seen, 0, sizeof seen);
     memcpy(mount.quaternion, mount_quaternion, sizeof mount_quaternion);
-    assert_ok(cairn_pose_compose(truth, &mount, &sensor_pose));
+    assert_ok(cairn_pose_compose(truth, &mount, &sensor_pose, NULL));
     for (int i = 0; i < LANDMARKS; ++i) {
       double landmark[3];
       landmark_at(i, landmark);
@@ -82,7 +82,7 @@ static cairn_filter* drive(const cairn_filter_options* options, bool calibrate, 
       to_body(calibrate ? &sensor_pose : truth, landmark, seen[i].z);
       for (int d = 0; d < 3; ++d) seen[i].z[d] += random_normal(&random, 0.1);
     }
-    assert_ok(cairn_filter_update(filter, number, seen, LANDMARKS, NULL));
+    assert_ok(cairn_filter_update(filter, number, seen, LANDMARKS, NULL, NULL));
   }
   return filter;
 }
@@ -94,15 +94,15 @@ static void nothing_is_on_by_default(void** state) {
   size_t needed = 77;
   (void)state;
   memset(&c, 0x5a, sizeof c);
-  assert_ok(cairn_calibration_init(&c, sizeof c));
+  assert_ok(cairn_calibration_init(&c, sizeof c, NULL));
   assert_int_equal(c.struct_size, sizeof c);
   for (int i = 0; i < 3; ++i) {
     assert_near(c.mount_shift_sigma[i] + c.mount_shift_walk[i] + c.mount_turn_sigma[i], 0, 0);
     assert_near(c.mount_turn_walk[i] + c.offset_sigma[i] + c.offset_walk[i], 0, 0);
   }
-  assert_ok(cairn_filter_options_init(&o, sizeof o));
-  assert_ok(cairn_filter_create(&o, &filter));
-  assert_ok(cairn_filter_systematic_errors(filter, NULL, NULL, 0, &needed));
+  assert_ok(cairn_filter_options_init(&o, sizeof o, NULL));
+  assert_ok(cairn_filter_create(&o, &filter, NULL));
+  assert_ok(cairn_filter_systematic_errors(filter, NULL, NULL, 0, &needed, NULL));
   assert_int_equal(needed, 0);
   cairn_filter_destroy(filter);
 }
@@ -121,9 +121,9 @@ static void errors_are_found(void** state) {
     o.join = way == 1 ? CAIRN_JOIN_DENSE : CAIRN_JOIN_SPARSE;
     if (way > 0) o.submap_distance = 8;
     filter = drive(&o, true, &truth);
-    assert_status(cairn_filter_systematic_errors(filter, errors, covariance, 8, &needed), CAIRN_ERROR_BUFFER);
+    assert_status(cairn_filter_systematic_errors(filter, errors, covariance, 8, &needed, NULL), CAIRN_ERROR_BUFFER);
     assert_int_equal(needed, 9);
-    assert_ok(cairn_filter_systematic_errors(filter, errors, covariance, 9, &needed));
+    assert_ok(cairn_filter_systematic_errors(filter, errors, covariance, 9, &needed, NULL));
     for (int i = 0; i < 9; ++i) {
       const double* expected = i < 3 ? kVelocityBias : i < 6 ? kRateBias : kMountTurn;
       const double prior = i < 3 ? 0.15 : i < 6 ? 0.005 : 0.03;
@@ -137,16 +137,16 @@ static void errors_are_found(void** state) {
       assert_true(errors[i].sigma < 0.5 * prior);
       assert_near(errors[i].value, expected[i % 3], 4 * errors[i].sigma);
     }
-    assert_ok(cairn_filter_pose(filter, &pose, pose_covariance));
-    assert_ok(cairn_pose_error(&truth, &pose, error));
+    assert_ok(cairn_filter_pose(filter, &pose, pose_covariance, NULL));
+    assert_ok(cairn_pose_error(&truth, &pose, error, NULL));
     for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 4 * sqrt(pose_covariance[7 * i]));
     if (way == 0) { /* the calibration made the map of the handle anew */
       size_t landmarks = 0;
-      assert_ok(cairn_map_size(cairn_filter_map(filter), &landmarks));
+      assert_ok(cairn_map_size(cairn_filter_map(filter), &landmarks, NULL));
       assert_int_equal(landmarks, LANDMARKS);
     } else {
       size_t landmarks = 0;
-      assert_ok(cairn_map_size(cairn_filter_map(filter), &landmarks));
+      assert_ok(cairn_map_size(cairn_filter_map(filter), &landmarks, NULL));
       assert_true(landmarks > 0);
     }
     cairn_filter_destroy(filter);
@@ -155,7 +155,7 @@ static void errors_are_found(void** state) {
 
 static void refuse_options(const cairn_filter_options* options, const char* name) {
   cairn_filter* filter = NULL;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, name, cairn_filter_create(options, &filter));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, name, cairn_filter_create(options, &filter, NULL));
   assert_null(filter);
 }
 
@@ -215,12 +215,13 @@ static void an_increment_has_no_duration(void** state) {
   diagonal(covariance, 6, 1e-4);
   o.velocity_bias_sigma[1] = 0.1;
   bench_open(&b, &o, 0);
-  assert_refused(&b, CAIRN_ERROR_STATE, "increment", cairn_filter_predict_increment(b.main.filter, &step, covariance));
+  assert_refused(&b, CAIRN_ERROR_STATE, "increment",
+                 cairn_filter_predict_increment(b.main.filter, &step, covariance, NULL));
   bench_close(&b);
   o = test_options(); /* a scale of the wheels is no matter of an increment */
   o.wheel_scale_sigma[0] = 0.1;
   bench_open(&b, &o, 0);
-  assert_ok(cairn_filter_predict_increment(b.main.filter, &step, covariance));
+  assert_ok(cairn_filter_predict_increment(b.main.filter, &step, covariance, NULL));
   bench_close(&b);
 }
 
@@ -231,51 +232,52 @@ static void bad_calibrations_are_refused(void** state) {
   (void)state;
   o.max_sensor_errors = 4;
   bench_open(&b, &o, 0);
-  assert_ok(cairn_calibration_init(&good, sizeof good));
+  assert_ok(cairn_calibration_init(&good, sizeof good, NULL));
   c = good;
   c.mount_turn_sigma[1] = -1;
   assert_refused(&b, CAIRN_ERROR_ARGUMENT, "mount_turn_sigma[1]",
-                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c));
+                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c, NULL));
   c = good;
   c.offset_walk[2] = 1;
   assert_refused(&b, CAIRN_ERROR_ARGUMENT, "offset_walk[2]",
-                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c));
+                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c, NULL));
   c = good;
   c.mount_shift_sigma[0] = NAN;
   assert_refused(&b, CAIRN_ERROR_ARGUMENT, "mount_shift_sigma[0]",
-                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c));
+                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c, NULL));
   bench_close(&b);
 
   bench_open(&b, &o, 0); /* each refusal moves the bench, and only a filter that stands can be calibrated */
   c = good;
   c.offset_sigma[1] = 0.1;
   assert_refused(&b, CAIRN_ERROR_ARGUMENT, "offset_sigma[1]",
-                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[RANGE], &c));
-  assert_refused(&b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_calibrate_sensor(b.main.filter, SENSORS, &c));
+                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[RANGE], &c, NULL));
+  assert_refused(&b, CAIRN_ERROR_NOT_FOUND, "sensor", cairn_filter_calibrate_sensor(b.main.filter, SENSORS, &c, NULL));
   assert_refused(&b, CAIRN_ERROR_ARGUMENT, "calibration",
-                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], NULL));
+                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], NULL, NULL));
   bench_close(&b);
 
   bench_open(&b, &o, 0);
   c = good;
   for (int i = 0; i < 3; ++i) c.mount_shift_sigma[i] = c.mount_turn_sigma[i] = 0.1;
   assert_refused(&b, CAIRN_ERROR_CAPACITY, "max_sensor_errors",
-                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c));
+                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c, NULL));
   bench_close(&b);
 
   bench_open(&b, &o, 1); /* too late */
   c = good;
   c.mount_turn_sigma[0] = 0.1;
   assert_refused(&b, CAIRN_ERROR_STATE, "calibrate",
-                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c));
+                 cairn_filter_calibrate_sensor(b.main.filter, b.main.sensors[HEAD], &c, NULL));
   bench_close(&b);
 
   rig r;
   rig_open(&r, &o);
-  assert_ok(cairn_filter_calibrate_sensor(r.filter, r.sensors[HEAD], &c));
-  assert_refused(NULL, CAIRN_ERROR_STATE, "already", cairn_filter_calibrate_sensor(r.filter, r.sensors[HEAD], &c));
+  assert_ok(cairn_filter_calibrate_sensor(r.filter, r.sensors[HEAD], &c, NULL));
+  assert_refused(NULL, CAIRN_ERROR_STATE, "already",
+                 cairn_filter_calibrate_sensor(r.filter, r.sensors[HEAD], &c, NULL));
   size_t needed = 0;
-  assert_ok(cairn_filter_systematic_errors(r.filter, NULL, NULL, 0, &needed));
+  assert_ok(cairn_filter_systematic_errors(r.filter, NULL, NULL, 0, &needed, NULL));
   assert_int_equal(needed, 1);
   rig_close(&r);
 }
@@ -289,16 +291,17 @@ static void wheels_with_a_gyro(void** state) {
   cairn_pose pose;
   (void)state;
   o.initial_pose = pose_at(0, 0, 0, 0, 0, 0);
-  assert_ok(cairn_filter_create(&o, &filter));
-  assert_ok(cairn_filter_predict_wheels_gyro(filter, 0.5, 2, 2, rate)); /* radius 0.3: 0.6 m/s */
-  assert_ok(cairn_filter_pose(filter, &pose, NULL));
+  assert_ok(cairn_filter_create(&o, &filter, NULL));
+  assert_ok(cairn_filter_predict_wheels_gyro(filter, 0.5, 2, 2, rate, NULL)); /* radius 0.3: 0.6 m/s */
+  assert_ok(cairn_filter_pose(filter, &pose, NULL, NULL));
   assert_near(2 * atan2(pose.quaternion[3], pose.quaternion[0]), 0.2, 1e-12);
   assert_near(hypot(pose.position[0], pose.position[1]), 0.6 / 0.4 * 2 * sin(0.1), 1e-12);
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rate", cairn_filter_predict_wheels_gyro(filter, 0.5, 2, 2, bad));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rate", cairn_filter_predict_wheels_gyro(filter, 0.5, 2, 2, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "dt", cairn_filter_predict_wheels_gyro(filter, 0, 2, 2, rate));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "left", cairn_filter_predict_wheels_gyro(filter, 1, INFINITY, 2, rate));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "right", cairn_filter_predict_wheels_gyro(filter, 1, 2, NAN, rate));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rate", cairn_filter_predict_wheels_gyro(filter, 0.5, 2, 2, bad, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rate", cairn_filter_predict_wheels_gyro(filter, 0.5, 2, 2, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "dt", cairn_filter_predict_wheels_gyro(filter, 0, 2, 2, rate, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "left",
+                 cairn_filter_predict_wheels_gyro(filter, 1, INFINITY, 2, rate, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "right", cairn_filter_predict_wheels_gyro(filter, 1, 2, NAN, rate, NULL));
   cairn_filter_destroy(filter);
 }
 

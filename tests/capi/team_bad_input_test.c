@@ -8,7 +8,7 @@ static cairn_status try_create(const cairn_team_options* options, const cairn_fi
                                const cairn_range_bearing* radar) {
   cairn_team* const untouched = (cairn_team*)(void*)&filter;
   cairn_team* team = untouched;
-  const cairn_status status = cairn_team_create(options, filter, radar, &team);
+  const cairn_status status = cairn_team_create(options, filter, radar, &team, NULL);
   if (status != CAIRN_OK)
     assert_ptr_equal(team, untouched); /* not written */
   else
@@ -109,7 +109,7 @@ static void options_that_do_not_go_together(void** state) {
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options", try_create(NULL, &good, &radar));
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options", try_create(&o, NULL, &radar));
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "NULL", try_create(&o, &good, NULL));
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_create(&o, &good, &radar, NULL));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_create(&o, &good, &radar, NULL, NULL));
   }
   const cairn_team_options submaps = team_options(CAIRN_TEAM_SUBMAPS, 1);
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "submap_landmarks", try_create(&submaps, &good, &radar));
@@ -124,13 +124,13 @@ static void structs_of_other_sizes(void** state) {
   cairn_team_options good = team_options(CAIRN_TEAM_JOINT, 1);
   cairn_team* team = NULL;
   (void)state;
-  assert_ok(cairn_team_create(&good, &filter, &radar, &team));
+  assert_ok(cairn_team_create(&good, &filter, &radar, &team, NULL));
   for (uint32_t size = 0; size < sizeof(cairn_team_report) + 40; ++size) {
     unsigned char buffer[sizeof(cairn_team_report) + 48];
     memset(buffer, 0xa5, sizeof buffer);
     const bool fine = size >= 8;
     const cairn_status expected = fine ? CAIRN_OK : CAIRN_ERROR_ARGUMENT;
-    assert_status(cairn_team_options_init((cairn_team_options*)(void*)buffer, size), expected);
+    assert_status(cairn_team_options_init((cairn_team_options*)(void*)buffer, size, NULL), expected);
     for (size_t i = fine ? size : 0; i < sizeof buffer; ++i) assert_int_equal(buffer[i], 0xa5);
     if (fine) { /* in a buffer of its own, so that nothing behind it can be read */
       void* exact = malloc(size);
@@ -141,12 +141,12 @@ static void structs_of_other_sizes(void** state) {
     }
     memset(buffer, 0xa5, sizeof buffer);
     memcpy(buffer, &size, sizeof size);
-    assert_status(cairn_team_last_report(team, (cairn_team_report*)(void*)buffer), expected);
+    assert_status(cairn_team_last_report(team, (cairn_team_report*)(void*)buffer, NULL), expected);
     const size_t written = !fine ? sizeof size : size < sizeof(cairn_team_report) ? size : sizeof(cairn_team_report);
     for (size_t i = written; i < sizeof buffer; ++i) assert_int_equal(buffer[i], 0xa5);
   }
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options", cairn_team_options_init(NULL, sizeof good));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "report", cairn_team_last_report(team, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options", cairn_team_options_init(NULL, sizeof good, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "report", cairn_team_last_report(team, NULL, NULL));
   good.struct_size = UINT32_MAX;
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options", try_create(&good, &filter, &radar));
   cairn_team_destroy(team);
@@ -164,38 +164,39 @@ static void members(void** state) {
   uint64_t numbers[4] = {77, 77, 77, 77};
   size_t needed = 99;
   diagonal(covariance, 6, 1e-2);
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, 1, &start, covariance)); /* this vehicle */
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, 1, NULL, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, 2, &start, covariance)); /* twice */
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, CAIRN_ID_NONE, &start, covariance));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle",
+                 cairn_team_add(s.a, 1, &start, covariance, NULL)); /* this vehicle */
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, 1, NULL, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, 2, &start, covariance, NULL)); /* twice */
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_add(s.a, CAIRN_ID_NONE, &start, covariance, NULL));
   bad.position[2] = 1;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "start", cairn_team_add(s.a, 3, &bad, covariance));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "start", cairn_team_add(s.a, 3, &bad, covariance, NULL));
   bad = start, bad.position[1] = NAN;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "start", cairn_team_add(s.a, 3, &bad, covariance));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "start", cairn_team_add(s.a, 3, &bad, covariance, NULL));
   bad = pose_at(0, 0, 0, 0, 0.1, 0);
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "start", cairn_team_add(s.a, 3, &bad, covariance));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "start", cairn_team_add(s.a, 3, &bad, covariance, NULL));
   covariance[7] = -1;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance", cairn_team_add(s.a, 3, &start, covariance));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance", cairn_team_add(s.a, 3, &start, covariance, NULL));
   covariance[7] = INFINITY;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance", cairn_team_add(s.a, 3, &start, covariance));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_add(NULL, 3, &start, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_remove(s.a, 1));
-  assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "vehicle", cairn_team_remove(s.a, 3));
-  assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "vehicle", cairn_team_remove(s.a, CAIRN_ID_NONE));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_remove(NULL, 2));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance", cairn_team_add(s.a, 3, &start, covariance, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_add(NULL, 3, &start, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicle", cairn_team_remove(s.a, 1, NULL));
+  assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "vehicle", cairn_team_remove(s.a, 3, NULL));
+  assert_refused(NULL, CAIRN_ERROR_NOT_FOUND, "vehicle", cairn_team_remove(s.a, CAIRN_ID_NONE, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_remove(NULL, 2, NULL));
   unchanged(&s);
   /* There is room for only one more. */
   diagonal(covariance, 6, 1e-2);
-  assert_ok(cairn_team_add(s.a, 3, NULL, NULL));
-  assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_vehicles", cairn_team_add(s.a, 4, &start, covariance));
-  assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_vehicles", cairn_team_add(s.a, 4, NULL, NULL));
-  assert_status(cairn_team_members(s.a, numbers, 2, &needed), CAIRN_ERROR_BUFFER);
+  assert_ok(cairn_team_add(s.a, 3, NULL, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_vehicles", cairn_team_add(s.a, 4, &start, covariance, NULL));
+  assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_vehicles", cairn_team_add(s.a, 4, NULL, NULL, NULL));
+  assert_status(cairn_team_members(s.a, numbers, 2, &needed, NULL), CAIRN_ERROR_BUFFER);
   assert_int_equal(needed, 3);
   for (int i = 0; i < 4; ++i) assert_int_equal(numbers[i], 77);
-  assert_status(cairn_team_members(s.a, numbers, 4, NULL), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_team_members(s.a, NULL, 4, &needed), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_team_members(NULL, numbers, 4, &needed), CAIRN_ERROR_ARGUMENT);
-  assert_ok(cairn_team_remove(s.a, 3));
+  assert_status(cairn_team_members(s.a, numbers, 4, NULL, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_members(s.a, NULL, 4, &needed, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_members(NULL, numbers, 4, &needed, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_ok(cairn_team_remove(s.a, 3, NULL));
   stage_close(&s);
 }
 
@@ -211,36 +212,36 @@ static void motions(void** state) {
     for (int i = 0; i < 3; ++i) {
       const double good_v = v[i], good_w = w[i], good_p = move.position[i];
       v[i] = not_finite[n];
-      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "velocity", cairn_team_predict_twist(s.a, 1, v, w, NULL));
+      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "velocity", cairn_team_predict_twist(s.a, 1, v, w, NULL, NULL));
       v[i] = good_v, w[i] = not_finite[n];
-      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rate", cairn_team_predict_twist(s.a, 1, v, w, NULL));
+      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rate", cairn_team_predict_twist(s.a, 1, v, w, NULL, NULL));
       w[i] = good_w, move.position[i] = not_finite[n];
-      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_team_predict_increment(s.a, &move, c));
+      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_team_predict_increment(s.a, &move, c, NULL));
       move.position[i] = good_p;
     }
     c[7] = not_finite[n];
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance", cairn_team_predict_increment(s.a, &move, c));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance", cairn_team_predict_increment(s.a, &move, c, NULL));
     c[7] = 1e-4;
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "dt", cairn_team_predict_twist(s.a, not_finite[n], v, w, NULL));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "dt", cairn_team_predict_twist(s.a, not_finite[n], v, w, NULL, NULL));
   }
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "dt", cairn_team_predict_twist(s.a, 0, v, w, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "dt", cairn_team_predict_twist(s.a, -1, v, w, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "velocity", cairn_team_predict_twist(s.a, 1, NULL, w, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rate", cairn_team_predict_twist(s.a, 1, v, NULL, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_predict_twist(NULL, 1, v, w, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "dt", cairn_team_predict_twist(s.a, 0, v, w, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "dt", cairn_team_predict_twist(s.a, -1, v, w, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "velocity", cairn_team_predict_twist(s.a, 1, NULL, w, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rate", cairn_team_predict_twist(s.a, 1, v, NULL, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_predict_twist(NULL, 1, v, w, NULL, NULL));
   noise.rate_sigma[2] = -1;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rate_sigma", cairn_team_predict_twist(s.a, 1, v, w, &noise));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_team_predict_increment(s.a, NULL, c));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance", cairn_team_predict_increment(s.a, &move, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_predict_increment(NULL, &move, c));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rate_sigma", cairn_team_predict_twist(s.a, 1, v, w, &noise, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_team_predict_increment(s.a, NULL, c, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance", cairn_team_predict_increment(s.a, &move, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_predict_increment(NULL, &move, c, NULL));
   move = pose_at(1, 0, 0, 0, 0.1, 0);
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_team_predict_increment(s.a, &move, c));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_team_predict_increment(s.a, &move, c, NULL));
   move = pose_at(1, 0, 0.1, 0, 0, 0);
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_team_predict_increment(s.a, &move, c));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "T_before_after", cairn_team_predict_increment(s.a, &move, c, NULL));
   move = pose_at(1, 0, 0, 0, 0, 0.1), c[35] = -1e-4;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance", cairn_team_predict_increment(s.a, &move, c));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "covariance", cairn_team_predict_increment(s.a, &move, c, NULL));
   v[0] = 1e300;
-  assert_refused(NULL, CAIRN_ERROR_NUMERICAL, "", cairn_team_predict_twist(s.a, 1e10, v, w, NULL));
+  assert_refused(NULL, CAIRN_ERROR_NUMERICAL, "", cairn_team_predict_twist(s.a, 1e10, v, w, NULL, NULL));
   stage_close(&s);
 }
 
@@ -255,17 +256,17 @@ static void too_many_motions(void** state) {
   double c[36];
   (void)state;
   diagonal(c, 6, 1e-10);
-  assert_ok(cairn_team_create(&one, &filter, &radar, &a));
-  assert_ok(cairn_team_create(&two, &filter, &radar, &b));
-  assert_ok(cairn_team_add(a, 2, &start, NULL));
-  for (int i = 0; i < 65535; ++i) assert_ok(cairn_team_predict_increment(b, &step, c));
-  assert_refused(NULL, CAIRN_ERROR_CAPACITY, "prediction", cairn_team_predict_increment(b, &step, c));
-  assert_ok(cairn_team_observe(b, 1, NULL, 0, NULL, 0));
-  assert_ok(cairn_team_predict_increment(b, &step, c));
+  assert_ok(cairn_team_create(&one, &filter, &radar, &a, NULL));
+  assert_ok(cairn_team_create(&two, &filter, &radar, &b, NULL));
+  assert_ok(cairn_team_add(a, 2, &start, NULL, NULL));
+  for (int i = 0; i < 65535; ++i) assert_ok(cairn_team_predict_increment(b, &step, c, NULL));
+  assert_refused(NULL, CAIRN_ERROR_CAPACITY, "prediction", cairn_team_predict_increment(b, &step, c, NULL));
+  assert_ok(cairn_team_observe(b, 1, NULL, 0, NULL, 0, NULL));
+  assert_ok(cairn_team_predict_increment(b, &step, c, NULL));
   letter l = take_one(b);
-  assert_ok(cairn_team_observe(a, 1, NULL, 0, NULL, 0));
+  assert_ok(cairn_team_observe(a, 1, NULL, 0, NULL, 0, NULL));
   assert_int_equal(hand_over(a, &l), CAIRN_PACKET_TAKEN);
-  assert_ok(cairn_team_pose(a, 2, &pose, NULL));
+  assert_ok(cairn_team_pose(a, 2, &pose, NULL, NULL));
   assert_near(pose.position[0], 65.535, 1e-6);
   free(l.bytes);
   cairn_team_destroy(a);
@@ -283,7 +284,7 @@ static void observations(void** state) {
   for (size_t i = 0; i < LENGTH(many); ++i) many[i].id = i, many[i].z[0] = 1000;
   teammates[0] = o[0], teammates[0].id = 2;
   teammates[1] = o[0], teammates[1].id = 3;
-#define LOOK(time, count) cairn_team_observe(s.a, (time), o, 3, teammates, (count))
+#define LOOK(time, count) cairn_team_observe(s.a, (time), o, 3, teammates, (count), NULL)
   for (size_t n = 0; n < LENGTH(not_finite); ++n) {
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "time", LOOK(not_finite[n], 2));
     for (int k = 0; k < 2; ++k) {
@@ -323,12 +324,12 @@ static void observations(void** state) {
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "time", LOOK(s.v.time[UNDER_WAY] - 1e-9, 2));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "time", LOOK(-1e300, 2));
   assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_observations",
-                 cairn_team_observe(s.a, later, many, FEATURES + BOATS + 1, NULL, 0));
+                 cairn_team_observe(s.a, later, many, FEATURES + BOATS + 1, NULL, 0, NULL));
   assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_observations",
-                 cairn_team_observe(s.a, later, many, FEATURES + BOATS - 1, teammates, 2));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmarks", cairn_team_observe(s.a, later, NULL, 1, NULL, 0));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicles", cairn_team_observe(s.a, later, NULL, 0, NULL, 1));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_observe(NULL, later, o, 3, NULL, 0));
+                 cairn_team_observe(s.a, later, many, FEATURES + BOATS - 1, teammates, 2, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmarks", cairn_team_observe(s.a, later, NULL, 1, NULL, 0, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "vehicles", cairn_team_observe(s.a, later, NULL, 0, NULL, 1, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_observe(NULL, later, o, 3, NULL, 0, NULL));
 #undef LOOK
   assert_int_equal(report_of(s.a).sent, UNDER_WAY + 1); /* nothing was sent */
   stage_close(&s);
@@ -345,9 +346,9 @@ static void absurd_counts(void** state) {
   const size_t absurd[] = {SIZE_MAX, SIZE_MAX / 2, SIZE_MAX / sizeof(cairn_observation) + 1};
   for (size_t i = 0; i < LENGTH(absurd); ++i) {
     assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_observations",
-                   cairn_team_observe(s.a, 1e6, &o, absurd[i], NULL, 0));
+                   cairn_team_observe(s.a, 1e6, &o, absurd[i], NULL, 0, NULL));
     assert_refused(NULL, CAIRN_ERROR_CAPACITY, "max_observations",
-                   cairn_team_observe(s.a, 1e6, NULL, 0, &o, absurd[i]));
+                   cairn_team_observe(s.a, 1e6, NULL, 0, &o, absurd[i], NULL));
   }
   stage_close(&s);
 }
@@ -363,43 +364,43 @@ static void questions(void** state) {
   size_t needed = 0;
   memset(&pose, 0x5a, sizeof pose);
   kept = pose;
-  assert_status(cairn_team_pose(s.a, 3, &pose, covariance), CAIRN_ERROR_NOT_FOUND);
-  assert_status(cairn_team_pose(s.a, CAIRN_ID_NONE, &pose, covariance), CAIRN_ERROR_NOT_FOUND);
-  assert_status(cairn_team_pose(NULL, 1, &pose, covariance), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_pose(s.a, 3, &pose, covariance, NULL), CAIRN_ERROR_NOT_FOUND);
+  assert_status(cairn_team_pose(s.a, CAIRN_ID_NONE, &pose, covariance, NULL), CAIRN_ERROR_NOT_FOUND);
+  assert_status(cairn_team_pose(NULL, 1, &pose, covariance, NULL), CAIRN_ERROR_ARGUMENT);
   assert_memory_equal(&pose, &kept, sizeof pose);
-  assert_ok(cairn_team_pose(s.a, 1, NULL, NULL));
+  assert_ok(cairn_team_pose(s.a, 1, NULL, NULL, NULL));
   assert_null(cairn_team_map(NULL));
-  assert_ok(cairn_team_decisions(s.a, NULL, 0, &needed));
+  assert_ok(cairn_team_decisions(s.a, NULL, 0, &needed, NULL));
   assert_true(needed > 2);
   memset(matches, 0x5a, sizeof matches);
-  assert_status(cairn_team_decisions(s.a, matches, 2, &needed), CAIRN_ERROR_BUFFER);
+  assert_status(cairn_team_decisions(s.a, matches, 2, &needed, NULL), CAIRN_ERROR_BUFFER);
   assert_int_equal(matches[0].result, 0x5a5a5a5a);
-  assert_status(cairn_team_decisions(s.a, matches, 2, NULL), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_team_decisions(NULL, matches, 2, &needed), CAIRN_ERROR_ARGUMENT);
-  assert_ok(cairn_team_take_packet(s.a, &byte, 1, &needed)); /* none is there */
+  assert_status(cairn_team_decisions(s.a, matches, 2, NULL, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_decisions(NULL, matches, 2, &needed, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_ok(cairn_team_take_packet(s.a, &byte, 1, &needed, NULL)); /* none is there */
   assert_int_equal(needed, 0);
   boat_step(s.b, &s.v, 2, UNDER_WAY + 1);
-  assert_status(cairn_team_take_packet(s.b, &byte, 1, &needed), CAIRN_ERROR_BUFFER);
+  assert_status(cairn_team_take_packet(s.b, &byte, 1, &needed, NULL), CAIRN_ERROR_BUFFER);
   assert_int_equal(byte, 0x5a);
   const size_t size = needed;
-  assert_status(cairn_team_take_packet(s.b, NULL, 1, &needed), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_team_take_packet(s.b, &byte, 1, NULL), CAIRN_ERROR_ARGUMENT);
-  assert_ok(cairn_team_take_packet(s.b, NULL, 0, &needed)); /* it is still there */
+  assert_status(cairn_team_take_packet(s.b, NULL, 1, &needed, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_take_packet(s.b, &byte, 1, NULL, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_ok(cairn_team_take_packet(s.b, NULL, 0, &needed, NULL)); /* it is still there */
   assert_int_equal(needed, size);
-  assert_status(cairn_team_take_packet(NULL, &byte, 1, &needed), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_team_receive(NULL, &byte, 1, NULL), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_team_receive(s.a, NULL, 1, NULL), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_team_leave(NULL), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_team_ask(NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_take_packet(NULL, &byte, 1, &needed, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_receive(NULL, &byte, 1, NULL, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_receive(s.a, NULL, 1, NULL, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_leave(NULL, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_ask(NULL, NULL), CAIRN_ERROR_ARGUMENT);
   pose = pose_at(0, 0, 1, 0, 0, 0);
-  assert_status(cairn_team_score(s.a, &pose), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_team_score(s.a, NULL), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_team_score(NULL, &kept), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_score(s.a, &pose, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_score(s.a, NULL, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_score(NULL, &kept, NULL), CAIRN_ERROR_ARGUMENT);
   assert_int_equal(report_of(s.a).scored, 0);
   cairn_team_report report;
   memset(&report, 0, sizeof report);
   report.struct_size = sizeof report;
-  assert_status(cairn_team_last_report(NULL, &report), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_last_report(NULL, &report, NULL), CAIRN_ERROR_ARGUMENT);
   stage_close(&s);
 }
 

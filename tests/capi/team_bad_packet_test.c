@@ -8,7 +8,7 @@ static int32_t give(stage* s, const uint8_t* bytes, size_t size) {
   uint8_t* exact = malloc(size + (size == 0));
   assert_non_null(exact);
   memcpy(exact, bytes, size);
-  assert_ok(cairn_team_receive(s->a, exact, size, &result));
+  assert_ok(cairn_team_receive(s->a, exact, size, &result, NULL));
   free(exact);
   return result;
 }
@@ -313,12 +313,12 @@ static void nameless_landmarks(void** state) {
   size_t before = 0, after = 0;
   (void)state;
   stage_open(&s);
-  assert_ok(cairn_map_size(cairn_team_map(s.a), &before));
+  assert_ok(cairn_map_size(cairn_team_map(s.a), &before, NULL));
   const int32_t result = give_content(&s, 0, NULL, 1, l, 0, NULL);
-  assert_ok(cairn_map_size(cairn_team_map(s.a), &after));
+  assert_ok(cairn_map_size(cairn_team_map(s.a), &after, NULL));
   assert_int_equal(before, after); /* no landmark may have this id */
   cairn_landmark landmark;
-  assert_status(cairn_map_landmark(cairn_team_map(s.a), CAIRN_ID_NONE, &landmark), CAIRN_ERROR_NOT_FOUND);
+  assert_status(cairn_map_landmark(cairn_team_map(s.a), CAIRN_ID_NONE, &landmark, NULL), CAIRN_ERROR_NOT_FOUND);
   assert_true(result == CAIRN_PACKET_NONSENSE || report_of(s.a).failed > 0);
   cairn_team_destroy(s.a), cairn_team_destroy(s.b);
   free(s.next.bytes);

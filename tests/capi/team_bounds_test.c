@@ -10,11 +10,11 @@ static void assert_finite(const cairn_team* team) {
   double covariance[36];
   cairn_landmark landmarks[2 * FEATURES];
   size_t n = 0;
-  assert_ok(cairn_team_pose(team, 1, &pose, covariance));
+  assert_ok(cairn_team_pose(team, 1, &pose, covariance, NULL));
   for (int i = 0; i < 3; ++i) assert_true(isfinite(pose.position[i]));
   for (int i = 0; i < 36; ++i) assert_true(isfinite(covariance[i]));
   for (int i = 0; i < 6; ++i) assert_true(covariance[7 * i] >= 0);
-  assert_ok(cairn_map_landmarks(cairn_team_map(team), landmarks, LENGTH(landmarks), &n));
+  assert_ok(cairn_map_landmarks(cairn_team_map(team), landmarks, LENGTH(landmarks), &n, NULL));
   for (size_t i = 0; i < n; ++i)
     for (int k = 0; k < 3; ++k) assert_true(isfinite(landmarks[i].position[k]) && landmarks[i].covariance[4 * k] >= 0);
 }
@@ -26,13 +26,13 @@ static void requests_do_not_fill_the_queue(void** state) {
   for (size_t k = 0; k < STEPS; ++k) boat_step(c.teams[0], &c.v, 1, k);
   post own = {NULL, 0, 0}, question = {NULL, 0, 0};
   assert_int_equal(post_collect(&own, c.teams[0], 0), STEPS + 1); /* and one request, for boat 2 is silent */
-  assert_ok(cairn_team_ask(c.teams[1]));
+  assert_ok(cairn_team_ask(c.teams[1], NULL));
   assert_int_equal(post_collect(&question, c.teams[1], 0), 1);
   for (int k = 0; k < 20000; ++k) assert_int_equal(hand_over(c.teams[0], &question.letters[0]), CAIRN_PACKET_REQUEST);
   post_free(&own);
   assert_int_equal(post_collect(&own, c.teams[0], 0), STEPS);
   assert_int_equal(report_of(c.teams[0]).resent, STEPS);
-  for (int k = 0; k < 1000; ++k) assert_ok(cairn_team_ask(c.teams[0]));
+  for (int k = 0; k < 1000; ++k) assert_ok(cairn_team_ask(c.teams[0], NULL));
   post_free(&own);
   assert_int_equal(post_collect(&own, c.teams[0], 0), 1);
   post_free(&own), post_free(&question);
@@ -49,15 +49,15 @@ static void a_wrong_own_clock_is_refused(void** state) {
   for (size_t k = 0; k < 6; ++k) {
     boat_step(team, &c.v, 1, k), boat_step(twin, &c.v, 1, k);
     if (k % 2 == 0) continue;
-    assert_status(cairn_team_observe(team, k == 1 ? 1e9 : DBL_MAX, NULL, 0, NULL, 0), CAIRN_ERROR_ARGUMENT);
+    assert_status(cairn_team_observe(team, k == 1 ? 1e9 : DBL_MAX, NULL, 0, NULL, 0, NULL), CAIRN_ERROR_ARGUMENT);
     assert_non_null(strstr(cairn_last_message(), "max_jump"));
   }
   assert_same_estimate(team, twin);
   assert_int_equal(report_of(team).sent, 6);
   /* A pause is longer than max_jump: the second call confirms it. */
   const double late = c.v.time[5] + 1000;
-  assert_status(cairn_team_observe(team, late, NULL, 0, NULL, 0), CAIRN_ERROR_ARGUMENT);
-  assert_ok(cairn_team_observe(team, late + 1, NULL, 0, NULL, 0));
+  assert_status(cairn_team_observe(team, late, NULL, 0, NULL, 0, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_ok(cairn_team_observe(team, late + 1, NULL, 0, NULL, 0, NULL));
   cairn_team_destroy(twin);
   crew_close(&c);
 }
@@ -74,7 +74,7 @@ static void max_jump_is_positive(void** state) {
   for (size_t i = 0; i < LENGTH(wrong); ++i) {
     cairn_team* team = NULL;
     options.max_jump = wrong[i];
-    assert_status(cairn_team_create(&options, &filter, &radar, &team), CAIRN_ERROR_ARGUMENT);
+    assert_status(cairn_team_create(&options, &filter, &radar, &team, NULL), CAIRN_ERROR_ARGUMENT);
     assert_non_null(strstr(cairn_last_message(), "max_jump"));
     assert_null(team);
   }
@@ -131,16 +131,17 @@ static void absurd_numbers_do_no_harm(void** state) {
       double covariance[36];
       diagonal(covariance, 6, k % 2 == 0 ? 1e308 : 1e40);
       const cairn_pose still = pose_at(0, 0, 0, 0, 0, 0), far = pose_at(huge[k % 4], 0, 0, 0, 0, 0);
-      assert_true(cairn_team_predict_increment(c.teams[0], &still, covariance) != CAIRN_OK);
+      assert_true(cairn_team_predict_increment(c.teams[0], &still, covariance, NULL) != CAIRN_OK);
       diagonal(covariance, 6, 1e-4);
-      assert_true(cairn_team_predict_increment(c.teams[0], &far, covariance) != CAIRN_OK);
+      assert_true(cairn_team_predict_increment(c.teams[0], &far, covariance, NULL) != CAIRN_OK);
       for (size_t b = 0; b < 2; ++b) {
         const log_entry* e = &c.v.boats[b][k];
         cairn_observation features[FEATURES], vehicles[BOATS];
         memcpy(features, e->features, sizeof features), memcpy(vehicles, e->vehicles, sizeof vehicles);
         if (k % 2 == 1 && e->vehicle_count > 0) vehicles[0].z[0] = huge[k % 4]; /* no echo */
         boat_move(c.teams[b], &c.v, b + 1, k);
-        assert_ok(cairn_team_observe(c.teams[b], c.v.time[k], features, e->feature_count, vehicles, e->vehicle_count));
+        assert_ok(
+            cairn_team_observe(c.teams[b], c.v.time[k], features, e->feature_count, vehicles, e->vehicle_count, NULL));
       }
       collect_all(&c, &p, k, &fair, &random);
       deliver_due(&c, &p, k, &fair, &random);
@@ -162,13 +163,13 @@ static void a_vehicle_joins_a_map_of_submaps_once(void** state) {
   filter.submap_landmarks = 5, filter.join = CAIRN_JOIN_DENSE;
   const cairn_range_bearing radar = fleet_radar();
   cairn_team* team = NULL;
-  assert_ok(cairn_team_create(&options, &filter, &radar, &team));
+  assert_ok(cairn_team_create(&options, &filter, &radar, &team, NULL));
   boat_add(team, &v, 2);
-  assert_ok(cairn_team_remove(team, 2));
-  assert_status(cairn_team_add(team, 2, &v.boats[1][0].truth, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_ok(cairn_team_remove(team, 2, NULL));
+  assert_status(cairn_team_add(team, 2, &v.boats[1][0].truth, NULL, NULL), CAIRN_ERROR_ARGUMENT);
   uint64_t members[4];
   size_t count = 0;
-  assert_ok(cairn_team_members(team, members, LENGTH(members), &count));
+  assert_ok(cairn_team_members(team, members, LENGTH(members), &count, NULL));
   assert_int_equal(count, 1);
   cairn_team_destroy(team);
 }

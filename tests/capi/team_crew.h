@@ -87,7 +87,7 @@ static inline void crew_sail(crew* c, const weather* w, uint64_t seed) {
     deliver_due(c, &p, k, w, &random);
   }
   for (int round = 0; round < 30; ++round) {
-    for (size_t b = 0; b < c->boats; ++b) assert_ok(cairn_team_ask(c->teams[b]));
+    for (size_t b = 0; b < c->boats; ++b) assert_ok(cairn_team_ask(c->teams[b], NULL));
     collect_all(c, &p, 0, &fair, &random);
     deliver_due(c, &p, SIZE_MAX, &fair, &random);
   }
@@ -99,19 +99,19 @@ static inline void assert_replicas_agree(const crew* c, double tolerance) {
     for (size_t b = 0; b < c->boats; ++b) {
       cairn_pose pa, pb;
       double ca[36], cb[36], error[6];
-      assert_ok(cairn_team_pose(c->teams[0], b + 1, &pa, ca));
-      assert_ok(cairn_team_pose(c->teams[other], b + 1, &pb, cb));
-      assert_ok(cairn_pose_error(&pa, &pb, error));
+      assert_ok(cairn_team_pose(c->teams[0], b + 1, &pa, ca, NULL));
+      assert_ok(cairn_team_pose(c->teams[other], b + 1, &pb, cb, NULL));
+      assert_ok(cairn_pose_error(&pa, &pb, error, NULL));
       for (int i = 0; i < 6; ++i) assert_near(error[i], 0, tolerance);
       for (int i = 0; i < 36; ++i)
         assert_near(ca[i], cb[i], tolerance * sqrt(ca[7 * (i / 6)] * ca[7 * (i % 6)]) + 1e-12);
     }
   cairn_landmark la[2 * FEATURES], lb[2 * FEATURES];
   size_t na = 0, nb = 0;
-  assert_ok(cairn_map_landmarks(cairn_team_map(c->teams[0]), la, LENGTH(la), &na));
+  assert_ok(cairn_map_landmarks(cairn_team_map(c->teams[0]), la, LENGTH(la), &na, NULL));
   assert_true(na > 3);
   for (size_t other = 1; other < c->boats; ++other) {
-    assert_ok(cairn_map_landmarks(cairn_team_map(c->teams[other]), lb, LENGTH(lb), &nb));
+    assert_ok(cairn_map_landmarks(cairn_team_map(c->teams[other]), lb, LENGTH(lb), &nb, NULL));
     assert_int_equal(na, nb);
     for (size_t i = 0; i < na; ++i) {
       assert_int_equal(la[i].id, lb[i].id);

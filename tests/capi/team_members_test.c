@@ -28,7 +28,7 @@ static void an_own_scan_that_does_not_fit_is_taken_in(void** state) {
     const log_entry* e = &c.v.boats[0][0];
     filter.max_landmarks = 1;
     c.teams[0] = NULL;
-    assert_ok(cairn_team_create(&options, &filter, &radar, &c.teams[0]));
+    assert_ok(cairn_team_create(&options, &filter, &radar, &c.teams[0], NULL));
     boat_add(c.teams[0], &c.v, 2);
     post p = {NULL, 0, 0};
     for (size_t k = 0; k < 3; ++k) boat_step(c.teams[1], &c.v, 2, k);
@@ -38,9 +38,9 @@ static void an_own_scan_that_does_not_fit_is_taken_in(void** state) {
         (void)hand_over(c.teams[0], &p.letters[i]);
     assert_true(e->feature_count > 1);
     size_t size = 0;
-    assert_ok(cairn_team_observe(c.teams[0], c.v.time[0], e->features, e->feature_count, NULL, 0));
+    assert_ok(cairn_team_observe(c.teams[0], c.v.time[0], e->features, e->feature_count, NULL, 0, NULL));
     assert_true(report_of(c.teams[0]).failed == 0 && report_of(c.teams[0]).sent == 1); /* and sent to the team */
-    assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &size));
+    assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &size, NULL));
     assert_int_equal(size, 1);
     post_free(&p);
     crew_close(&c);
@@ -73,20 +73,20 @@ static void what_is_lost_for_good_is_given_up(void** state) {
       post_free(&p);
     }
     const cairn_team_report r = report_of(c.teams[0]);
-    const cairn_status status = cairn_team_pose(c.teams[0], 2, &pose, covariance);
+    const cairn_status status = cairn_team_pose(c.teams[0], 2, &pose, covariance, NULL);
     /* The gap before number 10 (at 50 s) is given up after 62 s: step 13. */
     assert_int_equal(r.lost, k < 13 ? 0 : 1);
     assert_int_equal(r.unsettled, k < 9 || k >= 13 ? 0 : k - 8);
     assert_int_equal(status, k < 13 || k >= 20 ? CAIRN_OK : CAIRN_ERROR_NOT_FOUND);
     unknown = unknown || status != CAIRN_OK;
     assert_int_equal(r.vehicles_found, k >= 20);
-    assert_ok(cairn_team_pose(c.teams[0], 1, NULL, NULL));
+    assert_ok(cairn_team_pose(c.teams[0], 1, NULL, NULL, NULL));
   }
   assert_true(unknown && report_of(c.teams[0]).requested > 2);
   assert_int_equal(report_of(c.teams[1]).lost, 0);
   for (uint64_t b = 1; b <= 2; ++b) {
-    assert_ok(cairn_team_pose(c.teams[0], b, &pose, covariance));
-    assert_ok(cairn_pose_error(&c.v.boats[b - 1][STEPS - 1].truth, &pose, error));
+    assert_ok(cairn_team_pose(c.teams[0], b, &pose, covariance, NULL));
+    assert_ok(cairn_pose_error(&c.v.boats[b - 1][STEPS - 1].truth, &pose, error, NULL));
     for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 4 * sqrt(covariance[7 * i]));
   }
   crew_close(&c);
@@ -107,24 +107,24 @@ static void a_teammate_is_found_where_both_see_it(void** state) {
   double covariance[36], error[6], expected[9], J[3][7] = {{0}};
   (void)state;
   options.initial_covariance[0] = P[0], options.initial_covariance[7] = P[1], options.initial_covariance[35] = P[2];
-  assert_ok(cairn_team_create(&one, &options, &radar, &a));
-  assert_ok(cairn_team_create(&two, &options, &radar, &b));
-  assert_ok(cairn_team_add(a, 2, NULL, NULL));
-  assert_status(cairn_team_pose(a, 2, &pose, covariance), CAIRN_ERROR_NOT_FOUND);
+  assert_ok(cairn_team_create(&one, &options, &radar, &a, NULL));
+  assert_ok(cairn_team_create(&two, &options, &radar, &b, NULL));
+  assert_ok(cairn_team_add(a, 2, NULL, NULL, NULL));
+  assert_status(cairn_team_pose(a, 2, &pose, covariance, NULL), CAIRN_ERROR_NOT_FOUND);
   const double s_rt = 0.3 * s_r * s_t, b_rt = -0.4 * b_r * b_t; /* errors of range and bearing are correlated */
   cairn_observation there = sight(2, r + 1.5, theta, s_r, s_t), here = sight(1, r - 0.5, back, b_r, b_t);
   there.covariance[1] = there.covariance[2] = s_rt, here.covariance[1] = here.covariance[2] = b_rt;
-  assert_ok(cairn_team_observe(a, 3.0, NULL, 0, &there, 1));
-  assert_ok(cairn_team_observe(b, 3.0, NULL, 0, &here, 1));
+  assert_ok(cairn_team_observe(a, 3.0, NULL, 0, &there, 1, NULL));
+  assert_ok(cairn_team_observe(b, 3.0, NULL, 0, &here, 1, NULL));
   letter l = take_one(b);
   assert_int_equal(hand_over(a, &l), CAIRN_PACKET_TAKEN);
   free(l.bytes);
   assert_int_equal(report_of(a).vehicles_found, 1);
-  assert_ok(cairn_team_pose(a, 2, &pose, covariance));
+  assert_ok(cairn_team_pose(a, 2, &pose, covariance, NULL));
 
   const double w = b_r * b_r / (s_r * s_r + b_r * b_r), range = w * (r + 1.5) + (1 - w) * (r - 0.5), at = phi + theta;
   const cairn_pose place = pose_at(x + range * cos(at), y + range * sin(at), 0, 0, 0, phi + theta - back + PI);
-  assert_ok(cairn_pose_error(&place, &pose, error));
+  assert_ok(cairn_pose_error(&place, &pose, error, NULL));
   for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 1e-9);
   /* By own x, y, heading; range and bearing there; range and bearing back. */
   J[0][0] = J[1][1] = J[2][2] = 1;
@@ -162,8 +162,8 @@ static void unknown_starts_are_found(void** state) {
         c.v.boats[0][k].vehicles[i] = c.v.boats[0][k].vehicles[--c.v.boats[0][k].vehicle_count];
         break;
       }
-  assert_ok(cairn_team_add(c.teams[0], 2, NULL, NULL));
-  assert_ok(cairn_team_add(c.teams[0], 3, NULL, NULL));
+  assert_ok(cairn_team_add(c.teams[0], 2, NULL, NULL, NULL));
+  assert_ok(cairn_team_add(c.teams[0], 3, NULL, NULL, NULL));
   for (size_t k = 0; k < STEPS; ++k) {
     for (size_t b = 0; b < 3; ++b) boat_step(c.teams[b], &c.v, b + 1, k);
     for (size_t b = 0; b < 3; ++b) {
@@ -177,8 +177,8 @@ static void unknown_starts_are_found(void** state) {
   for (uint64_t b = 1; b <= 3; ++b) {
     cairn_pose pose;
     double covariance[36], error[6];
-    assert_ok(cairn_team_pose(c.teams[0], b, &pose, covariance));
-    assert_ok(cairn_pose_error(&c.v.boats[b - 1][STEPS - 1].truth, &pose, error));
+    assert_ok(cairn_team_pose(c.teams[0], b, &pose, covariance, NULL));
+    assert_ok(cairn_pose_error(&c.v.boats[b - 1][STEPS - 1].truth, &pose, error, NULL));
     for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 4 * sqrt(covariance[7 * i]));
   }
   crew_close(&c);
@@ -187,9 +187,9 @@ static void unknown_starts_are_found(void** state) {
 static void assert_members(const cairn_team* team, const uint64_t* expected, size_t count) {
   uint64_t members[8];
   size_t needed = 0;
-  assert_ok(cairn_team_members(team, NULL, 0, &needed));
+  assert_ok(cairn_team_members(team, NULL, 0, &needed, NULL));
   assert_int_equal(needed, count);
-  assert_ok(cairn_team_members(team, members, LENGTH(members), &needed));
+  assert_ok(cairn_team_members(team, members, LENGTH(members), &needed, NULL));
   assert_int_equal(needed, count);
   for (size_t i = 0; i < count; ++i) assert_int_equal(members[i], expected[i]);
 }
@@ -204,7 +204,7 @@ static void whoever_leaves_is_waited_for_no_more(void** state) {
   assert_members(c.teams[0], both, 2);
   for (size_t k = 0; k < 10; ++k)
     for (size_t b = 0; b < 2; ++b) boat_step(c.teams[b], &c.v, b + 1, k);
-  assert_ok(cairn_team_leave(c.teams[1]));
+  assert_ok(cairn_team_leave(c.teams[1], NULL));
   (void)post_collect(&p, c.teams[1], 0);
   size_t leave = p.count;
   for (size_t i = 0; i < p.count; ++i)
@@ -218,12 +218,12 @@ static void whoever_leaves_is_waited_for_no_more(void** state) {
     if (kind_of(&p.letters[i]) == DATA) (void)hand_over(c.teams[0], &p.letters[i]);
   assert_members(c.teams[0], one, 1);
   assert_int_equal(report_of(c.teams[0]).unsettled, 0);
-  assert_status(cairn_team_pose(c.teams[0], 2, NULL, NULL), CAIRN_ERROR_NOT_FOUND);
+  assert_status(cairn_team_pose(c.teams[0], 2, NULL, NULL, NULL), CAIRN_ERROR_NOT_FOUND);
   assert_int_equal(hand_over(c.teams[0], &p.letters[leave]), CAIRN_PACKET_UNKNOWN);
-  assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &before));
+  assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &before, NULL));
   boat_step(c.teams[0], &c.v, 1, 10);
   assert_int_equal(report_of(c.teams[0]).unsettled, 0);
-  assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &after)); /* its information stays */
+  assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &after, NULL)); /* its information stays */
   assert_true(before > 3 && after >= before);
   post_free(&p);
   crew_close(&c);
@@ -238,7 +238,7 @@ static void a_farewell_is_told(void** state) {
   letter l = take_one(c.teams[1]);
   assert_int_equal(hand_over(c.teams[0], &l), CAIRN_PACKET_TAKEN);
   free(l.bytes);
-  assert_ok(cairn_team_leave(c.teams[1]));
+  assert_ok(cairn_team_leave(c.teams[1], NULL));
   l = take_one(c.teams[1]);
   assert_int_equal(kind_of(&l), LEAVE);
   assert_int_equal(hand_over(c.teams[0], &l), CAIRN_PACKET_LEAVE);
@@ -252,9 +252,9 @@ static void nothing_follows_a_farewell(void** state) {
   (void)state;
   crew_open(&c, 2, 5, 1e9, CAIRN_TEAM_JOINT);
   boat_step(c.teams[1], &c.v, 2, 0);
-  assert_ok(cairn_team_leave(c.teams[1]));
+  assert_ok(cairn_team_leave(c.teams[1], NULL));
   const log_entry* e = &c.v.boats[1][1];
-  const cairn_status status = cairn_team_observe(c.teams[1], c.v.time[1], e->features, e->feature_count, NULL, 0);
+  const cairn_status status = cairn_team_observe(c.teams[1], c.v.time[1], e->features, e->feature_count, NULL, 0, NULL);
   post p = {NULL, 0, 0};
   (void)post_collect(&p, c.teams[1], 0);
   for (size_t i = 0; i < p.count; ++i)
@@ -280,9 +280,9 @@ static void nothing_is_taken_in_twice_over_a_return(void** state) {
   for (size_t i = 0; i < p.count; ++i)
     if (kind_of(&p.letters[i]) == DATA) (void)hand_over(c.teams[0], &p.letters[i]);
   assert_int_equal(report_of(c.teams[0]).taken, 5);
-  assert_ok(cairn_team_pose(c.teams[0], 2, &pose, NULL));
-  assert_ok(cairn_team_remove(c.teams[0], 2));
-  assert_ok(cairn_team_add(c.teams[0], 2, &pose, NULL));
+  assert_ok(cairn_team_pose(c.teams[0], 2, &pose, NULL, NULL));
+  assert_ok(cairn_team_remove(c.teams[0], 2, NULL));
+  assert_ok(cairn_team_add(c.teams[0], 2, &pose, NULL, NULL));
   team_snapshot(&before, c.teams[0]);
   for (size_t i = 0; i < p.count; ++i)
     if (kind_of(&p.letters[i]) == DATA) (void)hand_over(c.teams[0], &p.letters[i]); /* late copies of the packets */
@@ -311,14 +311,14 @@ static void join_late(const double* start_covariance) {
       if (start_covariance != NULL)
         memcpy(filter.initial_covariance, start_covariance, sizeof filter.initial_covariance);
       c.teams[1] = NULL;
-      assert_ok(cairn_team_create(&options, &filter, &radar, &c.teams[1]));
+      assert_ok(cairn_team_create(&options, &filter, &radar, &c.teams[1], NULL));
     }
   }
   for (size_t k = 0; k < late; ++k) {
     boat_step(c.teams[0], &c.v, 1, k);
     assert_int_equal(report_of(c.teams[0]).unsettled, 0);
   }
-  assert_ok(cairn_team_add(c.teams[0], 2, &c.v.boats[1][late].truth, start_covariance));
+  assert_ok(cairn_team_add(c.teams[0], 2, &c.v.boats[1][late].truth, start_covariance, NULL));
   boat_add(c.teams[1], &c.v, 1); /* its pose before its first packet, which is requested */
   for (size_t k = late; k < STEPS; ++k) {
     boat_step(c.teams[0], &c.v, 1, k);
@@ -363,27 +363,27 @@ static void noise_of_any_rank_is_told(void** state) {
     const cairn_range_bearing radar = fleet_radar();
     const cairn_team_options one = team_options(CAIRN_TEAM_JOINT, 1), two = team_options(CAIRN_TEAM_JOINT, 2);
     cairn_team *a = NULL, *b = NULL;
-    assert_ok(cairn_team_create(&one, &options, &radar, &a));
-    assert_ok(cairn_team_create(&two, &options, &radar, &b));
-    assert_ok(cairn_team_add(a, 2, &start, NULL));
+    assert_ok(cairn_team_create(&one, &options, &radar, &a, NULL));
+    assert_ok(cairn_team_create(&two, &options, &radar, &b, NULL));
+    assert_ok(cairn_team_add(a, 2, &start, NULL, NULL));
     cairn_twist_noise noise;
-    assert_ok(cairn_twist_noise_init(&noise, sizeof noise));
+    assert_ok(cairn_twist_noise_init(&noise, sizeof noise, NULL));
     for (int i = 0; i < 3; ++i) noise.velocity_sigma[i] = noise.rate_sigma[i] = 0;
     if ((n & 1) != 0) noise.velocity_sigma[0] = random_uniform(&random, 1e-3, 1);
     if ((n & 2) != 0) noise.velocity_sigma[1] = random_uniform(&random, 1e-3, 1);
     if ((n & 4) != 0) noise.rate_sigma[2] = random_uniform(&random, 1e-4, 0.1);
     const double velocity[3] = {random_uniform(&random, -3, 3), random_uniform(&random, -1, 1), 0};
     const double rate[3] = {0, 0, random_uniform(&random, -1, 1)};
-    assert_ok(cairn_team_predict_twist(b, random_uniform(&random, 0.01, 5), velocity, rate, &noise));
+    assert_ok(cairn_team_predict_twist(b, random_uniform(&random, 0.01, 5), velocity, rate, &noise, NULL));
     if (n % 3 == 0) { /* given as a matrix of rank one */
       double g[3], covariance[36] = {0};
       static const int axes[3] = {0, 1, 5};
       for (int i = 0; i < 3; ++i) g[i] = random_normal(&random, 0.1);
       for (int i = 0; i < 9; ++i) covariance[6 * axes[i / 3] + axes[i % 3]] = g[i / 3] * g[i % 3];
-      assert_ok(cairn_team_predict_increment(b, &start, covariance));
+      assert_ok(cairn_team_predict_increment(b, &start, covariance, NULL));
     }
-    assert_ok(cairn_team_observe(b, 1, NULL, 0, NULL, 0));
-    assert_ok(cairn_team_observe(a, 1, NULL, 0, NULL, 0));
+    assert_ok(cairn_team_observe(b, 1, NULL, 0, NULL, 0, NULL));
+    assert_ok(cairn_team_observe(a, 1, NULL, 0, NULL, 0, NULL));
     letter l = take_one(b);
     assert_int_equal(hand_over(a, &l), CAIRN_PACKET_TAKEN);
     free(l.bytes);

@@ -36,7 +36,7 @@ static cairn_team* open_boat(const voyage* v, int32_t mode, uint64_t vehicle) {
   if (mode == CAIRN_TEAM_SUBMAPS) filter.submap_landmarks = 2, filter.join = CAIRN_JOIN_DENSE;
   const cairn_range_bearing radar = fleet_radar();
   cairn_team* team = NULL;
-  assert_ok(cairn_team_create(&options, &filter, &radar, &team));
+  assert_ok(cairn_team_create(&options, &filter, &radar, &team, NULL));
   return team;
 }
 
@@ -93,29 +93,30 @@ static cairn_status move(cairn_team* team, const call* c) {
   const log_entry* e = &c->s->v->boats[OWN - 1][c->k];
   const double velocity[3] = {e->speed, 0, 0}, rate[3] = {0, 0, e->rate};
   const double dt = c->s->v->dt[c->k];
-  return dt > 0 ? cairn_team_predict_twist(team, dt, velocity, rate, NULL) : CAIRN_OK;
+  return dt > 0 ? cairn_team_predict_twist(team, dt, velocity, rate, NULL, NULL) : CAIRN_OK;
 }
 static cairn_status look(cairn_team* team, const call* c) {
   const log_entry* e = &c->s->v->boats[OWN - 1][c->k];
-  return cairn_team_observe(team, c->s->v->time[c->k], e->features, e->feature_count, e->vehicles, e->vehicle_count);
+  return cairn_team_observe(team, c->s->v->time[c->k], e->features, e->feature_count, e->vehicles, e->vehicle_count,
+                            NULL);
 }
 static cairn_status take_in(cairn_team* team, const call* c) {
-  return cairn_team_receive(team, c->packet->bytes, c->packet->size, NULL);
+  return cairn_team_receive(team, c->packet->bytes, c->packet->size, NULL, NULL);
 }
 static cairn_status add_late(cairn_team* team, const call* c) {
-  return cairn_team_add(team, LATE, &c->s->v->boats[OWN - 1][0].truth, NULL);
+  return cairn_team_add(team, LATE, &c->s->v->boats[OWN - 1][0].truth, NULL, NULL);
 }
 static cairn_status remove_late(cairn_team* team, const call* c) {
   (void)c;
-  return cairn_team_remove(team, LATE);
+  return cairn_team_remove(team, LATE, NULL);
 }
 static cairn_status ask(cairn_team* team, const call* c) {
   (void)c;
-  return cairn_team_ask(team);
+  return cairn_team_ask(team, NULL);
 }
 static cairn_status leave(cairn_team* team, const call* c) {
   (void)c;
-  return cairn_team_leave(team);
+  return cairn_team_leave(team, NULL);
 }
 
 static void receive_all(session* s, post* from, size_t due) {
@@ -154,7 +155,7 @@ static void sail(session* s) {
     (void)post_collect(&s->from_third, s->third, k + 1);
     if (k % 5 == 3 && s->from_third.count > before) free(s->from_third.letters[--s->from_third.count].bytes);
     if (k == 6) { /* the third boat heard nothing yet, and asks for everything */
-      assert_ok(cairn_team_ask(s->third));
+      assert_ok(cairn_team_ask(s->third, NULL));
       (void)post_collect(&s->from_third, s->third, k);
     }
     receive_all(s, &s->from_second, k);
@@ -222,7 +223,7 @@ static void a_team_without_memory_is_not_created(void** state) {
     size_t refused = 0;
     for (size_t at = 1; team == NULL; ++at) {
       arm_to_fail(at, false);
-      const cairn_status status = cairn_team_create(&options, &filter, &radar, &team);
+      const cairn_status status = cairn_team_create(&options, &filter, &radar, &team, NULL);
       counter.armed = false;
       refused += counter.failed;
       assert_int_equal(status, counter.failed ? CAIRN_ERROR_MEMORY : CAIRN_OK);

@@ -24,9 +24,9 @@ static void scores_are_what_they_say(void** state) {
   const cairn_range_bearing radar = fleet_radar();
   const cairn_twist_noise noise = fleet_noise();
   int32_t sensor;
-  assert_ok(cairn_filter_create(&lone, &filter));
-  assert_ok(cairn_filter_add_range_bearing(filter, &radar, &sensor));
-  assert_ok(cairn_filter_set_twist_noise(filter, &noise));
+  assert_ok(cairn_filter_create(&lone, &filter, NULL));
+  assert_ok(cairn_filter_add_range_bearing(filter, &radar, &sensor, NULL));
+  assert_ok(cairn_filter_set_twist_noise(filter, &noise, NULL));
   assert_int_equal(report_of(c.teams[0]).scored, 0);
   assert_true(report_of(c.teams[0]).position_rmse == 0 && report_of(c.teams[0]).claimed_improvement == 0);
   size_t steps = 0, nees_steps = 0;
@@ -44,18 +44,18 @@ static void scores_are_what_they_say(void** state) {
     (void)post_collect(&p, c.teams[0], 0);
     for (size_t i = 0; i < p.count; ++i) (void)hand_over(c.teams[1], &p.letters[i]);
     post_free(&p);
-    if (k > 0) assert_ok(cairn_filter_predict_twist(filter, c.v.dt[k], velocity, rate));
-    assert_ok(cairn_filter_update(filter, sensor, e->features, e->feature_count, NULL));
-    assert_ok(cairn_team_score(c.teams[0], &e->truth));
-    assert_ok(cairn_team_score(mono, &e->truth));
+    if (k > 0) assert_ok(cairn_filter_predict_twist(filter, c.v.dt[k], velocity, rate, NULL));
+    assert_ok(cairn_filter_update(filter, sensor, e->features, e->feature_count, NULL, NULL));
+    assert_ok(cairn_team_score(c.teams[0], &e->truth, NULL));
+    assert_ok(cairn_team_score(mono, &e->truth, NULL));
     ++steps;
-    assert_ok(cairn_team_pose(c.teams[0], 1, &pose, covariance));
+    assert_ok(cairn_team_pose(c.teams[0], 1, &pose, covariance, NULL));
     claimed += frobenius(covariance);
     squared += pow(pose.position[0] - e->truth.position[0], 2) + pow(pose.position[1] - e->truth.position[1], 2);
-    assert_ok(cairn_filter_pose(filter, &pose, covariance));
+    assert_ok(cairn_filter_pose(filter, &pose, covariance, NULL));
     claimed_alone += frobenius(covariance);
     squared_alone += pow(pose.position[0] - e->truth.position[0], 2) + pow(pose.position[1] - e->truth.position[1], 2);
-    if (cairn_filter_pose_nees(filter, &e->truth, &nees) == CAIRN_OK) nees_alone += nees, ++nees_steps;
+    if (cairn_filter_pose_nees(filter, &e->truth, &nees, NULL) == CAIRN_OK) nees_alone += nees, ++nees_steps;
   }
   const cairn_team_report joint = report_of(c.teams[0]), single = report_of(mono);
   assert_int_equal(joint.scored, steps);
@@ -85,7 +85,7 @@ static void a_score_between_scans_compares_like_with_like(void** state) {
   for (size_t k = 0; k < 20; ++k) {
     boat_move(team, &v, 1, k);
     if (k % 2 == 1) boat_look(team, &v, 1, k, LOOK_AT_FEATURES);
-    assert_ok(cairn_team_score(team, &v.boats[0][k].truth));
+    assert_ok(cairn_team_score(team, &v.boats[0][k].truth, NULL));
   }
   assert_near(report_of(team).claimed_improvement, 0, 1e-12);
   assert_near(report_of(team).true_improvement, 0, 1e-12);
@@ -117,11 +117,11 @@ static double expected_nees(const cairn_team* team, const cairn_pose* start, con
   static const int axes[3] = {0, 1, 5};
   cairn_pose pose;
   double covariance[36], P[3][3], J[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, own[3][3] = {{0}}, e[3];
-  assert_ok(cairn_team_pose(team, 1, &pose, covariance));
+  assert_ok(cairn_team_pose(team, 1, &pose, covariance, NULL));
   for (int i = 0; i < 9; ++i) P[i / 3][i % 3] = covariance[6 * axes[i / 3] + axes[i % 3]];
   for (int i = 0; i < 2; ++i) e[i] = truth->position[i] - pose.position[i];
   e[2] = remainder(heading_of(truth) - heading_of(&pose), 2 * PI);
-  if (error == CAIRN_ERROR_STANDARD) return normalised3(P, e);
+  if (error == CAIRN_STATE_ERROR_STANDARD) return normalised3(P, e);
   const double x = pose.position[0] - start->position[0], y = pose.position[1] - start->position[1];
   const double turn = e[2], c = cos(turn), s = sin(turn);
   const double tx = truth->position[0] - start->position[0] - (c * x - s * y);
@@ -137,7 +137,7 @@ static double expected_nees(const cairn_team* team, const cairn_pose* start, con
 /* With steps that were taken, and with steps that wait for a teammate. */
 static void the_normalised_error_is_that_of_the_own_pose(void** state) {
   (void)state;
-  for (int32_t error = CAIRN_ERROR_INVARIANT; error <= CAIRN_ERROR_STANDARD; ++error) {
+  for (int32_t error = CAIRN_STATE_ERROR_INVARIANT; error <= CAIRN_STATE_ERROR_STANDARD; ++error) {
     voyage v;
     voyage_record(&v, 2, 5);
     const cairn_pose start = v.boats[0][0].truth;
@@ -149,17 +149,17 @@ static void the_normalised_error_is_that_of_the_own_pose(void** state) {
     filter.error = error;
     filter.initial_covariance[0] = 25, filter.initial_covariance[7] = 16, filter.initial_covariance[35] = 1e-4;
     filter.initial_covariance[1] = filter.initial_covariance[6] = 3;
-    assert_ok(cairn_team_create(&options, &filter, &radar, &team));
+    assert_ok(cairn_team_create(&options, &filter, &radar, &team, NULL));
     for (size_t k = 0; k < 20; ++k) {
       cairn_pose truth = v.boats[0][k].truth;
       if (k == 0) truth = pose_at(start.position[0] + 3, start.position[1] - 2, 0, 0, 0, heading_of(&start) + 0.01);
       if (k == 14) boat_add(team, &v, 2); /* which never sends a packet */
       boat_step(team, &v, 1, k);
-      assert_ok(cairn_team_pose_nees(team, &truth, &nees));
+      assert_ok(cairn_team_pose_nees(team, &truth, &nees, NULL));
       const double expected = expected_nees(team, &start, &truth, error);
       assert_true(expected > 0);
       assert_near(nees, expected, 1e-6 * expected);
-      assert_ok(cairn_team_score(team, &truth));
+      assert_ok(cairn_team_score(team, &truth, NULL));
       sum += nees;
     }
     assert_true(report_of(team).unsettled > 3);
@@ -178,12 +178,13 @@ static void a_normalised_error_wants_a_regular_covariance(void** state) {
   const cairn_team_options options = team_options(CAIRN_TEAM_JOINT, 1);
   cairn_team* team = boat_open(&v, &options);
   double nees = -7;
-  assert_refused(NULL, CAIRN_ERROR_NUMERICAL, "singular", cairn_team_pose_nees(team, truth, &nees)); /* a known start */
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_pose_nees(NULL, truth, &nees));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "truth", cairn_team_pose_nees(team, NULL, &nees));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "truth", cairn_team_pose_nees(team, &tilted, &nees));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "truth", cairn_team_pose_nees(team, &lifted, &nees));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "nees", cairn_team_pose_nees(team, truth, NULL));
+  assert_refused(NULL, CAIRN_ERROR_NUMERICAL, "singular",
+                 cairn_team_pose_nees(team, truth, &nees, NULL)); /* a known start */
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_pose_nees(NULL, truth, &nees, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "truth", cairn_team_pose_nees(team, NULL, &nees, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "truth", cairn_team_pose_nees(team, &tilted, &nees, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "truth", cairn_team_pose_nees(team, &lifted, &nees, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "nees", cairn_team_pose_nees(team, truth, NULL, NULL));
   assert_true(nees == -7); /* not written */
   assert_int_equal(report_of(team).scored, 0);
   cairn_team_destroy(team);

@@ -19,8 +19,8 @@ static void all_vehicles_come_to_one_estimate(void** state) {
       assert_int_equal(r.unsettled, 0);
       assert_true(r.sightings_used == STEPS * boats * (boats - 1) && r.sightings_refused == 0);
       assert_true(r.failed == 0 && r.lost == 0 && r.nonsense == 0 && r.conflict == 0);
-      assert_ok(cairn_team_pose(c.teams[b], b + 1, &pose, covariance));
-      assert_ok(cairn_pose_error(&c.v.boats[b][STEPS - 1].truth, &pose, error));
+      assert_ok(cairn_team_pose(c.teams[b], b + 1, &pose, covariance, NULL));
+      assert_ok(cairn_pose_error(&c.v.boats[b][STEPS - 1].truth, &pose, error, NULL));
       for (int i = 0; i < 6; ++i) assert_near(error[i], 0, 4 * sqrt(covariance[7 * i]));
     }
     crew_close(&c);
@@ -130,14 +130,14 @@ static void names_are_not_needed(void** state) {
       const cairn_range_bearing radar = fleet_radar();
       options.max_lag = 1e9, filter.association = ways[n];
       c.teams[b] = NULL;
-      assert_ok(cairn_team_create(&options, &filter, &radar, &c.teams[b]));
+      assert_ok(cairn_team_create(&options, &filter, &radar, &c.teams[b], NULL));
       boat_add(c.teams[b], &c.v, 2 - b);
       for (size_t k = 0; k < STEPS; ++k)
         for (size_t i = 0; i < c.v.boats[b][k].feature_count; ++i) c.v.boats[b][k].features[i].id = CAIRN_ID_NONE;
     }
     crew_sail(&c, n == 0 ? &fair : &bad, 3);
     assert_replicas_agree(&c, 1e-6);
-    assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &size));
+    assert_ok(cairn_map_size(cairn_team_map(c.teams[0]), &size, NULL));
     assert_true(size >= 6 && size <= FEATURES);
     crew_close(&c);
   }
@@ -156,20 +156,20 @@ static void the_nearest_places_a_landmark(void** state) {
     const cairn_team_options options = team_options(CAIRN_TEAM_JOINT, b + 1);
     const cairn_filter_options filter = planar_options(&starts[b]);
     teams[b] = NULL;
-    assert_ok(cairn_team_create(&options, &filter, &radar, &teams[b]));
-    assert_ok(cairn_team_add(teams[b], 2 - b, &starts[1 - b], NULL));
-    assert_ok(cairn_team_observe(teams[b], 0, looks[b], 2, NULL, 0));
+    assert_ok(cairn_team_create(&options, &filter, &radar, &teams[b], NULL));
+    assert_ok(cairn_team_add(teams[b], 2 - b, &starts[1 - b], NULL, NULL));
+    assert_ok(cairn_team_observe(teams[b], 0, looks[b], 2, NULL, 0, NULL));
     letters[b] = take_one(teams[b]);
   }
   for (size_t b = 0; b < 2; ++b) {
     cairn_match m[2];
     size_t count = 0;
     assert_int_equal(hand_over(teams[b], &letters[1 - b]), CAIRN_PACKET_TAKEN);
-    assert_ok(cairn_team_decisions(teams[b], m, 2, &count));
+    assert_ok(cairn_team_decisions(teams[b], m, 2, &count, NULL));
     assert_int_equal(count, 2);
     for (size_t i = 0; i < 2; ++i) { /* 12 lies near boat 1, 11 near boat 2 */
       const bool near = m[i].landmark == (b == 0 ? 12 : 11);
-      assert_int_equal(m[i].result, near ? CAIRN_NEW : CAIRN_MATCHED);
+      assert_int_equal(m[i].result, near ? CAIRN_RESULT_NEW : CAIRN_RESULT_MATCHED);
     }
   }
   for (size_t b = 0; b < 2; ++b) {
@@ -190,12 +190,12 @@ static void whoever_is_told_more_claims_more(void** state) {
     double covariance[36];
     crew_open(&c, 2, 5, 1e9, modes[m]);
     crew_sail(&c, &fair, 1);
-    assert_ok(cairn_team_pose(c.teams[0], 1, NULL, covariance));
+    assert_ok(cairn_team_pose(c.teams[0], 1, NULL, covariance, NULL));
     claimed[m] = covariance[0] + covariance[7];
     const cairn_team_report r = report_of(c.teams[0]);
     assert_int_equal(r.ignored, modes[m] == CAIRN_TEAM_MONO ? STEPS : 0);
     if (modes[m] != CAIRN_TEAM_JOINT)
-      assert_status(cairn_team_pose(c.teams[0], 2, NULL, covariance), CAIRN_ERROR_NOT_FOUND);
+      assert_status(cairn_team_pose(c.teams[0], 2, NULL, covariance, NULL), CAIRN_ERROR_NOT_FOUND);
     crew_close(&c);
   }
   assert_true(claimed[1] < 0.98 * claimed[0]);

@@ -35,15 +35,15 @@ static inline void read_sightings(const cairn_fleet_sighting* from, size_t count
 static inline void voyage_record(voyage* v, uint32_t boats, uint64_t seed) {
   cairn_fleet_options options;
   cairn_fleet* fleet = NULL;
-  assert_ok(cairn_fleet_options_init(&options, sizeof options));
+  assert_ok(cairn_fleet_options_init(&options, sizeof options, NULL));
   options.seed = seed, options.vehicles = boats, options.features = FEATURES;
-  assert_ok(cairn_fleet_create(&options, &fleet));
+  assert_ok(cairn_fleet_create(&options, &fleet, NULL));
   memset(v, 0, sizeof *v);
   for (size_t k = 0; k < STEPS; ++k) {
     cairn_fleet_step step;
     memset(&step, 0, sizeof step);
     step.struct_size = sizeof step;
-    assert_ok(cairn_fleet_next(fleet, &step));
+    assert_ok(cairn_fleet_next(fleet, &step, NULL));
     v->time[k] = step.time, v->dt[k] = step.dt;
     for (size_t b = 0; b < boats; ++b) {
       const cairn_fleet_vehicle* from = &step.vehicles[b];
@@ -62,14 +62,14 @@ static inline void voyage_record(voyage* v, uint32_t boats, uint64_t seed) {
 
 static inline cairn_range_bearing fleet_radar(void) {
   cairn_range_bearing radar;
-  assert_ok(cairn_range_bearing_init(&radar, sizeof radar));
+  assert_ok(cairn_range_bearing_init(&radar, sizeof radar, NULL));
   radar.range_sigma = 30, radar.bearing_sigma = 0.3 * DEGREE;
   return radar;
 }
 
 static inline cairn_twist_noise fleet_noise(void) {
   cairn_twist_noise noise;
-  assert_ok(cairn_twist_noise_init(&noise, sizeof noise));
+  assert_ok(cairn_twist_noise_init(&noise, sizeof noise, NULL));
   for (int i = 0; i < 3; ++i) noise.velocity_sigma[i] = noise.rate_sigma[i] = 0;
   noise.velocity_sigma[0] = 0.2, noise.rate_sigma[2] = 0.1 * DEGREE;
   return noise;
@@ -77,7 +77,7 @@ static inline cairn_twist_noise fleet_noise(void) {
 
 static inline cairn_filter_options planar_options(const cairn_pose* start) {
   cairn_filter_options options;
-  assert_ok(cairn_filter_options_init(&options, sizeof options));
+  assert_ok(cairn_filter_options_init(&options, sizeof options, NULL));
   options.vehicle = CAIRN_VEHICLE_PLANAR;
   options.max_landmarks = 2 * FEATURES;
   options.max_observations = FEATURES + BOATS;
@@ -87,7 +87,7 @@ static inline cairn_filter_options planar_options(const cairn_pose* start) {
 
 static inline cairn_team_options team_options(int32_t mode, uint64_t vehicle) {
   cairn_team_options options;
-  assert_ok(cairn_team_options_init(&options, sizeof options));
+  assert_ok(cairn_team_options_init(&options, sizeof options, NULL));
   options.mode = mode, options.vehicle = vehicle;
   return options;
 }
@@ -97,19 +97,19 @@ static inline cairn_team* boat_open(const voyage* v, const cairn_team_options* o
   const cairn_filter_options filter = planar_options(&v->boats[options->vehicle - 1][0].truth);
   const cairn_range_bearing radar = fleet_radar();
   cairn_team* team = NULL;
-  assert_ok(cairn_team_create(options, &filter, &radar, &team));
+  assert_ok(cairn_team_create(options, &filter, &radar, &team, NULL));
   return team;
 }
 
 static inline void boat_add(cairn_team* team, const voyage* v, uint64_t vehicle) {
-  assert_ok(cairn_team_add(team, vehicle, &v->boats[vehicle - 1][0].truth, NULL));
+  assert_ok(cairn_team_add(team, vehicle, &v->boats[vehicle - 1][0].truth, NULL, NULL));
 }
 
 static inline void boat_move(cairn_team* team, const voyage* v, uint64_t vehicle, size_t k) {
   const log_entry* e = &v->boats[vehicle - 1][k];
   const double velocity[3] = {e->speed, 0, 0}, rate[3] = {0, 0, e->rate};
   const cairn_twist_noise noise = fleet_noise();
-  if (v->dt[k] > 0) assert_ok(cairn_team_predict_twist(team, v->dt[k], velocity, rate, &noise));
+  if (v->dt[k] > 0) assert_ok(cairn_team_predict_twist(team, v->dt[k], velocity, rate, &noise, NULL));
 }
 
 enum { LOOK_AT_FEATURES = 1, LOOK_AT_VEHICLES = 2, LOOK_AT_ALL = 3 };
@@ -117,7 +117,7 @@ enum { LOOK_AT_FEATURES = 1, LOOK_AT_VEHICLES = 2, LOOK_AT_ALL = 3 };
 static inline void boat_look(cairn_team* team, const voyage* v, uint64_t vehicle, size_t k, int at) {
   const log_entry* e = &v->boats[vehicle - 1][k];
   assert_ok(cairn_team_observe(team, v->time[k], e->features, (at & LOOK_AT_FEATURES) != 0 ? e->feature_count : 0,
-                               e->vehicles, (at & LOOK_AT_VEHICLES) != 0 ? e->vehicle_count : 0));
+                               e->vehicles, (at & LOOK_AT_VEHICLES) != 0 ? e->vehicle_count : 0, NULL));
 }
 
 static inline void boat_step(cairn_team* team, const voyage* v, uint64_t vehicle, size_t k) {
@@ -129,7 +129,7 @@ static inline cairn_team_report report_of(const cairn_team* team) {
   cairn_team_report report;
   memset(&report, 0, sizeof report);
   report.struct_size = sizeof report;
-  assert_ok(cairn_team_last_report(team, &report));
+  assert_ok(cairn_team_last_report(team, &report, NULL));
   return report;
 }
 
@@ -188,11 +188,11 @@ static inline void post_free(post* p) {
 static inline size_t post_collect(post* p, cairn_team* team, size_t due) {
   size_t size = 0, taken = 0, count = 0;
   for (;;) {
-    assert_ok(cairn_team_take_packet(team, NULL, 0, &size));
+    assert_ok(cairn_team_take_packet(team, NULL, 0, &size, NULL));
     if (size == 0) return count;
     uint8_t* bytes = malloc(size);
     assert_non_null(bytes);
-    assert_ok(cairn_team_take_packet(team, bytes, size, &taken));
+    assert_ok(cairn_team_take_packet(team, bytes, size, &taken, NULL));
     assert_int_equal(taken, size);
     (void)post_add(p, bytes, size, due);
     free(bytes);
@@ -202,7 +202,7 @@ static inline size_t post_collect(post* p, cairn_team* team, size_t due) {
 
 static inline int32_t hand_over(cairn_team* team, const letter* l) {
   int32_t result = 0;
-  assert_ok(cairn_team_receive(team, l->bytes, l->size, &result));
+  assert_ok(cairn_team_receive(team, l->bytes, l->size, &result, NULL));
   return result;
 }
 
@@ -231,8 +231,8 @@ static inline void team_snapshot(snapshot* s, const cairn_team* team) {
   const cairn_map* map = cairn_team_map(team);
   uint64_t members[16];
   size_t count = 0, n = 0, needed = 0;
-  assert_ok(cairn_team_members(team, members, LENGTH(members), &count));
-  assert_ok(cairn_map_size(map, &n));
+  assert_ok(cairn_team_members(team, members, LENGTH(members), &count, NULL));
+  assert_ok(cairn_map_size(map, &n, NULL));
   const size_t one = sizeof(uint64_t) + sizeof(cairn_pose) + 36 * sizeof(double), side = 3 * n;
   snapshot_free(s);
   s->size = count * one + n * sizeof(cairn_landmark) + side * side * sizeof(double);
@@ -243,7 +243,7 @@ static inline void team_snapshot(snapshot* s, const cairn_team* team) {
     cairn_pose pose;
     double covariance[36];
     memcpy(to, &members[i], sizeof members[i]);
-    const cairn_status status = cairn_team_pose(team, members[i], &pose, covariance);
+    const cairn_status status = cairn_team_pose(team, members[i], &pose, covariance, NULL);
     if (status == CAIRN_ERROR_NOT_FOUND) continue;
     assert_int_equal(status, CAIRN_OK);
     memcpy(to + sizeof(uint64_t), &pose, sizeof pose);
@@ -253,9 +253,9 @@ static inline void team_snapshot(snapshot* s, const cairn_team* team) {
   uint64_t* ids = calloc(n + 1, sizeof *ids);
   double* joint = calloc(side * side + 1, sizeof *joint);
   assert_true(landmarks != NULL && ids != NULL && joint != NULL);
-  assert_ok(cairn_map_landmarks(map, landmarks, n + 1, &needed));
+  assert_ok(cairn_map_landmarks(map, landmarks, n + 1, &needed, NULL));
   for (size_t i = 0; i < n; ++i) ids[i] = landmarks[i].id;
-  assert_ok(cairn_map_joint_covariance(map, ids, n, joint, side * side + 1, &needed));
+  assert_ok(cairn_map_joint_covariance(map, ids, n, joint, side * side + 1, &needed, NULL));
   memcpy(to, landmarks, n * sizeof *landmarks);
   memcpy(to + n * sizeof *landmarks, joint, side * side * sizeof *joint);
   free(landmarks), free(ids), free(joint);

@@ -10,15 +10,15 @@ static cairn_pose newest(const cairn_filter* f) {
   uint64_t end = 0;
   cairn_pose pose;
   size_t needed = 0;
-  assert_ok(cairn_filter_trajectory_range(f, NULL, &end));
-  assert_ok(cairn_filter_trajectory(f, end - 1, &pose, 1, &needed));
+  assert_ok(cairn_filter_trajectory_range(f, NULL, &end, NULL));
+  assert_ok(cairn_filter_trajectory(f, end - 1, &pose, 1, &needed, NULL));
   assert_int_equal(needed, 1);
   return pose;
 }
 
 static void assert_same_pose(const cairn_pose* a, const cairn_pose* b, double tolerance) {
   double error[6];
-  assert_ok(cairn_pose_error(a, b, error));
+  assert_ok(cairn_pose_error(a, b, error, NULL));
   for (int i = 0; i < 6; ++i) assert_near(error[i], 0, tolerance);
 }
 
@@ -48,21 +48,21 @@ static void poses_follow_the_map(void** state) {
         ring_next(&course, &seen);
         assert_ok(ring_take(f, &seen));
         truth[k] = course.truth, steps[k] = seen.increment;
-        assert_ok(cairn_filter_pose(f, &first[k], NULL));
+        assert_ok(cairn_filter_pose(f, &first[k], NULL, NULL));
         const cairn_pose last = newest(f);
         assert_same_pose(&last, &first[k], 1e-8); /* the jitter of a singular covariance */
       }
-      assert_ok(cairn_filter_submap_count(f, &count));
+      assert_ok(cairn_filter_submap_count(f, &count, NULL));
       assert_true(count > 10);
-      assert_ok(cairn_filter_trajectory(f, 0, now, STEPS, &needed));
+      assert_ok(cairn_filter_trajectory(f, 0, now, STEPS, &needed, NULL));
       assert_int_equal(needed, STEPS);
       for (int k = 0; k < STEPS; ++k) {
         online += pow(distance(&first[k], &truth[k]), 2), corrected += pow(distance(&now[k], &truth[k]), 2);
         if (k == 0) continue;
         cairn_pose moved;
-        assert_ok(cairn_pose_compose(&now[k - 1], &steps[k], &moved));
+        assert_ok(cairn_pose_compose(&now[k - 1], &steps[k], &moved, NULL));
         worst = fmax(worst, distance(&moved, &now[k]));
-        assert_ok(cairn_pose_compose(&first[k - 1], &steps[k], &moved));
+        assert_ok(cairn_pose_compose(&first[k - 1], &steps[k], &moved, NULL));
         odometry = fmax(odometry, distance(&moved, &first[k]));
       }
       cairn_filter_destroy(f);
@@ -83,9 +83,9 @@ static void a_single_map_keeps_online_poses(void** state) {
   cairn_filter* f = ring_filter(&o);
   for (int k = 0; k < RING_STEPS; ++k) {
     ring_drive(&course, &f, 1, 1);
-    assert_ok(cairn_filter_pose(f, &first[k], NULL));
+    assert_ok(cairn_filter_pose(f, &first[k], NULL, NULL));
   }
-  assert_ok(cairn_filter_trajectory(f, 0, now, RING_STEPS, &needed));
+  assert_ok(cairn_filter_trajectory(f, 0, now, RING_STEPS, &needed, NULL));
   assert_memory_equal(now, first, sizeof now);
   cairn_filter_destroy(f);
 }
@@ -107,12 +107,12 @@ static void the_newest_poses_are_kept(void** state) {
       cairn_pose a[7], b[7];
       size_t needed = 0;
       ring_drive(&course, both, 2, 1);
-      assert_ok(cairn_filter_trajectory_range(few, &first, &end));
+      assert_ok(cairn_filter_trajectory_range(few, &first, &end, NULL));
       assert_int_equal(end, k);
       assert_int_equal(first, k > 7 ? k - 7 : 0);
-      assert_ok(cairn_filter_trajectory(few, first, a, 7, &needed));
+      assert_ok(cairn_filter_trajectory(few, first, a, 7, &needed, NULL));
       assert_int_equal(needed, end - first);
-      assert_ok(cairn_filter_trajectory(all, first, b, 7, &needed));
+      assert_ok(cairn_filter_trajectory(all, first, b, 7, &needed, NULL));
       assert_memory_equal(a, b, needed * sizeof a[0]);
     }
     cairn_filter_destroy(all), cairn_filter_destroy(few);
@@ -133,21 +133,21 @@ static void every_update_keeps_a_pose(void** state) {
     cairn_filter* f = ring_filter(&o);
     for (int kind = 0; kind < 6; ++kind) {
       ring_drive(&course, &f, 1, 1);
-      assert_ok(cairn_filter_trajectory_range(f, NULL, &end));
+      assert_ok(cairn_filter_trajectory_range(f, NULL, &end, NULL));
       diagonal(c, 3, 1e-2), diagonal(eye, 6, 1);
       cairn_status status = CAIRN_ERROR_INTERNAL;
-      if (kind == 0) status = cairn_filter_update_position(f, course.truth.position, c, NULL, NULL);
-      if (kind == 1) status = cairn_filter_update_attitude(f, course.truth.quaternion, c, NULL);
-      if (kind == 2) status = cairn_filter_update_heading(f, 0, 3, NULL);
-      if (kind == 3) status = cairn_filter_update_linear(f, rows, 6, eye, eye, NULL, 0, NULL, NULL);
-      if (kind == 4) status = cairn_filter_keep_pose(f, &number);
-      if (kind == 5) status = cairn_filter_keep_pose(f, NULL);
+      if (kind == 0) status = cairn_filter_update_position(f, course.truth.position, c, NULL, NULL, NULL);
+      if (kind == 1) status = cairn_filter_update_attitude(f, course.truth.quaternion, c, NULL, NULL);
+      if (kind == 2) status = cairn_filter_update_heading(f, 0, 3, NULL, NULL);
+      if (kind == 3) status = cairn_filter_update_linear(f, rows, 6, eye, eye, NULL, 0, NULL, NULL, NULL);
+      if (kind == 4) status = cairn_filter_keep_pose(f, &number, NULL);
+      if (kind == 5) status = cairn_filter_keep_pose(f, NULL, NULL);
       assert_ok(status);
       if (kind == 4) assert_int_equal(number, end);
-      assert_ok(cairn_filter_pose(f, &pose, NULL));
+      assert_ok(cairn_filter_pose(f, &pose, NULL, NULL));
       last = newest(f);
       assert_same_pose(&last, &pose, 1e-8);
-      assert_ok(cairn_filter_trajectory_range(f, NULL, &number));
+      assert_ok(cairn_filter_trajectory_range(f, NULL, &number, NULL));
       assert_int_equal(number, end + 1);
     }
     cairn_filter_destroy(f);
@@ -179,35 +179,37 @@ static void bad_calls_are_refused(void** state) {
 
   cairn_filter* f = ring_filter(&o); /* keeps none */
   ring_drive(&course, &f, 1, 3);
-  assert_same_after(f, cairn_filter_trajectory(f, 0, poses, 8, &needed), CAIRN_ERROR_STATE, "trajectory_poses");
-  assert_same_after(f, cairn_filter_trajectory_range(f, &first, &end), CAIRN_ERROR_STATE, "trajectory_poses");
-  assert_same_after(f, cairn_filter_keep_pose(f, &first), CAIRN_ERROR_STATE, "trajectory_poses");
+  assert_same_after(f, cairn_filter_trajectory(f, 0, poses, 8, &needed, NULL), CAIRN_ERROR_STATE, "trajectory_poses");
+  assert_same_after(f, cairn_filter_trajectory_range(f, &first, &end, NULL), CAIRN_ERROR_STATE, "trajectory_poses");
+  assert_same_after(f, cairn_filter_keep_pose(f, &first, NULL), CAIRN_ERROR_STATE, "trajectory_poses");
   cairn_filter_destroy(f);
 
   o.trajectory_poses = 5;
   f = ring_filter(&o);
   ring_drive(&course, &f, 1, 9);
-  assert_same_after(f, cairn_filter_trajectory(f, 0, poses, 8, &needed), CAIRN_ERROR_CAPACITY, "trajectory_poses is 5");
-  assert_same_after(f, cairn_filter_trajectory(f, 3, poses, 8, &needed), CAIRN_ERROR_CAPACITY, "trajectory_poses is 5");
-  assert_same_after(f, cairn_filter_trajectory(f, 10, poses, 8, &needed), CAIRN_ERROR_NOT_FOUND, "first is 10");
-  assert_same_after(f, cairn_filter_trajectory(f, 4, poses, 8, NULL), CAIRN_ERROR_ARGUMENT, "needed");
-  assert_same_after(f, cairn_filter_trajectory(f, 4, NULL, 8, &needed), CAIRN_ERROR_ARGUMENT, "poses");
+  assert_same_after(f, cairn_filter_trajectory(f, 0, poses, 8, &needed, NULL), CAIRN_ERROR_CAPACITY,
+                    "trajectory_poses is 5");
+  assert_same_after(f, cairn_filter_trajectory(f, 3, poses, 8, &needed, NULL), CAIRN_ERROR_CAPACITY,
+                    "trajectory_poses is 5");
+  assert_same_after(f, cairn_filter_trajectory(f, 10, poses, 8, &needed, NULL), CAIRN_ERROR_NOT_FOUND, "first is 10");
+  assert_same_after(f, cairn_filter_trajectory(f, 4, poses, 8, NULL, NULL), CAIRN_ERROR_ARGUMENT, "needed");
+  assert_same_after(f, cairn_filter_trajectory(f, 4, NULL, 8, &needed, NULL), CAIRN_ERROR_ARGUMENT, "poses");
   assert_int_equal(needed, 77);
-  assert_same_after(f, cairn_filter_trajectory(f, 4, poses, 4, &needed), CAIRN_ERROR_BUFFER, "poses");
+  assert_same_after(f, cairn_filter_trajectory(f, 4, poses, 4, &needed, NULL), CAIRN_ERROR_BUFFER, "poses");
   assert_int_equal(needed, 5);
   assert_memory_equal(poses, untouched, sizeof poses);
-  assert_ok(cairn_filter_trajectory(f, 9, NULL, 0, &needed));
+  assert_ok(cairn_filter_trajectory(f, 9, NULL, 0, &needed, NULL));
   assert_int_equal(needed, 0);
-  assert_ok(cairn_filter_trajectory(f, 4, poses, 5, &needed));
-  assert_ok(cairn_filter_trajectory_range(f, NULL, NULL));
+  assert_ok(cairn_filter_trajectory(f, 4, poses, 5, &needed, NULL));
+  assert_ok(cairn_filter_trajectory_range(f, NULL, NULL, NULL));
   cairn_filter_destroy(f);
 
-  assert_status(cairn_filter_trajectory(NULL, 0, poses, 8, &needed), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_filter_trajectory_range(NULL, &first, &end), CAIRN_ERROR_ARGUMENT);
-  assert_status(cairn_filter_keep_pose(NULL, &first), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_filter_trajectory(NULL, 0, poses, 8, &needed, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_filter_trajectory_range(NULL, &first, &end, NULL), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_filter_keep_pose(NULL, &first, NULL), CAIRN_ERROR_ARGUMENT);
   o.trajectory_poses = 10000001;
   f = NULL;
-  assert_status(cairn_filter_create(&o, &f), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_filter_create(&o, &f, NULL), CAIRN_ERROR_ARGUMENT);
   assert_non_null(strstr(cairn_last_message(), "options.trajectory_poses"));
   assert_null(f);
 }
@@ -218,16 +220,16 @@ static void teams_keep_no_poses(void** state) {
   cairn_filter_options filter;
   cairn_range_bearing radar;
   cairn_team* team = NULL;
-  assert_ok(cairn_team_options_init(&own, sizeof own));
-  assert_ok(cairn_filter_options_init(&filter, sizeof filter));
-  assert_ok(cairn_range_bearing_init(&radar, sizeof radar));
+  assert_ok(cairn_team_options_init(&own, sizeof own, NULL));
+  assert_ok(cairn_filter_options_init(&filter, sizeof filter, NULL));
+  assert_ok(cairn_range_bearing_init(&radar, sizeof radar, NULL));
   own.vehicle = 1;
   filter.vehicle = CAIRN_VEHICLE_PLANAR;
   filter.trajectory_poses = 1;
-  assert_status(cairn_team_create(&own, &filter, &radar, &team), CAIRN_ERROR_ARGUMENT);
+  assert_status(cairn_team_create(&own, &filter, &radar, &team, NULL), CAIRN_ERROR_ARGUMENT);
   assert_non_null(strstr(cairn_last_message(), "trajectory_poses"));
   filter.trajectory_poses = 0;
-  assert_ok(cairn_team_create(&own, &filter, &radar, &team));
+  assert_ok(cairn_team_create(&own, &filter, &radar, &team, NULL));
   cairn_team_destroy(team);
 }
 

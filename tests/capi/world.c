@@ -62,7 +62,7 @@ void to_map(const cairn_pose* pose, const double point[3], double out[3]) {
 
 cairn_pose pose_at(double x, double y, double z, double roll, double pitch, double yaw) {
   cairn_pose pose = {{x, y, z}, {1, 0, 0, 0}};
-  assert_ok(cairn_quaternion_from_euler(roll, pitch, yaw, pose.quaternion));
+  assert_ok(cairn_quaternion_from_euler(roll, pitch, yaw, pose.quaternion, NULL));
   return pose;
 }
 
@@ -126,7 +126,7 @@ int32_t range_predict(void* user, const cairn_pose* pose, const double landmark[
 cairn_stereo_head test_head(void) {
   cairn_stereo_head head;
   const double tilt[4] = {0.99500416527802576610, 0, 0.09983341664682815230, 0}; /* 0.2 rad about y */
-  assert_ok(cairn_stereo_head_init(&head, sizeof head));
+  assert_ok(cairn_stereo_head_init(&head, sizeof head, NULL));
   head.encoder_mode = CAIRN_ENCODER_PER_FRAME;
   head.platform[0] = 0.2, head.platform[2] = 0.5;
   head.stick[0] = 0.1, head.stick[2] = 0.3;
@@ -139,19 +139,19 @@ cairn_stereo_head test_head(void) {
 
 cairn_stereo_camera test_camera(void) {
   cairn_stereo_camera camera;
-  assert_ok(cairn_stereo_camera_init(&camera, sizeof camera));
+  assert_ok(cairn_stereo_camera_init(&camera, sizeof camera, NULL));
   return camera;
 }
 
 cairn_cartesian test_cartesian(void) {
   cairn_cartesian cartesian;
-  assert_ok(cairn_cartesian_init(&cartesian, sizeof cartesian));
+  assert_ok(cairn_cartesian_init(&cartesian, sizeof cartesian, NULL));
   return cartesian;
 }
 
 cairn_custom test_point(void) {
   cairn_custom custom;
-  assert_ok(cairn_custom_init(&custom, sizeof custom));
+  assert_ok(cairn_custom_init(&custom, sizeof custom, NULL));
   custom.predict = point_predict, custom.place = point_place;
   custom.sigma[0] = custom.sigma[1] = custom.sigma[2] = 0.1;
   return custom;
@@ -159,7 +159,7 @@ cairn_custom test_point(void) {
 
 cairn_custom test_range(void) {
   cairn_custom custom;
-  assert_ok(cairn_custom_init(&custom, sizeof custom));
+  assert_ok(cairn_custom_init(&custom, sizeof custom, NULL));
   custom.predict = range_predict;
   custom.rows = 1;
   custom.sigma[0] = 0.1;
@@ -232,7 +232,7 @@ void world_frame(world* w, frame* f) {
   const cairn_pose move = {{speed / turn * sin(angle), speed / turn * (1 - cos(angle)), 0},
                            {cos(angle / 2), 0, 0, sin(angle / 2)}};
   memset(f, 0, sizeof *f);
-  assert_ok(cairn_pose_compose(&w->truth, &move, &w->truth));
+  assert_ok(cairn_pose_compose(&w->truth, &move, &w->truth, NULL));
   f->motion = (int)(w->step % MOTIONS);
   f->dt = dt;
   f->left = (speed - turn / 2) / 0.3 + w->noise * random_normal(&w->random, 0.01);

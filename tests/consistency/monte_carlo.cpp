@@ -103,11 +103,11 @@ int main(int argc, char** argv) {
   noise.velocity = row.velocity;
   noise.rate = row.rate;
   noise.bearing = 3 * kDegree;  // and 1 m (Mars paper, Table 1)
-  Tracker dead({"dead reckoning", CAIRN_ERROR_INVARIANT, 0, CAIRN_JOIN_AUTO, false});
-  Tracker standard({"standard", CAIRN_ERROR_STANDARD, 0, CAIRN_JOIN_AUTO, true});
-  Tracker invariant({"invariant", CAIRN_ERROR_INVARIANT, 0, CAIRN_JOIN_AUTO, true});
-  Tracker dense({"dense submaps", CAIRN_ERROR_INVARIANT, row.submap_landmarks, CAIRN_JOIN_DENSE, true});
-  Tracker sparse({"sparse submaps", CAIRN_ERROR_INVARIANT, row.submap_landmarks, CAIRN_JOIN_SPARSE, true});
+  Tracker dead({"dead reckoning", CAIRN_STATE_ERROR_INVARIANT, 0, CAIRN_JOIN_AUTO, false});
+  Tracker standard({"standard", CAIRN_STATE_ERROR_STANDARD, 0, CAIRN_JOIN_AUTO, true});
+  Tracker invariant({"invariant", CAIRN_STATE_ERROR_INVARIANT, 0, CAIRN_JOIN_AUTO, true});
+  Tracker dense({"dense submaps", CAIRN_STATE_ERROR_INVARIANT, row.submap_landmarks, CAIRN_JOIN_DENSE, true});
+  Tracker sparse({"sparse submaps", CAIRN_STATE_ERROR_INVARIANT, row.submap_landmarks, CAIRN_JOIN_SPARSE, true});
   Tracker* all[] = {&dead, &standard, &invariant, &dense, &sparse};
   for (int run = 0; run < options.runs; ++run) {
     World world(noise, row.laps, options.seed + static_cast<unsigned>(run));

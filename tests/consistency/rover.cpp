@@ -23,8 +23,8 @@ using FilterHandle = std::unique_ptr<cairn_filter, Destroy>;
 
 cairn_world_options world_options(const Rover& rover, int seed) {
   cairn_world_options w;
-  CHECK(cairn_world_options_init(&w, sizeof w));
-  CHECK(cairn_world_options_preset(&w, rover.preset, nullptr));
+  CHECK(cairn_world_options_init(&w, sizeof w, nullptr));
+  CHECK(cairn_world_options_preset(&w, rover.preset, nullptr, nullptr));
   w.seed = static_cast<uint64_t>(seed);
   if (rover.wheels) w.drive = CAIRN_DRIVE_WHEELS_GYRO;
   if (rover.laps > 0) w.laps = rover.laps;
@@ -55,19 +55,19 @@ void scale_drawn(double factor, cairn_world_options& w) {
 
 WorldHandle world_of(const cairn_world_options& options) {
   cairn_world* world = nullptr;
-  CHECK(cairn_world_create(&options, &world));
+  CHECK(cairn_world_create(&options, &world, nullptr));
   return WorldHandle(world);
 }
 
 FilterHandle filter_of(const Rover& rover, const Follower& follower, const cairn_world* world, int32_t& sensor) {
   cairn_filter_options f;
-  CHECK(cairn_filter_options_init(&f, sizeof f));
+  CHECK(cairn_filter_options_init(&f, sizeof f, nullptr));
   f.max_landmarks = 400;
   f.max_observations = 64;
   f.gate_probability = f.batch_gate_probability = 1;
   f.submap_landmarks = follower.submap_landmarks;
   f.join = follower.join;
-  CHECK(cairn_world_pose(world, 0, &f.initial_pose));
+  CHECK(cairn_world_pose(world, 0, &f.initial_pose, nullptr));
   if (follower.knows) {
     for (int i = 0; i < 3; ++i) f.rate_bias_sigma[i] = rover.rate;
     for (int i = 0; i < (rover.wheels ? 1 : 3); ++i) f.velocity_bias_sigma[i] = rover.velocity;
@@ -75,21 +75,21 @@ FilterHandle filter_of(const Rover& rover, const Follower& follower, const cairn
     f.max_sensor_errors = 3;
   }
   cairn_filter* created = nullptr;
-  CHECK(cairn_filter_create(&f, &created));
+  CHECK(cairn_filter_create(&f, &created, nullptr));
   FilterHandle filter(created);
   cairn_stereo_head head;
-  CHECK(cairn_stereo_head_init(&head, sizeof head));
-  CHECK(cairn_world_head(world, &head));
-  CHECK(cairn_filter_add_stereo_head(filter.get(), &head, &sensor));
+  CHECK(cairn_stereo_head_init(&head, sizeof head, nullptr));
+  CHECK(cairn_world_head(world, &head, nullptr));
+  CHECK(cairn_filter_add_stereo_head(filter.get(), &head, &sensor, nullptr));
   cairn_wheels wheels;
-  CHECK(cairn_wheels_init(&wheels, sizeof wheels));
-  CHECK(cairn_world_wheels(world, &wheels));
-  CHECK(cairn_filter_set_wheels(filter.get(), &wheels));
+  CHECK(cairn_wheels_init(&wheels, sizeof wheels, nullptr));
+  CHECK(cairn_world_wheels(world, &wheels, nullptr));
+  CHECK(cairn_filter_set_wheels(filter.get(), &wheels, nullptr));
   if (follower.knows && !rover.known_mount) {
     cairn_calibration calibration;
-    CHECK(cairn_calibration_init(&calibration, sizeof calibration));
+    CHECK(cairn_calibration_init(&calibration, sizeof calibration, nullptr));
     std::fill_n(calibration.mount_turn_sigma, 3, kMountTurn);
-    CHECK(cairn_filter_calibrate_sensor(filter.get(), sensor, &calibration));
+    CHECK(cairn_filter_calibrate_sensor(filter.get(), sensor, &calibration, nullptr));
   }
   return filter;
 }
@@ -97,18 +97,18 @@ FilterHandle filter_of(const Rover& rover, const Follower& follower, const cairn
 // (T_0 E)^-1 T E with E = Exp(turn).
 cairn_pose seen_by_sensor(const cairn_pose& first, const cairn_pose& pose, const double turn[3]) {
   cairn_pose mount = {{0, 0, 0}, {1, 0, 0, 0}}, from, back, result;
-  CHECK(cairn_quaternion_exp(turn, mount.quaternion));
-  CHECK(cairn_pose_compose(&first, &mount, &from));
-  CHECK(cairn_pose_inverse(&from, &back));
-  CHECK(cairn_pose_compose(&back, &pose, &from));
-  CHECK(cairn_pose_compose(&from, &mount, &result));
+  CHECK(cairn_quaternion_exp(turn, mount.quaternion, nullptr));
+  CHECK(cairn_pose_compose(&first, &mount, &from, nullptr));
+  CHECK(cairn_pose_inverse(&from, &back, nullptr));
+  CHECK(cairn_pose_compose(&back, &pose, &from, nullptr));
+  CHECK(cairn_pose_compose(&from, &mount, &result, nullptr));
   return result;
 }
 
 void estimated_turn(const cairn_filter* filter, double turn[3]) {
   cairn_systematic_error errors[16];
   size_t count = 0;
-  CHECK(cairn_filter_systematic_errors(filter, errors, nullptr, 16, &count));
+  CHECK(cairn_filter_systematic_errors(filter, errors, nullptr, 16, &count, nullptr));
   std::fill_n(turn, 3, 0.0);
   for (size_t i = 0; i < count; ++i)
     if (errors[i].kind == CAIRN_SYSTEMATIC_MOUNT_TURN) turn[errors[i].component] = errors[i].value;
@@ -116,7 +116,7 @@ void estimated_turn(const cairn_filter* filter, double turn[3]) {
 
 double squared_distance(const cairn_pose& truth, const cairn_pose& pose) {
   double error[6];
-  CHECK(cairn_pose_error(&truth, &pose, error));
+  CHECK(cairn_pose_error(&truth, &pose, error, nullptr));
   return error[0] * error[0] + error[1] * error[1] + error[2] * error[2];
 }
 
@@ -124,25 +124,25 @@ void predict(const Rover& rover, const cairn_world_step& step, cairn_filter* fil
   for (std::size_t i = 0; i < step.motion_count; ++i) {
     const cairn_world_motion& m = step.motions[i];
     if (rover.wheels)
-      CHECK(cairn_filter_predict_wheels_gyro(filter, m.dt, m.wheels[0], m.wheels[1], m.rate));
+      CHECK(cairn_filter_predict_wheels_gyro(filter, m.dt, m.wheels[0], m.wheels[1], m.rate, nullptr));
     else
-      CHECK(cairn_filter_predict_twist(filter, m.dt, m.velocity, m.rate));
+      CHECK(cairn_filter_predict_twist(filter, m.dt, m.velocity, m.rate, nullptr));
   }
 }
 
 // Tells the filter the noise of the motion that the world of the stated noise has in this step.
 void state_noise(const cairn_world_step& step, cairn_filter* filter) {
   cairn_twist_noise noise;
-  CHECK(cairn_twist_noise_init(&noise, sizeof noise));
+  CHECK(cairn_twist_noise_init(&noise, sizeof noise, nullptr));
   std::copy_n(step.velocity_sigma, 3, noise.velocity_sigma);
   std::copy_n(step.rate_sigma, 3, noise.rate_sigma);
-  CHECK(cairn_filter_set_twist_noise(filter, &noise));
+  CHECK(cairn_filter_set_twist_noise(filter, &noise, nullptr));
 }
 
 cairn_world_step next(cairn_world* world) {
   cairn_world_step step;
   step.struct_size = sizeof step;
-  CHECK(cairn_world_next(world, &step));
+  CHECK(cairn_world_next(world, &step, nullptr));
   return step;
 }
 
@@ -158,8 +158,8 @@ void drive(const Rover& rover, const Follower& follower, int seed, Score& score)
   const FilterHandle filter = filter_of(rover, follower, stated.get(), sensor);
   cairn_pose first;
   std::size_t steps = 0;
-  CHECK(cairn_world_pose(world.get(), 0, &first));
-  CHECK(cairn_world_steps(world.get(), &steps));
+  CHECK(cairn_world_pose(world.get(), 0, &first, nullptr));
+  CHECK(cairn_world_steps(world.get(), &steps, nullptr));
   score.nees.resize(steps, 0.0);
   const double unit = 1.0 / (follower.drawn * follower.drawn);
   for (std::size_t k = 0; k < steps; ++k) {
@@ -167,12 +167,12 @@ void drive(const Rover& rover, const Follower& follower, int seed, Score& score)
     const cairn_world_step step = next(world.get());
     predict(rover, step, filter.get());
     if (step.observation_count > 0)
-      CHECK(cairn_filter_update(filter.get(), sensor, step.observations, step.observation_count, nullptr));
+      CHECK(cairn_filter_update(filter.get(), sensor, step.observations, step.observation_count, nullptr, nullptr));
     if (k == 0) continue;
     double nees = 0.0, covariance[36], turn[3];
     cairn_pose pose;
-    CHECK(cairn_filter_pose_nees(filter.get(), &step.truth, &nees));
-    CHECK(cairn_filter_pose(filter.get(), &pose, covariance));
+    CHECK(cairn_filter_pose_nees(filter.get(), &step.truth, &nees, nullptr));
+    CHECK(cairn_filter_pose(filter.get(), &pose, covariance, nullptr));
     estimated_turn(filter.get(), turn);
     score.nees[k] += unit * nees;
     score.squares += unit * squared_distance(step.truth, pose);

@@ -25,25 +25,25 @@ static void motion(slot* s) {
   cairn_pose T;
   const double dt = fuzz_bad() ? fuzz_garbage() : fuzz_uniform(0.01, 0.5);
   const int kind = (int)fuzz_below(5);
-  if (kind == 0) fuzz_check_status(cairn_filter_predict_wheels(f, dt, fuzz_number(5), fuzz_number(5)));
+  if (kind == 0) fuzz_check_status(cairn_filter_predict_wheels(f, dt, fuzz_number(5), fuzz_number(5), NULL));
   fuzz_numbers(v, 3, 1), fuzz_numbers(w, 3, 1);
-  if (kind == 1) fuzz_check_status(cairn_filter_predict_twist(f, dt, fuzz_maybe(v), fuzz_maybe(w)));
+  if (kind == 1) fuzz_check_status(cairn_filter_predict_twist(f, dt, fuzz_maybe(v), fuzz_maybe(w), NULL));
   fuzz_pose(&T), fuzz_covariance(c, 6, 1e-4);
-  if (kind == 2) fuzz_check_status(cairn_filter_predict_increment(f, fuzz_maybe(&T), fuzz_maybe(c)));
+  if (kind == 2) fuzz_check_status(cairn_filter_predict_increment(f, fuzz_maybe(&T), fuzz_maybe(c), NULL));
   if (kind == 3) {
     cairn_wheels wheels;
-    fuzz_check_status(cairn_wheels_init(&wheels, sizeof wheels));
+    fuzz_check_status(cairn_wheels_init(&wheels, sizeof wheels, NULL));
     wheels.radius = fuzz_positive(0.5), wheels.track = fuzz_positive(1), wheels.slip_sigma = fuzz_positive(0.1);
     void* given = fuzz_resized(&wheels, sizeof wheels);
-    fuzz_check_status(cairn_filter_set_wheels(f, fuzz_maybe(given)));
+    fuzz_check_status(cairn_filter_set_wheels(f, fuzz_maybe(given), NULL));
     free(given);
   }
   if (kind == 4) {
     cairn_twist_noise noise;
-    fuzz_check_status(cairn_twist_noise_init(&noise, sizeof noise));
+    fuzz_check_status(cairn_twist_noise_init(&noise, sizeof noise, NULL));
     noise.velocity_sigma[fuzz_below(3)] = fuzz_positive(0.1), noise.rate_sigma[fuzz_below(3)] = fuzz_positive(0.1);
     void* given = fuzz_resized(&noise, sizeof noise);
-    fuzz_check_status(cairn_filter_set_twist_noise(f, fuzz_maybe(given)));
+    fuzz_check_status(cairn_filter_set_twist_noise(f, fuzz_maybe(given), NULL));
     free(given);
   }
 }
@@ -63,19 +63,19 @@ static void observe(slot* s) {
     if (fuzz_one_in(10)) fuzz_covariance(o[i].covariance, by >= 0 && by < s->sensors ? s->rows[by] : 3, 1);
   }
   const bool asked = !fuzz_one_in(5);
-  const cairn_status status = cairn_filter_update(s->filter, by, fuzz_maybe(o), count, asked ? m : NULL);
+  const cairn_status status = cairn_filter_update(s->filter, by, fuzz_maybe(o), count, asked ? m : NULL, NULL);
   fuzz_check_status(status);
   for (size_t i = 0; i < count; ++i) {
     if (status != CAIRN_OK) {
       HOLDS(m[i].result == 0x5a5a5a5a && m[i].reason == 0x5a5a5a5a, i);
     } else if (asked) {
-      HOLDS(m[i].result >= CAIRN_MATCHED && m[i].result <= CAIRN_REJECTED, m[i].result);
-      HOLDS((m[i].reason != CAIRN_REASON_NONE) == (m[i].result == CAIRN_REJECTED), m[i].reason);
+      HOLDS(m[i].result >= CAIRN_RESULT_MATCHED && m[i].result <= CAIRN_RESULT_REJECTED, m[i].result);
+      HOLDS((m[i].reason != CAIRN_REASON_NONE) == (m[i].result == CAIRN_RESULT_REJECTED), m[i].reason);
       HOLDS_OF_NUMBERS(s, m[i].distance >= 0 && !isnan(m[i].threshold), m[i].distance);
     }
   }
   if (by >= 0 && by < s->sensors)
-    fuzz_check_status(cairn_filter_point_head(s->filter, by, fuzz_number(1), fuzz_number(1)));
+    fuzz_check_status(cairn_filter_point_head(s->filter, by, fuzz_number(1), fuzz_number(1), NULL));
   free(o), free(m);
 }
 
@@ -85,19 +85,19 @@ static void life(slot* s) {
   cairn_match m, *out = fuzz_one_in(3) ? NULL : &m;
   switch (fuzz_below(4)) {
     case 0:
-      fuzz_check_status(cairn_filter_remove_landmark(s->filter, random_id()));
+      fuzz_check_status(cairn_filter_remove_landmark(s->filter, random_id(), NULL));
       break;
     case 1:
-      fuzz_check_status(cairn_filter_merge_landmarks(s->filter, random_id(), random_id(), out));
+      fuzz_check_status(cairn_filter_merge_landmarks(s->filter, random_id(), random_id(), out, NULL));
       break;
     case 2:
       fuzz_covariance(c, 3, 0.1);
-      fuzz_check_status(cairn_filter_split_landmark(s->filter, random_id(), random_id(), fuzz_maybe(c)));
+      fuzz_check_status(cairn_filter_split_landmark(s->filter, random_id(), random_id(), fuzz_maybe(c), NULL));
       break;
     default:
       fuzz_numbers(lower, 3, 10);
       for (int i = 0; i < 3; ++i) upper[i] = fuzz_bad() ? fuzz_number(10) : lower[i] + fuzz_uniform(0, 40);
-      fuzz_check_status(cairn_filter_set_view(s->filter, random_sensor(), fuzz_maybe(lower), fuzz_maybe(upper)));
+      fuzz_check_status(cairn_filter_set_view(s->filter, random_sensor(), fuzz_maybe(lower), fuzz_maybe(upper), NULL));
   }
 }
 
@@ -107,10 +107,11 @@ static void absolute(slot* s) {
   fuzz_numbers(z, 3, 5), fuzz_covariance(c, 3, 0.1), fuzz_numbers(lever, 3, 1), fuzz_numbers(q, 4, 1);
   const int kind = (int)fuzz_below(3);
   if (kind == 0)
-    fuzz_check_status(
-        cairn_filter_update_position(s->filter, fuzz_maybe(z), fuzz_maybe(c), fuzz_one_in(2) ? NULL : lever, out));
-  if (kind == 1) fuzz_check_status(cairn_filter_update_attitude(s->filter, fuzz_maybe(q), fuzz_maybe(c), out));
-  if (kind == 2) fuzz_check_status(cairn_filter_update_heading(s->filter, fuzz_number(4), fuzz_positive(0.2), out));
+    fuzz_check_status(cairn_filter_update_position(s->filter, fuzz_maybe(z), fuzz_maybe(c),
+                                                   fuzz_one_in(2) ? NULL : lever, out, NULL));
+  if (kind == 1) fuzz_check_status(cairn_filter_update_attitude(s->filter, fuzz_maybe(q), fuzz_maybe(c), out, NULL));
+  if (kind == 2)
+    fuzz_check_status(cairn_filter_update_heading(s->filter, fuzz_number(4), fuzz_positive(0.2), out, NULL));
 }
 
 static void linear(slot* s) {
@@ -126,7 +127,7 @@ static void linear(slot* s) {
   for (size_t i = 0; i < count; ++i) ids[i] = fuzz_one_in(10) ? random_id() : first + i;
   fuzz_check_status(cairn_filter_update_linear(s->filter, fuzz_maybe(r), rows, fuzz_maybe(c),
                                                fuzz_one_in(4) ? NULL : jp, fuzz_maybe(ids), count, fuzz_maybe(jl),
-                                               fuzz_one_in(3) ? NULL : &m));
+                                               fuzz_one_in(3) ? NULL : &m, NULL));
   free(r), free(c), free(jp), free(jl), free(ids);
 }
 
@@ -143,37 +144,38 @@ static void ask(slot* s) {
   for (size_t i = 0; i < count; ++i) ids[i] = random_id();
   switch (fuzz_below(9)) {
     case 0:
-      fuzz_check_status(cairn_map_landmark(map, random_id(), fuzz_maybe_out(&one)));
+      fuzz_check_status(cairn_map_landmark(map, random_id(), fuzz_maybe_out(&one), NULL));
       break;
     case 1:
-      fuzz_check_status(cairn_map_landmarks(map, fuzz_maybe_out(out), capacity, fuzz_maybe_out(&needed)));
+      fuzz_check_status(cairn_map_landmarks(map, fuzz_maybe_out(out), capacity, fuzz_maybe_out(&needed), NULL));
       break;
     case 2:
       fuzz_check_status(
-          cairn_map_within(map, fuzz_maybe(a), fuzz_positive(10), out, capacity, fuzz_maybe_out(&needed)));
+          cairn_map_within(map, fuzz_maybe(a), fuzz_positive(10), out, capacity, fuzz_maybe_out(&needed), NULL));
       break;
     case 3:
       fuzz_check_status(
-          cairn_map_nearest(map, fuzz_maybe(a), fuzz_one_in(9) ? SIZE_MAX : count, out, capacity, &needed));
+          cairn_map_nearest(map, fuzz_maybe(a), fuzz_one_in(9) ? SIZE_MAX : count, out, capacity, &needed, NULL));
       break;
     case 4:
-      fuzz_check_status(cairn_map_in_box(map, fuzz_maybe(a), fuzz_maybe(b), out, capacity, fuzz_maybe_out(&needed)));
+      fuzz_check_status(
+          cairn_map_in_box(map, fuzz_maybe(a), fuzz_maybe(b), out, capacity, fuzz_maybe_out(&needed), NULL));
       break;
     case 5:
-      fuzz_check_status(cairn_map_joint_covariance(map, fuzz_maybe(ids), count, matrix, capacity * 12, &needed));
+      fuzz_check_status(cairn_map_joint_covariance(map, fuzz_maybe(ids), count, matrix, capacity * 12, &needed, NULL));
       break;
     case 6:
       fuzz_check_status(
-          cairn_filter_joint_covariance(s->filter, fuzz_maybe(ids), count, matrix, capacity * 12, &needed));
+          cairn_filter_joint_covariance(s->filter, fuzz_maybe(ids), count, matrix, capacity * 12, &needed, NULL));
       break;
     case 7:
-      fuzz_check_status(cairn_filter_pose_nees(s->filter, fuzz_maybe(&truth), fuzz_maybe_out(&nees)));
+      fuzz_check_status(cairn_filter_pose_nees(s->filter, fuzz_maybe(&truth), fuzz_maybe_out(&nees), NULL));
       break;
     default: {
       cairn_update_report report;
       memset(&report, 0, sizeof report);
       void* given = fuzz_resized(&report, sizeof report);
-      fuzz_check_status(cairn_filter_last_update(s->filter, fuzz_maybe_out(given)));
+      fuzz_check_status(cairn_filter_last_update(s->filter, fuzz_maybe_out(given), NULL));
       free(given);
     }
   }
@@ -189,34 +191,34 @@ static void ask_submaps(slot* s) {
   cairn_closing_report report;
   memset(&report, 0, sizeof report);
   void* given = fuzz_resized(&report, sizeof report);
-  fuzz_check_status(cairn_filter_last_closing(f, fuzz_maybe_out(given)));
+  fuzz_check_status(cairn_filter_last_closing(f, fuzz_maybe_out(given), NULL));
   free(given);
-  fuzz_check_status(cairn_filter_local_pose(f, fuzz_maybe_out(&local), fuzz_maybe_out(covariance)));
-  fuzz_check_status(cairn_filter_base_pose(f, fuzz_maybe_out(&base), fuzz_maybe_out(covariance)));
-  fuzz_check_status(cairn_filter_submap_count(f, fuzz_maybe_out(&count)));
+  fuzz_check_status(cairn_filter_local_pose(f, fuzz_maybe_out(&local), fuzz_maybe_out(covariance), NULL));
+  fuzz_check_status(cairn_filter_base_pose(f, fuzz_maybe_out(&base), fuzz_maybe_out(covariance), NULL));
+  fuzz_check_status(cairn_filter_submap_count(f, fuzz_maybe_out(&count), NULL));
   const size_t capacity = fuzz_below(20), index = fuzz_one_in(9) ? (size_t)fuzz_id() : fuzz_below(count + 1);
   uint64_t* ids = malloc(capacity * sizeof *ids + 1);
-  fuzz_check_status(cairn_filter_submap(f, index, fuzz_maybe_out(&pose), fuzz_maybe_out(ids), capacity, &needed));
+  fuzz_check_status(cairn_filter_submap(f, index, fuzz_maybe_out(&pose), fuzz_maybe_out(ids), capacity, &needed, NULL));
   free(ids);
   if (f == NULL) return;
   report.struct_size = sizeof report;
-  HOLDS(cairn_filter_last_closing(f, &report) == CAIRN_OK, 0);
-  HOLDS(cairn_filter_submap_count(f, &count) == CAIRN_OK && report.submaps <= count, report.submaps);
+  HOLDS(cairn_filter_last_closing(f, &report, NULL) == CAIRN_OK, 0);
+  HOLDS(cairn_filter_submap_count(f, &count, NULL) == CAIRN_OK && report.submaps <= count, report.submaps);
   HOLDS(report.status <= 0 && report.status >= CAIRN_ERROR_STATE, report.status);
   HOLDS(report.reason >= CAIRN_CLOSED_BY_NONE && report.reason <= CAIRN_CLOSED_BY_FIX, report.reason);
   if (report.status == CAIRN_OK)
     HOLDS(report.landmarks ==
               report.landmarks_new + report.landmarks_fused + report.landmarks_refused + report.landmarks_ambiguous,
           report.landmarks);
-  HOLDS(cairn_map_size(cairn_filter_local_map(f), &open) == CAIRN_OK, open);
-  HOLDS(cairn_filter_local_pose(f, &local, covariance) == CAIRN_OK, 0);
+  HOLDS(cairn_map_size(cairn_filter_local_map(f), &open, NULL) == CAIRN_OK, open);
+  HOLDS(cairn_filter_local_pose(f, &local, covariance, NULL) == CAIRN_OK, 0);
   check_numbers(s, covariance, 36);
-  HOLDS(cairn_filter_base_pose(f, &base, covariance) == CAIRN_OK, 0);
+  HOLDS(cairn_filter_base_pose(f, &base, covariance, NULL) == CAIRN_OK, 0);
   check_numbers(s, covariance, 36);
   for (int i = 0; i < 6; ++i) HOLDS_OF_NUMBERS(s, covariance[7 * i] >= 0, covariance[7 * i]);
-  HOLDS(cairn_filter_pose(f, &pose, NULL) == CAIRN_OK, 0);
+  HOLDS(cairn_filter_pose(f, &pose, NULL, NULL) == CAIRN_OK, 0);
   if (s->wild) return;
-  HOLDS(cairn_pose_compose(&base, &local, &composed) == CAIRN_OK, 0);
+  HOLDS(cairn_pose_compose(&base, &local, &composed, NULL) == CAIRN_OK, 0);
   for (int i = 0; i < 3; ++i) {
     const double scale =
         1 + fabs(base.position[i]) + fabs(local.position[0]) + fabs(local.position[1]) + fabs(local.position[2]);
@@ -226,7 +228,7 @@ static void ask_submaps(slot* s) {
 
 static void submaps(slot* s) {
   if (fuzz_one_in(3)) {
-    fuzz_check_status(cairn_filter_close_submap(fuzz_one_in(40) ? NULL : s->filter));
+    fuzz_check_status(cairn_filter_close_submap(fuzz_one_in(40) ? NULL : s->filter, NULL));
     return;
   }
   ask_submaps(s);

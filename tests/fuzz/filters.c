@@ -18,7 +18,7 @@ void check_state(const slot* s, bool whole) {
   cairn_pose pose;
   double covariance[36], length = 0, pivot = NAN;
   size_t n = 0, needed = 0;
-  HOLDS(cairn_filter_pose(s->filter, &pose, covariance) == CAIRN_OK, 0);
+  HOLDS(cairn_filter_pose(s->filter, &pose, covariance, NULL) == CAIRN_OK, 0);
   check_numbers(s, pose.position, 3);
   check_numbers(s, pose.quaternion, 4);
   for (int i = 0; i < 4; ++i) length += pose.quaternion[i] * pose.quaternion[i];
@@ -27,10 +27,10 @@ void check_state(const slot* s, bool whole) {
   for (int i = 0; i < 6; ++i) HOLDS_OF_NUMBERS(s, covariance[7 * i] >= 0, covariance[7 * i]);
   for (int i = 0; i < 36; ++i) HOLDS_OF_NUMBERS(s, covariance[i] == covariance[6 * (i % 6) + i / 6], covariance[i]);
   const cairn_map* map = cairn_filter_map(s->filter);
-  HOLDS(map != NULL && cairn_map_size(map, &n) == CAIRN_OK && n <= s->max_landmarks, n);
+  HOLDS(map != NULL && cairn_map_size(map, &n, NULL) == CAIRN_OK && n <= s->max_landmarks, n);
   if (!whole) return;
   cairn_landmark* all = calloc(n + 1, sizeof *all);
-  HOLDS(cairn_map_landmarks(map, all, n, &needed) == CAIRN_OK && needed == n, needed);
+  HOLDS(cairn_map_landmarks(map, all, n, &needed, NULL) == CAIRN_OK && needed == n, needed);
   for (size_t i = 0; i < n; ++i) {
     check_numbers(s, all[i].position, 3);
     check_numbers(s, all[i].covariance, 9);
@@ -39,7 +39,7 @@ void check_state(const slot* s, bool whole) {
     if (i > 0) HOLDS(all[i - 1].id < all[i].id, all[i].id);
   }
   free(all);
-  HOLDS(cairn_filter_audit(s->filter, &pivot) == CAIRN_OK, pivot);
+  HOLDS(cairn_filter_audit(s->filter, &pivot, NULL) == CAIRN_OK, pivot);
   HOLDS_OF_NUMBERS(s, !isnan(pivot), pivot);
   if (!s->wild) HOLDS(pivot > -1e-9, pivot);
   states_without_positive_pivot += !(pivot > 0);
@@ -64,7 +64,7 @@ void create_filter(slot* s) {
   size_t bytes = 0;
   fuzz_operation = "create";
   fuzz_wild = true;
-  fuzz_check_status(cairn_filter_options_init(&o, sizeof o));
+  fuzz_check_status(cairn_filter_options_init(&o, sizeof o, NULL));
   slot fresh = {NULL,
                 fuzz_one_in(2),
                 fuzz_one_in(3),
@@ -80,8 +80,8 @@ void create_filter(slot* s) {
   if (fuzz_one_in(3)) o.gate_probability = fuzz_uniform(0.1, 1.02);
   if (fuzz_one_in(3)) o.batch_gate_probability = fuzz_one_in(2) ? 1 : fuzz_uniform(0.1, 1);
   if (fuzz_one_in(8)) o.iteration_tolerance = fuzz_garbage();
-  /* A submap of thousands of landmarks takes minutes to audit: beside small ones there are some of a few hundred, and some
-     beyond the range. */
+  /* A submap of thousands of landmarks takes minutes to audit: beside small ones there are some of a few hundred, and
+     some beyond the range. */
   if (fuzz_one_in(2)) o.submap_landmarks = 1 + (uint32_t)fuzz_below(fuzz_one_in(20) ? 300 : 12);
   if (fuzz_one_in(100)) o.submap_landmarks = 4097 + (uint32_t)fuzz_below(1000);
   o.join = fuzz_one_in(20) ? fuzz_int() : (int32_t)fuzz_below(3);
@@ -109,9 +109,9 @@ void create_filter(slot* s) {
     given = malloc(sizeof o);
     memcpy(given, &o, sizeof o);
   }
-  const cairn_status sized = cairn_filter_required_bytes(fuzz_maybe(given), fuzz_maybe_out(&bytes));
+  const cairn_status sized = cairn_filter_required_bytes(fuzz_maybe(given), fuzz_maybe_out(&bytes), NULL);
   fuzz_check_status(sized);
-  const cairn_status status = cairn_filter_create(fuzz_maybe(given), fuzz_one_in(50) ? NULL : &filter);
+  const cairn_status status = cairn_filter_create(fuzz_maybe(given), fuzz_one_in(50) ? NULL : &filter, NULL);
   fuzz_check_status(status);
   HOLDS((filter != NULL) == (status == CAIRN_OK), status);
   free(given);
@@ -119,12 +119,12 @@ void create_filter(slot* s) {
   cairn_filter_destroy(s->filter);
   *s = fresh;
   s->filter = filter;
-  if (fuzz_one_in(2)) fuzz_check_status(cairn_filter_set_log(filter, hear, &heard));
+  if (fuzz_one_in(2)) fuzz_check_status(cairn_filter_set_log(filter, hear, &heard, NULL));
   now = s;
 }
 
 static void draw_radar(cairn_range_bearing* r) {
-  fuzz_check_status(cairn_range_bearing_init(r, sizeof *r));
+  fuzz_check_status(cairn_range_bearing_init(r, sizeof *r, NULL));
   if (fuzz_one_in(3)) r->T_body_sensor.position[fuzz_below(2)] = fuzz_number(1);
   r->range_sigma = fuzz_positive(0.5), r->bearing_sigma = fuzz_positive(0.1);
   if (fuzz_one_in(4)) r->near_range = fuzz_positive(0.1);
@@ -138,7 +138,7 @@ void add_sensor(slot* s) {
   const int kind = s->planar && !fuzz_one_in(9) ? 2 + (int)fuzz_below(4) : (int)fuzz_below(fuzz_one_in(9) ? 6 : 5);
   if (kind == 0) {
     cairn_stereo_head h;
-    fuzz_check_status(cairn_stereo_head_init(&h, sizeof h));
+    fuzz_check_status(cairn_stereo_head_init(&h, sizeof h, NULL));
     h.encoder_mode = fuzz_one_in(30) ? fuzz_int() : (int32_t)fuzz_below(2);
     fuzz_numbers(h.platform, 3, 1), fuzz_numbers(h.stick, 3, 1);
     if (fuzz_one_in(2)) fuzz_numbers(h.camera_quaternion, 4, 1);
@@ -146,34 +146,34 @@ void add_sensor(slot* s) {
     h.pan_sigma = fuzz_positive(0.02), h.stick_sigma = fuzz_one_in(3) ? 0 : fuzz_positive(0.02);
     if (fuzz_one_in(4)) h.max_elevation = fuzz_positive(1.5);
     given = fuzz_one_in(4) ? fuzz_resized(&h, sizeof h) : memcpy(malloc(sizeof h), &h, sizeof h);
-    status = cairn_filter_add_stereo_head(s->filter, fuzz_maybe(given), out);
+    status = cairn_filter_add_stereo_head(s->filter, fuzz_maybe(given), out, NULL);
   } else if (kind == 1) {
     cairn_stereo_camera c;
-    fuzz_check_status(cairn_stereo_camera_init(&c, sizeof c));
+    fuzz_check_status(cairn_stereo_camera_init(&c, sizeof c, NULL));
     c.fu = fuzz_positive(500), c.fv = fuzz_positive(500), c.baseline = fuzz_positive(1), c.cu = fuzz_number(500);
     if (fuzz_one_in(3)) fuzz_pose(&c.T_body_camera);
     c.sigma[fuzz_below(3)] = fuzz_positive(2);
     given = fuzz_one_in(4) ? fuzz_resized(&c, sizeof c) : memcpy(malloc(sizeof c), &c, sizeof c);
-    status = cairn_filter_add_stereo_camera(s->filter, fuzz_maybe(given), out);
+    status = cairn_filter_add_stereo_camera(s->filter, fuzz_maybe(given), out, NULL);
   } else if (kind == 2) {
     cairn_cartesian c;
-    fuzz_check_status(cairn_cartesian_init(&c, sizeof c));
+    fuzz_check_status(cairn_cartesian_init(&c, sizeof c, NULL));
     if (fuzz_one_in(2)) fuzz_pose(&c.T_body_sensor);
     c.sigma[fuzz_below(3)] = fuzz_positive(1);
     given = fuzz_one_in(4) ? fuzz_resized(&c, sizeof c) : memcpy(malloc(sizeof c), &c, sizeof c);
-    status = cairn_filter_add_cartesian(s->filter, fuzz_maybe(given), out);
+    status = cairn_filter_add_cartesian(s->filter, fuzz_maybe(given), out, NULL);
     if (s->planar) rows = 2;
   } else if (kind == 5) {
     cairn_range_bearing r;
     draw_radar(&r);
     given = fuzz_one_in(4) ? fuzz_resized(&r, sizeof r) : memcpy(malloc(sizeof r), &r, sizeof r);
-    status = cairn_filter_add_range_bearing(s->filter, fuzz_maybe(given), out);
+    status = cairn_filter_add_range_bearing(s->filter, fuzz_maybe(given), out, NULL);
     rows = 2;
   } else {
     cairn_custom c;
     double worst, landmark[3];
     cairn_pose T;
-    fuzz_check_status(cairn_custom_init(&c, sizeof c));
+    fuzz_check_status(cairn_custom_init(&c, sizeof c, NULL));
     c.predict = kind == 3 ? fuzz_custom_predict : fuzz_range_predict;
     c.place = kind == 3 && !fuzz_one_in(4) ? fuzz_custom_place : NULL;
     c.rows = rows = kind == 3 ? 3 : 1;
@@ -182,9 +182,10 @@ void add_sensor(slot* s) {
     c.angle_mask = (uint32_t)fuzz_below(8);
     c.sigma[0] = fuzz_positive(1);
     fuzz_pose(&T), fuzz_numbers(landmark, 3, 5);
-    fuzz_check_status(cairn_custom_check(fuzz_maybe(&c), fuzz_maybe(&T), fuzz_maybe(landmark), fuzz_maybe_out(&worst)));
+    fuzz_check_status(
+        cairn_custom_check(fuzz_maybe(&c), fuzz_maybe(&T), fuzz_maybe(landmark), fuzz_maybe_out(&worst), NULL));
     given = memcpy(malloc(sizeof c), &c, sizeof c);
-    status = cairn_filter_add_custom(s->filter, fuzz_maybe(given), out);
+    status = cairn_filter_add_custom(s->filter, fuzz_maybe(given), out, NULL);
   }
   free(given);
   fuzz_check_status(status);

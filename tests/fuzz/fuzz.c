@@ -100,10 +100,10 @@ void fuzz_shadow_take(fuzz_shadow* shadow, const cairn_filter* filter) {
   size_t needed;
   memset(shadow, 0, sizeof *shadow);
   shadow->report.struct_size = sizeof shadow->report;
-  if (cairn_filter_pose(filter, &shadow->pose, shadow->covariance) != CAIRN_OK ||
-      cairn_filter_last_update(filter, &shadow->report) != CAIRN_OK ||
-      cairn_map_size(map, &shadow->landmarks) != CAIRN_OK ||
-      cairn_map_nearest(map, origin, 4, shadow->first, 4, &needed) != CAIRN_OK)
+  if (cairn_filter_pose(filter, &shadow->pose, shadow->covariance, NULL) != CAIRN_OK ||
+      cairn_filter_last_update(filter, &shadow->report, NULL) != CAIRN_OK ||
+      cairn_map_size(map, &shadow->landmarks, NULL) != CAIRN_OK ||
+      cairn_map_nearest(map, origin, 4, shadow->first, 4, &needed, NULL) != CAIRN_OK)
     abort();
 }
 
@@ -116,16 +116,16 @@ void fuzz_helpers(void (*check)(cairn_status)) {
   double p[3], q[4], v[3], e[6], angles[3];
   const bool alias = fuzz_one_in(3);
   numbers(a.position, 3), numbers(a.quaternion, 4), numbers(b.position, 3), numbers(b.quaternion, 4), numbers(p, 3);
-  check(cairn_pose_error(&a, &b, e));
-  check(cairn_pose_apply(&a, p, alias ? p : v));
-  check(cairn_pose_inverse(&a, alias ? &a : &out));
-  check(cairn_pose_compose(&a, fuzz_one_in(50) ? NULL : &b, alias ? &b : &out));
+  check(cairn_pose_error(&a, &b, e, NULL));
+  check(cairn_pose_apply(&a, p, alias ? p : v, NULL));
+  check(cairn_pose_inverse(&a, alias ? &a : &out, NULL));
+  check(cairn_pose_compose(&a, fuzz_one_in(50) ? NULL : &b, alias ? &b : &out, NULL));
   numbers(angles, 3), numbers(q, 4);
-  check(cairn_quaternion_to_euler(q, &v[0], &v[1], &v[2]));
-  check(cairn_quaternion_log(q, v));
-  check(cairn_quaternion_exp(angles, q));
-  check(cairn_quaternion_from_euler(angles[0], angles[1], angles[2], q));
-  check(cairn_pose_identity(fuzz_one_in(50) ? NULL : &out));
+  check(cairn_quaternion_to_euler(q, &v[0], &v[1], &v[2], NULL));
+  check(cairn_quaternion_log(q, v, NULL));
+  check(cairn_quaternion_exp(angles, q, NULL));
+  check(cairn_quaternion_from_euler(angles[0], angles[1], angles[2], q, NULL));
+  check(cairn_pose_identity(fuzz_one_in(50) ? NULL : &out, NULL));
   if (cairn_status_name((cairn_status)fuzz_bits()) == NULL || cairn_version() == NULL || cairn_build() == NULL) abort();
 
   /* _init of every struct, into a buffer of exactly the stated size. */
@@ -137,25 +137,25 @@ void fuzz_helpers(void (*check)(cairn_status)) {
     void* buffer = malloc(size > 4096 ? 1 : size + (size == 0));
     switch (kind) {
       case 0:
-        check(cairn_filter_options_init(buffer, size));
+        check(cairn_filter_options_init(buffer, size, NULL));
         break;
       case 1:
-        check(cairn_stereo_head_init(buffer, size));
+        check(cairn_stereo_head_init(buffer, size, NULL));
         break;
       case 2:
-        check(cairn_stereo_camera_init(buffer, size));
+        check(cairn_stereo_camera_init(buffer, size, NULL));
         break;
       case 3:
-        check(cairn_cartesian_init(buffer, size));
+        check(cairn_cartesian_init(buffer, size, NULL));
         break;
       case 4:
-        check(cairn_custom_init(buffer, size));
+        check(cairn_custom_init(buffer, size, NULL));
         break;
       case 5:
-        check(cairn_wheels_init(buffer, size));
+        check(cairn_wheels_init(buffer, size, NULL));
         break;
       default:
-        check(cairn_twist_noise_init(buffer, size));
+        check(cairn_twist_noise_init(buffer, size, NULL));
         break;
     }
     free(buffer);

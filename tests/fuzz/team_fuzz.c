@@ -36,15 +36,15 @@ static view look(const cairn_team* team) {
   uint64_t members[300];
   size_t count = 0, n = 0, needed = 0;
   const cairn_map* map = cairn_team_map(team);
-  HOLDS(cairn_team_members(team, members, 300, &count) == CAIRN_OK && count > 0, count);
-  HOLDS(cairn_map_size(map, &n) == CAIRN_OK && n <= LANDMARKS, n);
+  HOLDS(cairn_team_members(team, members, 300, &count, NULL) == CAIRN_OK && count > 0, count);
+  HOLDS(cairn_map_size(map, &n, NULL) == CAIRN_OK && n <= LANDMARKS, n);
   const size_t one = sizeof(cairn_pose) + 36 * sizeof(double);
   view v = {count * one + n * sizeof(cairn_landmark), NULL};
   v.bytes = calloc(1, v.size + 1);
   for (size_t i = 0; i < count; ++i) {
     cairn_pose pose;
     double covariance[36];
-    const cairn_status status = cairn_team_pose(team, members[i], &pose, covariance);
+    const cairn_status status = cairn_team_pose(team, members[i], &pose, covariance, NULL);
     HOLDS(status == CAIRN_OK || (i > 0 && status == CAIRN_ERROR_NOT_FOUND), status);
     if (status != CAIRN_OK) continue;
     for (int k = 0; k < 36; ++k) HOLDS(isfinite(covariance[k]), covariance[k]);
@@ -54,7 +54,7 @@ static view look(const cairn_team* team) {
     memcpy(v.bytes + i * one + sizeof pose, covariance, sizeof covariance);
   }
   cairn_landmark landmarks[LANDMARKS];
-  HOLDS(cairn_map_landmarks(map, landmarks, LANDMARKS, &needed) == CAIRN_OK && needed == n, needed);
+  HOLDS(cairn_map_landmarks(map, landmarks, LANDMARKS, &needed, NULL) == CAIRN_OK && needed == n, needed);
   for (size_t i = 0; i < n; ++i) {
     for (int k = 0; k < 3; ++k) HOLDS(isfinite(landmarks[i].position[k]), landmarks[i].position[k]);
     for (int k = 0; k < 9; ++k) HOLDS(isfinite(landmarks[i].covariance[k]), landmarks[i].covariance[k]);
@@ -69,7 +69,7 @@ static void check_report(size_t number) {
   cairn_team_report r;
   memset(&r, 0, sizeof r);
   r.struct_size = sizeof r;
-  HOLDS(cairn_team_last_report(team, &r) == CAIRN_OK, 0);
+  HOLDS(cairn_team_last_report(team, &r, NULL) == CAIRN_OK, 0);
   HOLDS(r.taken + r.repeated + r.own + r.ignored + r.unknown + r.past + r.conflict + r.full + r.foreign + r.version +
                 r.cut + r.corrupt + r.nonsense <=
             r.received,
@@ -85,9 +85,9 @@ static void create(size_t number) {
   cairn_range_bearing radar;
   cairn_team* team = NULL;
   fuzz_operation = "create";
-  fuzz_check_status(cairn_team_options_init(&o, sizeof o));
-  fuzz_check_status(cairn_filter_options_init(&f, sizeof f));
-  fuzz_check_status(cairn_range_bearing_init(&radar, sizeof radar));
+  fuzz_check_status(cairn_team_options_init(&o, sizeof o, NULL));
+  fuzz_check_status(cairn_filter_options_init(&f, sizeof f, NULL));
+  fuzz_check_status(cairn_range_bearing_init(&radar, sizeof radar, NULL));
   o.mode = fuzz_one_in(3) ? (int32_t)fuzz_below(5) : CAIRN_TEAM_JOINT;
   o.vehicle = number + 1;
   o.max_vehicles = fuzz_one_in(5) ? 1 + (uint32_t)fuzz_below(5) : 5;
@@ -109,7 +109,7 @@ static void create(size_t number) {
   radar.range_sigma = fuzz_uniform(0.01, 1);
   if (fuzz_one_in(4)) radar.T_body_sensor.position[0] = fuzz_number(1);
   void* given = fuzz_one_in(5) ? fuzz_resized(&o, sizeof o) : memcpy(malloc(sizeof o), &o, sizeof o);
-  const cairn_status status = cairn_team_create(fuzz_maybe(given), fuzz_maybe(&f), fuzz_maybe(&radar), &team);
+  const cairn_status status = cairn_team_create(fuzz_maybe(given), fuzz_maybe(&f), fuzz_maybe(&radar), &team, NULL);
   free(given);
   fuzz_check_status(status);
   HOLDS((team != NULL) == (status == CAIRN_OK), status);
@@ -120,7 +120,7 @@ static void create(size_t number) {
   clocks[number] = 0;
   for (uint64_t other = 1; other <= TEAMS; ++other)
     if (other != number + 1)
-      fuzz_check_status(cairn_team_add(team, other, fuzz_one_in(3) ? NULL : &f.initial_pose, NULL));
+      fuzz_check_status(cairn_team_add(team, other, fuzz_one_in(3) ? NULL : &f.initial_pose, NULL, NULL));
 }
 
 static void level_pose(cairn_pose* out) {
@@ -142,7 +142,7 @@ static void level_covariance(double* out, double scale) {
 
 static void check_nees(const cairn_team* team, const cairn_pose* truth) {
   double nees = -1;
-  const cairn_status status = cairn_team_pose_nees(team, truth, &nees);
+  const cairn_status status = cairn_team_pose_nees(team, truth, &nees, NULL);
   fuzz_check_status(status);
   HOLDS((status == CAIRN_OK) == (nees >= 0), nees);
 }
@@ -154,23 +154,23 @@ static void membership(cairn_team* team) {
   level_pose(&start), level_covariance(covariance, 0.1);
   switch (fuzz_below(8)) {
     case 0:
-      if (fuzz_one_in(5)) fuzz_check_status(cairn_team_remove(team, vehicle));
+      if (fuzz_one_in(5)) fuzz_check_status(cairn_team_remove(team, vehicle, NULL));
       break;
     case 1:
-      fuzz_check_status(cairn_team_ask(team));
+      fuzz_check_status(cairn_team_ask(team, NULL));
       break;
     case 2:
-      if (fuzz_one_in(60)) fuzz_check_status(cairn_team_leave(team));
+      if (fuzz_one_in(60)) fuzz_check_status(cairn_team_leave(team, NULL));
       break;
     case 3:
-      fuzz_check_status(cairn_team_add(team, vehicle, NULL, NULL));
+      fuzz_check_status(cairn_team_add(team, vehicle, NULL, NULL, NULL));
       break;
     case 4:
-      fuzz_check_status(cairn_team_score(team, &start));
+      fuzz_check_status(cairn_team_score(team, &start, NULL));
       check_nees(team, &start);
       break;
     default:
-      fuzz_check_status(cairn_team_add(team, vehicle, &start, fuzz_one_in(3) ? NULL : covariance));
+      fuzz_check_status(cairn_team_add(team, vehicle, &start, fuzz_one_in(3) ? NULL : covariance, NULL));
   }
 }
 
@@ -179,10 +179,10 @@ static void motion(cairn_team* team) {
   double c[36], v[3], w[3];
   if (fuzz_one_in(2)) {
     level_pose(&T), level_covariance(c, 1e-3);
-    fuzz_check_status(cairn_team_predict_increment(team, fuzz_maybe(&T), fuzz_maybe(c)));
+    fuzz_check_status(cairn_team_predict_increment(team, fuzz_maybe(&T), fuzz_maybe(c), NULL));
   } else {
     fuzz_numbers(v, 3, 1), fuzz_numbers(w, 3, 1);
-    fuzz_check_status(cairn_team_predict_twist(team, fuzz_positive(1), fuzz_maybe(v), fuzz_maybe(w), NULL));
+    fuzz_check_status(cairn_team_predict_twist(team, fuzz_positive(1), fuzz_maybe(v), fuzz_maybe(w), NULL, NULL));
   }
 }
 
@@ -203,7 +203,7 @@ static void observe(size_t number) {
   sights(landmarks, n, LANDMARKS + 2), sights(vehicles, m, TEAMS + 1);
   const double time = fuzz_bad() ? fuzz_garbage() : clocks[number] + 1;
   const cairn_status status =
-      cairn_team_observe(teams[number], time, fuzz_one_in(60) ? NULL : landmarks, n, vehicles, m);
+      cairn_team_observe(teams[number], time, fuzz_one_in(60) ? NULL : landmarks, n, vehicles, m, NULL);
   fuzz_check_status(status);
   if (time == clocks[number] + 1 && status != CAIRN_ERROR_ARGUMENT) clocks[number] = time;
   if (fuzz_one_in(200)) clocks[number] += fuzz_uniform(0, 100); /* a long silence */
@@ -249,7 +249,7 @@ static void deliver(cairn_team* team, const letter* l) {
   memcpy(exact, copy, size);
   int32_t result = 0;
   const view before = look(team);
-  const cairn_status status = cairn_team_receive(team, exact, size, &result);
+  const cairn_status status = cairn_team_receive(team, exact, size, &result, NULL);
   fuzz_check_status(status);
   HOLDS(status == CAIRN_OK, status);
   HOLDS(result >= CAIRN_PACKET_TAKEN && result <= CAIRN_PACKET_AHEAD, result);
@@ -263,12 +263,12 @@ static void deliver(cairn_team* team, const letter* l) {
 /* Takes what there is to send, or only asks for it, into the pool. */
 static void take(cairn_team* team) {
   size_t needed = 0, given = 0;
-  const cairn_status status = cairn_team_take_packet(team, NULL, 0, fuzz_maybe_out(&needed));
+  const cairn_status status = cairn_team_take_packet(team, NULL, 0, fuzz_maybe_out(&needed), NULL);
   fuzz_check_status(status);
   if (status != CAIRN_OK || needed == 0) return;
   const size_t room = fuzz_one_in(10) ? fuzz_below(needed) : needed;
   uint8_t* bytes = malloc(room + 1);
-  const cairn_status copied = cairn_team_take_packet(team, bytes, room, &given);
+  const cairn_status copied = cairn_team_take_packet(team, bytes, room, &given, NULL);
   fuzz_check_status(copied);
   HOLDS(given == needed && (copied == CAIRN_OK) == (room == needed), copied);
   if (copied != CAIRN_OK) {

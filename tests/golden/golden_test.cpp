@@ -41,7 +41,7 @@ constexpr int kSteps = 3, kLandmarks = 3, kStateValues = 21, kJoint = 6 + 3 * kL
 
 cairn_filter* start_filter(int32_t error, int32_t* sensor) {
   cairn_filter_options options;
-  ok(cairn_filter_options_init(&options, sizeof options));
+  ok(cairn_filter_options_init(&options, sizeof options, nullptr));
   options.error = error;
   options.gate_probability = options.batch_gate_probability = 1;
   options.iterations = 3;
@@ -50,16 +50,16 @@ cairn_filter* start_filter(int32_t error, int32_t* sensor) {
   quaternion_of(golden::kStart + 3, options.initial_pose.quaternion);
   std::copy_n(golden::kCovariance, 36, options.initial_covariance);
   cairn_filter* filter = nullptr;
-  ok(cairn_filter_create(&options, &filter));
+  ok(cairn_filter_create(&options, &filter, nullptr));
   // The same values as in the script.
   cairn_twist_noise noise;
-  ok(cairn_twist_noise_init(&noise, sizeof noise));
+  ok(cairn_twist_noise_init(&noise, sizeof noise, nullptr));
   const double sigma[6] = {0.05, 0.04, 0.03, 0.01, 0.012, 0.014};
   std::copy_n(sigma, 3, noise.velocity_sigma);
   std::copy_n(sigma + 3, 3, noise.rate_sigma);
-  ok(cairn_filter_set_twist_noise(filter, &noise));
+  ok(cairn_filter_set_twist_noise(filter, &noise, nullptr));
   cairn_stereo_head head;
-  ok(cairn_stereo_head_init(&head, sizeof head));
+  ok(cairn_stereo_head_init(&head, sizeof head, nullptr));
   const double platform[3] = {0.3, -0.1, 1.2}, stick[3] = {0.15, 0.05, 0.2};
   std::copy_n(platform, 3, head.platform);
   std::copy_n(stick, 3, head.stick);
@@ -69,14 +69,14 @@ cairn_filter* start_filter(int32_t error, int32_t* sensor) {
   head.pan_sigma = 0.02;
   head.stick_sigma = 0.015;
   head.encoder_mode = CAIRN_ENCODER_PER_FRAME;
-  ok(cairn_filter_add_stereo_head(filter, &head, sensor));
-  ok(cairn_filter_point_head(filter, *sensor, 0.3, -0.2));
+  ok(cairn_filter_add_stereo_head(filter, &head, sensor, nullptr));
+  ok(cairn_filter_point_head(filter, *sensor, 0.3, -0.2, nullptr));
   return filter;
 }
 
 void check_state(const cairn_filter* filter, const double* expected, int landmarks) {
   cairn_pose pose;
-  ok(cairn_filter_pose(filter, &pose, nullptr));
+  ok(cairn_filter_pose(filter, &pose, nullptr, nullptr));
   double quaternion[4];
   quaternion_of(expected, quaternion);
   const double sign = quaternion[0] * pose.quaternion[0] < 0 ? -1 : 1;
@@ -84,7 +84,7 @@ void check_state(const cairn_filter* filter, const double* expected, int landmar
   for (int i = 0; i < 3; ++i) near(pose.position[i], expected[9 + i]);
   for (int l = 0; l < landmarks; ++l) {
     cairn_landmark landmark;
-    ok(cairn_map_landmark(cairn_filter_map(filter), static_cast<uint64_t>(l), &landmark));
+    ok(cairn_map_landmark(cairn_filter_map(filter), static_cast<uint64_t>(l), &landmark, nullptr));
     for (int i = 0; i < 3; ++i) near(landmark.position[i], expected[12 + 3 * l + i]);
   }
 }
@@ -95,17 +95,17 @@ void run_filter(const Expected& expected) {
   for (int k = 0; k < kSteps; ++k) {
     CAPTURE(k);
     const double* twist = golden::kTwists + 7 * k;
-    ok(cairn_filter_predict_twist(filter, twist[6], twist, twist + 3));
+    ok(cairn_filter_predict_twist(filter, twist[6], twist, twist + 3, nullptr));
     const int count = k == 0 ? 2 : kLandmarks;
     cairn_observation frame[kLandmarks] = {};
     for (int i = 0; i < count; ++i) {
       frame[i].id = static_cast<uint64_t>(i);
       std::copy_n(golden::kFrames + 9 * k + 3 * i, 3, frame[i].z);
     }
-    ok(cairn_filter_update(filter, sensor, frame, static_cast<size_t>(count), nullptr));
+    ok(cairn_filter_update(filter, sensor, frame, static_cast<size_t>(count), nullptr, nullptr));
     cairn_update_report report = {};
     report.struct_size = sizeof report;
-    ok(cairn_filter_last_update(filter, &report));
+    ok(cairn_filter_last_update(filter, &report, nullptr));
     near(report.nis, expected.nis[k]);
     CHECK(report.iterations == (k == 0 ? 0u : 3u));
     check_state(filter, expected.states + kStateValues * k, count);
@@ -113,7 +113,7 @@ void run_filter(const Expected& expected) {
   const uint64_t ids[kLandmarks] = {0, 1, 2};
   double joint[kJoint * kJoint];
   size_t needed = 0;
-  ok(cairn_filter_joint_covariance(filter, ids, kLandmarks, joint, kJoint * kJoint, &needed));
+  ok(cairn_filter_joint_covariance(filter, ids, kLandmarks, joint, kJoint * kJoint, &needed, nullptr));
   for (int r = 0; r < kJoint; ++r)
     for (int c = 0; c < kJoint; ++c) {
       const double* P = expected.covariance;
@@ -148,9 +148,10 @@ TEST_CASE("golden: chi-square quantiles") {
 }
 
 TEST_CASE("golden: three steps of the invariant filter") {
-  run_filter({CAIRN_ERROR_INVARIANT, golden::kInvariantStates, golden::kInvariantCovariance, golden::kInvariantNis});
+  run_filter(
+      {CAIRN_STATE_ERROR_INVARIANT, golden::kInvariantStates, golden::kInvariantCovariance, golden::kInvariantNis});
 }
 
 TEST_CASE("golden: three steps of the standard filter") {
-  run_filter({CAIRN_ERROR_STANDARD, golden::kStandardStates, golden::kStandardCovariance, golden::kStandardNis});
+  run_filter({CAIRN_STATE_ERROR_STANDARD, golden::kStandardStates, golden::kStandardCovariance, golden::kStandardNis});
 }

@@ -27,11 +27,13 @@ library=$(find "$prefix" -path '*/glibc-hwcaps' -prune -o -name libcairn.so -pri
 [[ -n $library ]] || fail "libcairn.so was not installed"
 libdir=$(dirname -- "$library")
 version=$(sed -n 's/^Version: //p' "$libdir/pkgconfig/cairn.pc")
-major=${version%%.*}
+# Before 1.0 the SONAME has the minor version too.
+soversion=${version%.*}
+[[ $version == 0.* ]] || soversion=${version%%.*}
 
 # # The installed files.
-for file in "$libdir/libcairn.so.$major" "$libdir/libcairn.so.$version" "$prefix/include/cairn/cairn.h" \
-  "$libdir/libcairn_sim.so" "$libdir/libcairn_sim.so.$major" "$libdir/libcairn_sim.so.$version" \
+for file in "$libdir/libcairn.so.$soversion" "$libdir/libcairn.so.$version" "$prefix/include/cairn/cairn.h" \
+  "$libdir/libcairn_sim.so" "$libdir/libcairn_sim.so.$soversion" "$libdir/libcairn_sim.so.$version" \
   "$libdir/cmake/cairn/cairnConfig.cmake" "$libdir/cmake/cairn/cairnConfigVersion.cmake" \
   "$prefix/share/doc/cairn/LICENSE" "$prefix/share/doc/cairn/README.md"; do
   [[ -f $file ]] || fail "missing: ${file#"$prefix/"}"
@@ -39,7 +41,7 @@ done
 libraries=("$libdir/libcairn.so.$version")
 hwcaps=$libdir/glibc-hwcaps/x86-64-v3
 if [[ -f $hwcaps/libcairn.so.$version ]]; then
-  [[ -f $hwcaps/libcairn.so.$major ]] || fail "the x86-64-v3 build lacks its soname"
+  [[ -f $hwcaps/libcairn.so.$soversion ]] || fail "the x86-64-v3 build lacks its soname"
   [[ ! -e $hwcaps/libcairn.so ]] || fail "the x86-64-v3 build has a link to link against"
   libraries+=("$hwcaps/libcairn.so.$version")
 fi

@@ -31,7 +31,7 @@ class ResultsTest(unittest.TestCase):
     def test_same_bits_as_the_c_interface(self):
         options = ffi.new("cairn_filter_options *")
         lib.cairn_filter_options_init(options, ffi.sizeof("cairn_filter_options"))
-        options.max_landmarks, options.error, options.gate_probability = 30, lib.CAIRN_ERROR_STANDARD, 0.999
+        options.max_landmarks, options.error, options.gate_probability = 30, lib.CAIRN_STATE_ERROR_STANDARD, 0.999
         for i in range(6):
             options.initial_covariance[7 * i] = 0.01
         raw = ffi.new("cairn_filter **")

@@ -16,7 +16,7 @@ static double end_of(const cairn_world* w) {
 
 static double yaw_of(const cairn_pose* pose) {
   double roll, pitch, yaw;
-  assert_int_equal(cairn_quaternion_to_euler(pose->quaternion, &roll, &pitch, &yaw), CAIRN_OK);
+  assert_int_equal(cairn_quaternion_to_euler(pose->quaternion, &roll, &pitch, &yaw, NULL), CAIRN_OK);
   return yaw;
 }
 
@@ -27,8 +27,8 @@ static void check_smooth(const cairn_world* w, double speed, double sharpest) {
   for (t = 1; t < end - 1; t += 3.7) {
     cairn_pose a, b;
     double dx, dy;
-    assert_ok(cairn_world_pose(w, t, &a));
-    assert_ok(cairn_world_pose(w, t + dt, &b));
+    assert_ok(cairn_world_pose(w, t, &a, NULL));
+    assert_ok(cairn_world_pose(w, t + dt, &b, NULL));
     dx = b.position[0] - a.position[0], dy = b.position[1] - a.position[1];
     assert_near(hypot(dx, dy), speed * dt, 1e-6 * speed * dt + speed * dt * pow(speed * dt / sharpest, 2));
     assert_near(remainder(atan2(dy, dx) - yaw_of(&a), 2 * PI), 0, 1.01 * speed * dt / (2 * sharpest) + 1e-6);
@@ -41,15 +41,15 @@ static void the_papers_circle(void** state) {
   cairn_pose pose;
   double t;
   (void)state;
-  assert_ok(cairn_world_pose(w, 0, &pose));
+  assert_ok(cairn_world_pose(w, 0, &pose, NULL));
   assert_near(pose.position[0], 100, 1e-9);
   assert_near(pose.position[1], 20, 1e-9);
   assert_near(yaw_of(&pose), atan2(20, 100) + PI / 2, 1e-9);
   for (t = 0; t <= 400; t += 7) {
-    assert_ok(cairn_world_pose(w, t, &pose));
+    assert_ok(cairn_world_pose(w, t, &pose, NULL));
     assert_near(hypot(pose.position[0], pose.position[1]), hypot(100, 20), 1e-9);
   }
-  assert_ok(cairn_world_pose(w, 400, &pose));
+  assert_ok(cairn_world_pose(w, 400, &pose, NULL));
   assert_near(pose.position[0], 100, 1e-6);
   assert_near(pose.position[1], 20, 1e-6);
   check_smooth(w, o.speed, 100);
@@ -57,7 +57,7 @@ static void the_papers_circle(void** state) {
   o.centre[0] = 7, o.centre[1] = -3, o.radius = 50, o.start_azimuth = 0, o.laps = 2.5, o.speed = 2;
   w = open_world(&o);
   assert_int_equal(steps_of(w), (size_t)(2.5 * 2 * PI * 50 / 2 / 2) + 1);
-  assert_ok(cairn_world_pose(w, 0, &pose));
+  assert_ok(cairn_world_pose(w, 0, &pose, NULL));
   assert_near(pose.position[0], 57, 1e-9);
   assert_near(pose.position[1], -3, 1e-9);
   cairn_world_destroy(w);
@@ -72,7 +72,7 @@ static void the_rows_scene(void** state) {
   size_t i;
   (void)state;
   assert_int_equal(steps_of(w), 201);
-  assert_ok(cairn_world_pose(w, 50, &pose));
+  assert_ok(cairn_world_pose(w, 50, &pose, NULL));
   azimuth = atan2(20, 100) + 2 * 2 * PI * 50 / 400;
   x = 101.98 * cos(azimuth), y = 101.98 * sin(azimuth);
   assert_near(pose.position[0], x, 1e-9);
@@ -84,7 +84,7 @@ static void the_rows_scene(void** state) {
   assert_near(inverse[0], 0, 1e-12);
   assert_near(inverse[1], 0, 1e-12);
   for (i = 0; i < 200; ++i) {
-    assert_ok(cairn_world_landmark(w, i, landmark));
+    assert_ok(cairn_world_landmark(w, i, landmark, NULL));
     assert_between(hypot(landmark[0], landmark[1]), 101.98 - 25, 101.98 + 25);
     assert_between(landmark[2] - sin(landmark[0] / 15) - 0.8 * cos(landmark[1] / 12), 0, 1.5);
   }
@@ -104,7 +104,7 @@ static coverage measure(const cairn_world* w, double speed) {
   unsigned char* covered;
   double* positions;
   size_t count, k;
-  assert_ok(cairn_world_extent(w, lower, upper));
+  assert_ok(cairn_world_extent(w, lower, upper, NULL));
   for (i = 0; i < 2; ++i) lower[i] -= 30, upper[i] += 30;
   columns = (long)((upper[0] - lower[0]) / CELL) + 1, rows = (long)((upper[1] - lower[1]) / CELL) + 1;
   covered = (unsigned char*)calloc((size_t)(columns * rows), 1);
@@ -112,7 +112,7 @@ static coverage measure(const cairn_world* w, double speed) {
   for (t = 0; t <= end; t += CELL / 2 / speed) {
     cairn_pose pose;
     long cx, cy, x, y;
-    assert_ok(cairn_world_pose(w, t, &pose));
+    assert_ok(cairn_world_pose(w, t, &pose, NULL));
     cx = (long)((pose.position[0] - lower[0]) / CELL), cy = (long)((pose.position[1] - lower[1]) / CELL);
     for (y = cy - 11; y <= cy + 11; ++y)
       for (x = cx - 11; x <= cx + 11; ++x) {
@@ -124,10 +124,10 @@ static coverage measure(const cairn_world* w, double speed) {
   }
   for (i = 0; i < columns * rows; ++i) cells += covered[i];
   c.area = (double)cells * CELL * CELL;
-  assert_ok(cairn_world_landmarks(w, NULL, 0, &count));
+  assert_ok(cairn_world_landmarks(w, NULL, 0, &count, NULL));
   positions = (double*)malloc(count * 3 * sizeof(double));
   assert_non_null(positions);
-  assert_ok(cairn_world_landmarks(w, positions, count, &count));
+  assert_ok(cairn_world_landmarks(w, positions, count, &count, NULL));
   /* all landmarks lie in the strip, up to the edge of the raster */
   for (k = 0, cells = 0; k < count; ++k) {
     const long x = (long)((positions[3 * k] - lower[0]) / CELL), y = (long)((positions[3 * k + 1] - lower[1]) / CELL);
@@ -196,10 +196,10 @@ static void laps_close_and_repeat(void** state) {
     w = open_world(&o);
     lap = 500 * 160 / 50.0 / o.speed;
     assert_near(end_of(w), 2 * lap, 2);
-    assert_ok(cairn_world_pose(w, 0, &start));
+    assert_ok(cairn_world_pose(w, 0, &start, NULL));
     assert_near(start.position[0], 100, 1e-9);
     assert_near(start.position[1], 20, 1e-9);
-    assert_ok(cairn_world_pose(w, lap, &half));
+    assert_ok(cairn_world_pose(w, lap, &half, NULL));
     assert_near(half.position[0], 100, 1e-5);
     assert_near(half.position[1], 20, 1e-5);
     assert_near(remainder(yaw_of(&half) - yaw_of(&start), 2 * PI), 0, 1e-6);
@@ -207,8 +207,8 @@ static void laps_close_and_repeat(void** state) {
     for (t = 0; t < lap; t += 5) { /* the course has bends: its curvature is not constant */
       cairn_pose next;
       double bend;
-      assert_ok(cairn_world_pose(w, t, &pose));
-      assert_ok(cairn_world_pose(w, t + 1, &next));
+      assert_ok(cairn_world_pose(w, t, &pose, NULL));
+      assert_ok(cairn_world_pose(w, t + 1, &next, NULL));
       bend = remainder(yaw_of(&next) - yaw_of(&pose), 2 * PI) / o.speed;
       if (bend < least) least = bend;
       if (bend > most) most = bend;
@@ -227,12 +227,12 @@ static void traverse_turns_by_turns(void** state) {
   cairn_pose a, b;
   (void)state;
   check_smooth(w, o.speed, 150);
-  assert_ok(cairn_world_pose(w, 0, &a));
+  assert_ok(cairn_world_pose(w, 0, &a, NULL));
   assert_near(a.position[0], 100, 1e-9);
   assert_near(a.position[1], 20, 1e-9);
   for (t = 0.5; t < end_of(w); t += 0.5) {
     double bend;
-    assert_ok(cairn_world_pose(w, t, &b));
+    assert_ok(cairn_world_pose(w, t, &b, NULL));
     bend = remainder(yaw_of(&b) - yaw_of(&a), 2 * PI);
     if (bend * sense < 0) { /* on to the next circle */
       assert_near(turned, sense * 2.5 * PI, 0.02);
@@ -258,11 +258,11 @@ static void closed_traverse_comes_home(void** state) {
     o.traverse_closed = 1;
     w = open_world(&o);
     check_smooth(w, o.speed, 100);
-    assert_ok(cairn_world_pose(w, 0, &start));
-    assert_ok(cairn_world_pose(w, end_of(w), &end));
+    assert_ok(cairn_world_pose(w, 0, &start, NULL));
+    assert_ok(cairn_world_pose(w, end_of(w), &end, NULL));
     /* the last step may end before the course does, by less than the distance of one frame */
     assert_between(hypot(end.position[0] - start.position[0], end.position[1] - start.position[1]), 0, 2.01 * o.speed);
-    assert_ok(cairn_world_extent(w, lower, upper));
+    assert_ok(cairn_world_extent(w, lower, upper, NULL));
     assert_between((upper[0] - lower[0]) / (upper[1] - lower[1]), 0.7, 1.4); /* a ring, not a line */
     cairn_world_destroy(w);
   }
@@ -274,9 +274,9 @@ static void extent_holds_everything(void** state) {
   double lower[2], upper[2], p[3];
   uint64_t i;
   (void)state;
-  assert_ok(cairn_world_extent(w, lower, upper));
+  assert_ok(cairn_world_extent(w, lower, upper, NULL));
   for (i = 0; i < 400; ++i) {
-    assert_ok(cairn_world_landmark(w, i, p));
+    assert_ok(cairn_world_landmark(w, i, p, NULL));
     assert_between(p[0], lower[0], upper[0]);
     assert_between(p[1], lower[1], upper[1]);
   }
@@ -294,7 +294,7 @@ static void few_landmarks(void** state) {
       const cairn_world_options o = course_options(course, counts[i]);
       cairn_world* w = open_world(&o);
       size_t k, most;
-      assert_ok(cairn_world_most_observations(w, &most));
+      assert_ok(cairn_world_most_observations(w, &most, NULL));
       assert_between((double)most, 1, counts[i]);
       for (k = steps_of(w); k > 0; --k) assert_true(next_step(w).observation_count <= most);
       cairn_world_destroy(w);

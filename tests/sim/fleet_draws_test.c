@@ -21,7 +21,7 @@ static void assert_same_step(const cairn_fleet_step* a, const cairn_fleet_step* 
 
 static void read_features(const cairn_fleet* fleet, double* positions, size_t count) {
   size_t needed = 0;
-  assert_ok(cairn_fleet_features(fleet, positions, count, &needed));
+  assert_ok(cairn_fleet_features(fleet, positions, count, &needed, NULL));
   assert_int_equal(needed, count);
 }
 
@@ -43,13 +43,13 @@ static void the_same_seed_gives_the_same_steps(void** state) {
   fresh = open_fleet(&o);
   assert_same_drive(fleet, fresh);
   cairn_fleet_destroy(fresh);
-  assert_ok(cairn_fleet_rewind(fleet)); /* after the last step */
+  assert_ok(cairn_fleet_rewind(fleet, NULL)); /* after the last step */
   fresh = open_fleet(&o);
   assert_same_drive(fleet, fresh);
   cairn_fleet_destroy(fresh);
-  assert_ok(cairn_fleet_rewind(fleet));
+  assert_ok(cairn_fleet_rewind(fleet, NULL));
   for (k = 0; k < 20; ++k) next_fleet_step(fleet);
-  assert_ok(cairn_fleet_rewind(fleet)); /* in the middle */
+  assert_ok(cairn_fleet_rewind(fleet, NULL)); /* in the middle */
   fresh = open_fleet(&o);
   assert_same_drive(fleet, fresh);
   cairn_fleet_destroy(fresh);
@@ -206,11 +206,11 @@ static void features_are_along_the_coast(void** state) {
     cairn_fleet* fleet;
     o.seed = seed, o.features = 500, o.layout = CAIRN_FLEET_UNIFORM;
     fleet = open_fleet(&o);
-    assert_ok(cairn_fleet_coast(fleet, again, COAST, &needed));
+    assert_ok(cairn_fleet_coast(fleet, again, COAST, &needed, NULL));
     cairn_fleet_destroy(fleet);
     o.layout = CAIRN_FLEET_COAST;
     fleet = open_fleet(&o);
-    assert_ok(cairn_fleet_coast(fleet, coast, COAST, &needed));
+    assert_ok(cairn_fleet_coast(fleet, coast, COAST, &needed, NULL));
     assert_int_equal(needed, COAST);
     assert_memory_equal(coast, again, sizeof coast); /* the layout does not change the coast */
     assert_near(coast[0], -5000, 1e-9);

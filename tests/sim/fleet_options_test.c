@@ -31,16 +31,16 @@ static void options_of_other_sizes(void** state) {
   (void)state;
   assert_non_null(bytes);
   memset(bytes, 0xa5, sizeof *o + 64);
-  assert_ok(cairn_fleet_options_init(o, old));
+  assert_ok(cairn_fleet_options_init(o, old, NULL));
   for (i = old; i < sizeof *o + 64; ++i) assert_int_equal(bytes[i], 0xa5);
   o->vehicles = 3;
   fleet = open_fleet(o);
   assert_int_equal(next_fleet_step(fleet).vehicle_count, 3);
-  assert_ok(cairn_fleet_features(fleet, NULL, 0, &needed));
+  assert_ok(cairn_fleet_features(fleet, NULL, 0, &needed, NULL));
   assert_int_equal(needed, 10);
   cairn_fleet_destroy(fleet);
   memset(bytes, 0xa5, sizeof *o + 64);
-  assert_ok(cairn_fleet_options_init(o, sizeof *o + 64)); /* a newer caller */
+  assert_ok(cairn_fleet_options_init(o, sizeof *o + 64, NULL)); /* a newer caller */
   assert_int_equal(bytes[sizeof *o + 63], 0);
   cairn_fleet_destroy(open_fleet(o));
   free(bytes);
@@ -58,30 +58,30 @@ static void steps_of_other_sizes(void** state) {
   (void)state;
   memset(&u, 0xa5, sizeof u);
   u.step.struct_size = (uint32_t)old;
-  assert_ok(cairn_fleet_next(fleet, &u.step));
+  assert_ok(cairn_fleet_next(fleet, &u.step, NULL));
   assert_int_equal(u.step.number, 0);
   assert_int_equal(u.step.struct_size, old);
   for (i = old; i < sizeof u; ++i) assert_int_equal(u.bytes[i], 0xa5);
   u.step.struct_size = sizeof u;
-  assert_ok(cairn_fleet_next(fleet, &u.step));
+  assert_ok(cairn_fleet_next(fleet, &u.step, NULL));
   assert_int_equal(u.step.number, 1);
   assert_int_equal(u.step.struct_size, sizeof u);
   for (i = sizeof u.step; i < sizeof u; ++i) assert_int_equal(u.bytes[i], 0xa5);
   u.step.struct_size = 7;
-  assert_refused(cairn_fleet_next(fleet, &u.step), CAIRN_ERROR_ARGUMENT, "struct_size");
+  assert_refused(cairn_fleet_next(fleet, &u.step, NULL), CAIRN_ERROR_ARGUMENT, "struct_size");
   assert_int_equal(u.step.number, 1);
   assert_int_equal(next_fleet_step(fleet).number, 2); /* the refused call did not consume a step */
   cairn_fleet_destroy(fleet);
 }
 
 /* The message must contain `word`, the name of the field. */
-#define REFUSE_AS(field, value, word)                                              \
-  do {                                                                             \
-    cairn_fleet_options bad = default_fleet_options();                             \
-    cairn_fleet* none = NULL;                                                      \
-    bad.field = (value);                                                           \
-    assert_refused(cairn_fleet_create(&bad, &none), CAIRN_ERROR_ARGUMENT, (word)); \
-    assert_null(none);                                                             \
+#define REFUSE_AS(field, value, word)                                                    \
+  do {                                                                                   \
+    cairn_fleet_options bad = default_fleet_options();                                   \
+    cairn_fleet* none = NULL;                                                            \
+    bad.field = (value);                                                                 \
+    assert_refused(cairn_fleet_create(&bad, &none, NULL), CAIRN_ERROR_ARGUMENT, (word)); \
+    assert_null(none);                                                                   \
   } while (0)
 #define REFUSE(field, value) REFUSE_AS(field, value, "options." #field)
 
@@ -133,7 +133,7 @@ static void contradictions(void** state) {
   o.coast_distance = 0.02;
   cairn_fleet_destroy(open_fleet(&o));
   o.layout = CAIRN_FLEET_COAST;
-  assert_refused(cairn_fleet_create(&o, &fleet), CAIRN_ERROR_ARGUMENT, "coast_distance");
+  assert_refused(cairn_fleet_create(&o, &fleet, NULL), CAIRN_ERROR_ARGUMENT, "coast_distance");
   o.coast_distance = 0.1;
   cairn_fleet_destroy(open_fleet(&o));
   o.coast_distance = 0.35, o.vehicles = 64;
@@ -150,7 +150,7 @@ static void good_options(void** state) {
   o.coast_distance = 0.3, o.coast_relief = 0.2, o.coast_strip = 0.5;
   o.range_sigma = o.bearing_sigma = o.speed_sigma = o.rate_sigma = 0;
   fleet = open_fleet(&o);
-  assert_ok(cairn_fleet_steps(fleet, &steps));
+  assert_ok(cairn_fleet_steps(fleet, &steps, NULL));
   assert_int_equal(steps, 2);
   assert_int_equal(next_fleet_step(fleet).vehicle_count, 64);
   cairn_fleet_destroy(fleet);
@@ -164,19 +164,19 @@ static void missing_arguments(void** state) {
   size_t count = 0;
   (void)state;
   step.struct_size = sizeof step;
-  assert_refused(cairn_fleet_options_init(NULL, 100), CAIRN_ERROR_ARGUMENT, "options");
-  assert_refused(cairn_fleet_options_init(&o, 4), CAIRN_ERROR_ARGUMENT, "struct_size");
-  assert_refused(cairn_fleet_create(NULL, &fleet), CAIRN_ERROR_ARGUMENT, "options");
-  assert_refused(cairn_fleet_create(&o, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
-  assert_refused(cairn_fleet_next(NULL, &step), CAIRN_ERROR_ARGUMENT, "fleet");
-  assert_refused(cairn_fleet_rewind(NULL), CAIRN_ERROR_ARGUMENT, "fleet");
-  assert_refused(cairn_fleet_steps(NULL, &count), CAIRN_ERROR_ARGUMENT, "fleet");
-  assert_refused(cairn_fleet_features(NULL, points, 1, &count), CAIRN_ERROR_ARGUMENT, "fleet");
-  assert_refused(cairn_fleet_coast(NULL, points, 1, &count), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_options_init(NULL, 100, NULL), CAIRN_ERROR_ARGUMENT, "options");
+  assert_refused(cairn_fleet_options_init(&o, 4, NULL), CAIRN_ERROR_ARGUMENT, "struct_size");
+  assert_refused(cairn_fleet_create(NULL, &fleet, NULL), CAIRN_ERROR_ARGUMENT, "options");
+  assert_refused(cairn_fleet_create(&o, NULL, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_next(NULL, &step, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_rewind(NULL, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_steps(NULL, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_features(NULL, points, 1, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_coast(NULL, points, 1, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
   cairn_fleet_destroy(NULL);
   fleet = open_fleet(&o);
-  assert_refused(cairn_fleet_next(fleet, NULL), CAIRN_ERROR_ARGUMENT, "step");
-  assert_refused(cairn_fleet_steps(fleet, NULL), CAIRN_ERROR_ARGUMENT, "steps");
+  assert_refused(cairn_fleet_next(fleet, NULL, NULL), CAIRN_ERROR_ARGUMENT, "step");
+  assert_refused(cairn_fleet_steps(fleet, NULL, NULL), CAIRN_ERROR_ARGUMENT, "steps");
   cairn_fleet_destroy(fleet);
 }
 
@@ -225,7 +225,7 @@ static void the_end(void** state) {
   (void)state;
   o.duration = 0.7, o.period = 0.1; /* their quotient is not a whole number */
   fleet = open_fleet(&o);
-  assert_ok(cairn_fleet_steps(fleet, &steps));
+  assert_ok(cairn_fleet_steps(fleet, &steps, NULL));
   assert_int_equal(steps, 8);
   for (k = 0; k < steps; ++k) {
     step = next_fleet_step(fleet);
@@ -234,14 +234,14 @@ static void the_end(void** state) {
     assert_near(step.time, 0.1 * (double)k, 1e-12);
     assert_near(step.dt, k == 0 ? 0 : 0.1, 0);
   }
-  assert_refused(cairn_fleet_next(fleet, &step), CAIRN_ERROR_STATE, "rewind");
-  assert_refused(cairn_fleet_next(fleet, &step), CAIRN_ERROR_STATE, "8 steps");
-  assert_ok(cairn_fleet_rewind(fleet));
+  assert_refused(cairn_fleet_next(fleet, &step, NULL), CAIRN_ERROR_STATE, "rewind");
+  assert_refused(cairn_fleet_next(fleet, &step, NULL), CAIRN_ERROR_STATE, "8 steps");
+  assert_ok(cairn_fleet_rewind(fleet, NULL));
   assert_int_equal(next_fleet_step(fleet).number, 0);
   cairn_fleet_destroy(fleet);
   o.duration = 0.79;
   fleet = open_fleet(&o);
-  assert_ok(cairn_fleet_steps(fleet, &steps));
+  assert_ok(cairn_fleet_steps(fleet, &steps, NULL));
   assert_int_equal(steps, 8);
   cairn_fleet_destroy(fleet);
 }

@@ -41,7 +41,7 @@ static void one_round_without_noise(void** state) {
   cairn_fleet_step step;
   size_t steps = 0, k, i;
   (void)state;
-  assert_ok(cairn_fleet_steps(fleet, &steps));
+  assert_ok(cairn_fleet_steps(fleet, &steps, NULL));
   assert_int_equal(steps, 301);
   for (k = 0; k < steps; ++k) {
     const double turned = 2 * PI * (double)k / 300;
@@ -102,7 +102,7 @@ static void bearings_are_to_the_left_of_the_bow(void** state) {
   double features[20];
   size_t needed = 0, i, seen = 0;
   (void)state;
-  assert_ok(cairn_fleet_features(fleet, features, 10, &needed));
+  assert_ok(cairn_fleet_features(fleet, features, 10, &needed, NULL));
   assert_int_equal(step.vehicles[0].vehicle_count, 1);
   assert_int_equal(step.vehicles[0].vehicles[0].id, 2);
   assert_near(step.vehicles[0].vehicles[0].range, 1500, 1e-9);
@@ -128,7 +128,7 @@ static void sightings_are_the_geometry_cut_at_the_range(void** state) {
   o.range_sigma = o.bearing_sigma = 0;
   o.vehicles = 9, o.features = 300, o.radar_range = 1900;
   fleet = open_fleet(&o);
-  assert_ok(cairn_fleet_features(fleet, features, 300, &needed));
+  assert_ok(cairn_fleet_features(fleet, features, 300, &needed, NULL));
   for (k = 0; k < 301; ++k) {
     const cairn_fleet_step step = next_fleet_step(fleet);
     for (i = 0; i < step.vehicle_count; ++i) {
@@ -219,7 +219,7 @@ static void radar_noise(void** state) {
   (void)state;
   o.features = 100, o.period = 0.5;
   fleet = open_fleet(&o);
-  assert_ok(cairn_fleet_features(fleet, features, 100, &needed));
+  assert_ok(cairn_fleet_features(fleet, features, 100, &needed, NULL));
   for (k = 0; k < 3001; ++k) {
     const cairn_fleet_step step = next_fleet_step(fleet);
     double said[2][2];

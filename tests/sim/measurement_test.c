@@ -9,11 +9,11 @@ static void camera_point(const cairn_pose* truth, const cairn_stereo_head* head,
   const double about_z[3] = {0, 0, pan}, about_y[3] = {0, stick, 0};
   memcpy(turn.position, head->platform, sizeof turn.position);
   memcpy(arm.position, head->stick, sizeof arm.position);
-  assert_int_equal(cairn_quaternion_exp(about_z, turn.quaternion), CAIRN_OK);
-  assert_int_equal(cairn_quaternion_exp(about_y, tilt.quaternion), CAIRN_OK);
-  assert_int_equal(cairn_pose_compose(truth, &turn, &T), CAIRN_OK);
-  assert_int_equal(cairn_pose_compose(&T, &tilt, &T), CAIRN_OK);
-  assert_int_equal(cairn_pose_compose(&T, &arm, &T), CAIRN_OK);
+  assert_int_equal(cairn_quaternion_exp(about_z, turn.quaternion, NULL), CAIRN_OK);
+  assert_int_equal(cairn_quaternion_exp(about_y, tilt.quaternion, NULL), CAIRN_OK);
+  assert_int_equal(cairn_pose_compose(truth, &turn, &T, NULL), CAIRN_OK);
+  assert_int_equal(cairn_pose_compose(&T, &tilt, &T, NULL), CAIRN_OK);
+  assert_int_equal(cairn_pose_compose(&T, &arm, &T, NULL), CAIRN_OK);
   to_body(&T, landmark, m);
 }
 
@@ -25,7 +25,7 @@ static void true_motion_connects_the_true_poses(void** state) {
   size_t k, i;
   (void)state;
   wheels.struct_size = sizeof wheels;
-  assert_ok(cairn_world_wheels(w, &wheels));
+  assert_ok(cairn_world_wheels(w, &wheels, NULL));
   assert_near(wheels.rate_sigma, 0.01 / 2, 1e-15); /* mean of four samples */
   assert_near(wheels.radius, 0.3, 0);
   pose = next_step(w).truth;
@@ -43,10 +43,10 @@ static void true_motion_connects_the_true_poses(void** state) {
       assert_near(m->true_velocity[1], 0, 0.02); /* the rover drives forward and stays on the ground */
       assert_near(m->true_velocity[2], 0, 0.02);
     }
-    assert_int_equal(cairn_pose_error(&step.truth, &pose, error), CAIRN_OK);
+    assert_int_equal(cairn_pose_error(&step.truth, &pose, error, NULL), CAIRN_OK);
     for (axis = 0; axis < 6; ++axis) assert_near(error[axis], 0, 1e-5 * (double)k);
     pose = step.truth;
-    assert_ok(cairn_world_pose(w, step.time, &pose));
+    assert_ok(cairn_world_pose(w, step.time, &pose, NULL));
     assert_memory_equal(&pose, &step.truth, sizeof pose);
   }
   cairn_world_destroy(w);
@@ -197,10 +197,10 @@ static void field_of_view_and_noise(void** state) {
   o.seed = 4;
   w = open_world(&o);
   head.struct_size = sizeof head;
-  assert_ok(cairn_world_head(w, &head));
+  assert_ok(cairn_world_head(w, &head, NULL));
   assert_int_equal(head.encoder_mode, CAIRN_ENCODER_PER_OBSERVATION);
   p = (double*)malloc(200 * 3 * sizeof(double));
-  assert_ok(cairn_world_landmarks(w, p, 200, &count));
+  assert_ok(cairn_world_landmarks(w, p, 200, &count, NULL));
   for (k = 0; k < steps_of(w); ++k) {
     const cairn_world_step step = next_step(w);
     size_t at = 0;
@@ -247,7 +247,7 @@ static void scanning_head(void** state) {
   o.range_sigma = o.azimuth_sigma = o.stick_sigma = 1e-9;
   w = open_world(&o);
   head.struct_size = sizeof head;
-  assert_ok(cairn_world_head(w, &head));
+  assert_ok(cairn_world_head(w, &head, NULL));
   for (k = 0; k < 100; ++k) {
     const cairn_world_step step = next_step(w);
     assert_near(step.pan, 70 * DEGREE * sin(2 * PI * step.time / 20), 1e-12);
@@ -256,7 +256,7 @@ static void scanning_head(void** state) {
     for (i = 0; i < step.observation_count; ++i) {
       const double* z = step.observations[i].z;
       double p[3], m[3], body[3];
-      assert_ok(cairn_world_landmark(w, step.observations[i].id, p));
+      assert_ok(cairn_world_landmark(w, step.observations[i].id, p, NULL));
       camera_point(&step.truth, &head, step.pan, step.stick, p, m);
       assert_near(z[0] * cos(z[2]) * cos(z[1]), m[0], 1e-6);
       assert_near(z[0] * cos(z[2]) * sin(z[1]), m[1], 1e-6);
@@ -284,7 +284,7 @@ static void stick_noise_of_a_frame(void** state) {
   o.laps = 4;
   w = open_world(&o);
   head.struct_size = sizeof head;
-  assert_ok(cairn_world_head(w, &head));
+  assert_ok(cairn_world_head(w, &head, NULL));
   assert_int_equal(head.encoder_mode, CAIRN_ENCODER_PER_FRAME);
   assert_near(head.stick_sigma, 3 * DEGREE, 1e-15);
   assert_near(head.elevation_sigma, 0.5 * DEGREE, 1e-15);
@@ -293,7 +293,7 @@ static void stick_noise_of_a_frame(void** state) {
     double mean = 0, error[64];
     for (i = 0; i < step.observation_count && i < 64; ++i) {
       double p[3], m[3];
-      assert_ok(cairn_world_landmark(w, step.observations[i].id, p));
+      assert_ok(cairn_world_landmark(w, step.observations[i].id, p, NULL));
       camera_point(&step.truth, &head, step.pan, step.stick, p, m);
       error[i] = step.observations[i].z[2] - atan2(m[2], hypot(m[0], m[1]));
       mean += error[i] / (double)step.observation_count;

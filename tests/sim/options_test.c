@@ -32,7 +32,7 @@ static void presets(void** state) {
   o.seed = 77;
   for (i = 0; i < 4; ++i) {
     o.landmark_height = 9; /* a preset must overwrite all of this */
-    assert_ok(cairn_world_options_preset(&o, CAIRN_PRESET_ROW1 + i, &submap));
+    assert_ok(cairn_world_options_preset(&o, CAIRN_PRESET_ROW1 + i, &submap, NULL));
     assert_int_equal(submap, rows[i].submap);
     assert_near(o.velocity_sigma, rows[i].velocity, 0);
     assert_near(o.rate_sigma, rows[i].rate * DEGREE, 1e-15);
@@ -44,16 +44,16 @@ static void presets(void** state) {
     assert_int_equal(o.contact, CAIRN_CONTACT_POINT);
     assert_int_equal(o.seed, 77);
   }
-  assert_ok(cairn_world_options_preset(&o, CAIRN_PRESET_PAPER, &submap));
+  assert_ok(cairn_world_options_preset(&o, CAIRN_PRESET_PAPER, &submap, NULL));
   assert_int_equal(submap, 40);
   o.seed = 1;
   {
     const cairn_world_options d = default_options();
     assert_memory_equal(&o, &d, sizeof o);
   }
-  assert_refused(cairn_world_options_preset(&o, 5, NULL), CAIRN_ERROR_ARGUMENT, "preset");
-  assert_refused(cairn_world_options_preset(&o, -1, NULL), CAIRN_ERROR_ARGUMENT, "preset");
-  assert_refused(cairn_world_options_preset(NULL, 0, NULL), CAIRN_ERROR_ARGUMENT, "options");
+  assert_refused(cairn_world_options_preset(&o, 5, NULL, NULL), CAIRN_ERROR_ARGUMENT, "preset");
+  assert_refused(cairn_world_options_preset(&o, -1, NULL, NULL), CAIRN_ERROR_ARGUMENT, "preset");
+  assert_refused(cairn_world_options_preset(NULL, 0, NULL, NULL), CAIRN_ERROR_ARGUMENT, "options");
 }
 
 /* No byte beyond the caller's struct is written, and fields that an older caller lacks have their defaults. */
@@ -67,33 +67,34 @@ static void other_sizes(void** state) {
   (void)state;
   assert_non_null(o);
   memset(o, 0xa5, sizeof bytes);
-  assert_ok(cairn_world_options_init(o, old));
+  assert_ok(cairn_world_options_init(o, old, NULL));
   for (i = old; i < sizeof bytes; ++i) assert_int_equal(((unsigned char*)o)[i], 0xa5);
   o->landmarks = 31;
-  assert_ok(cairn_world_options_preset(o, CAIRN_PRESET_ROW4, NULL));
+  assert_ok(cairn_world_options_preset(o, CAIRN_PRESET_ROW4, NULL, NULL));
   for (i = old; i < sizeof bytes; ++i) assert_int_equal(((unsigned char*)o)[i], 0xa5);
   o->landmarks = 31;
-  assert_ok(cairn_world_create(o, &world));
-  assert_ok(cairn_world_landmark(world, 30, position));
-  assert_refused(cairn_world_landmark(world, 31, position), CAIRN_ERROR_NOT_FOUND, "id 31");
+  assert_ok(cairn_world_create(o, &world, NULL));
+  assert_ok(cairn_world_landmark(world, 30, position, NULL));
+  assert_refused(cairn_world_landmark(world, 31, position, NULL), CAIRN_ERROR_NOT_FOUND, "id 31");
   cairn_world_destroy(world);
   memset(o, 0xa5, sizeof bytes);
-  assert_ok(cairn_world_options_init(o, sizeof bytes)); /* a newer caller */
+  assert_ok(cairn_world_options_init(o, sizeof bytes, NULL)); /* a newer caller */
   assert_int_equal(((unsigned char*)o)[sizeof bytes - 1], 0);
   world = open_world(o);
   cairn_world_destroy(world);
   free(o);
-  assert_refused(cairn_world_options_init(NULL, 100), CAIRN_ERROR_ARGUMENT, "options");
-  assert_refused(cairn_world_options_init((cairn_world_options*)(void*)bytes, 4), CAIRN_ERROR_ARGUMENT, "struct_size");
+  assert_refused(cairn_world_options_init(NULL, 100, NULL), CAIRN_ERROR_ARGUMENT, "options");
+  assert_refused(cairn_world_options_init((cairn_world_options*)(void*)bytes, 4, NULL), CAIRN_ERROR_ARGUMENT,
+                 "struct_size");
 }
 
-#define REFUSE(field, value)                                                          \
-  do {                                                                                \
-    cairn_world_options bad = default_options();                                      \
-    cairn_world* none = NULL;                                                         \
-    bad.field = (value);                                                              \
-    assert_refused(cairn_world_create(&bad, &none), CAIRN_ERROR_ARGUMENT, "options"); \
-    assert_null(none);                                                                \
+#define REFUSE(field, value)                                                                \
+  do {                                                                                      \
+    cairn_world_options bad = default_options();                                            \
+    cairn_world* none = NULL;                                                               \
+    bad.field = (value);                                                                    \
+    assert_refused(cairn_world_create(&bad, &none, NULL), CAIRN_ERROR_ARGUMENT, "options"); \
+    assert_null(none);                                                                      \
   } while (0)
 
 static void bad_options(void** state) {
@@ -176,10 +177,10 @@ static void contradictions(void** state) {
   REFUSE(laps, 1e300);
   o.course = CAIRN_COURSE_TRAVERSE;
   o.traverse_closed = 1;
-  assert_refused(cairn_world_create(&o, &world), CAIRN_ERROR_ARGUMENT, "traverse_closed");
-  assert_refused(cairn_world_create(NULL, &world), CAIRN_ERROR_ARGUMENT, "options");
+  assert_refused(cairn_world_create(&o, &world, NULL), CAIRN_ERROR_ARGUMENT, "traverse_closed");
+  assert_refused(cairn_world_create(NULL, &world, NULL), CAIRN_ERROR_ARGUMENT, "options");
   o = default_options();
-  assert_refused(cairn_world_create(&o, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_create(&o, NULL, NULL), CAIRN_ERROR_ARGUMENT, "world");
 }
 
 int main(void) {

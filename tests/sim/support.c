@@ -24,58 +24,58 @@ void check_status(cairn_status actual, cairn_status expected, const char* word, 
 
 cairn_world_options default_options(void) {
   cairn_world_options options;
-  assert_ok(cairn_world_options_init(&options, sizeof options));
+  assert_ok(cairn_world_options_init(&options, sizeof options, NULL));
   return options;
 }
 
 cairn_world_options preset_options(int32_t preset) {
   cairn_world_options options = default_options();
-  assert_ok(cairn_world_options_preset(&options, preset, NULL));
+  assert_ok(cairn_world_options_preset(&options, preset, NULL, NULL));
   return options;
 }
 
 cairn_world* open_world(const cairn_world_options* options) {
   cairn_world* world = NULL;
-  assert_ok(cairn_world_create(options, &world));
+  assert_ok(cairn_world_create(options, &world, NULL));
   return world;
 }
 
 size_t steps_of(const cairn_world* world) {
   size_t steps = 0;
-  assert_ok(cairn_world_steps(world, &steps));
+  assert_ok(cairn_world_steps(world, &steps, NULL));
   return steps;
 }
 
 cairn_world_step next_step(cairn_world* world) {
   cairn_world_step step;
   step.struct_size = sizeof step;
-  assert_ok(cairn_world_next(world, &step));
+  assert_ok(cairn_world_next(world, &step, NULL));
   return step;
 }
 
 cairn_fleet_options default_fleet_options(void) {
   cairn_fleet_options options;
-  assert_ok(cairn_fleet_options_init(&options, sizeof options));
+  assert_ok(cairn_fleet_options_init(&options, sizeof options, NULL));
   return options;
 }
 
 cairn_fleet* open_fleet(const cairn_fleet_options* options) {
   cairn_fleet* fleet = NULL;
-  assert_ok(cairn_fleet_create(options, &fleet));
+  assert_ok(cairn_fleet_create(options, &fleet, NULL));
   return fleet;
 }
 
 cairn_fleet_step next_fleet_step(cairn_fleet* fleet) {
   cairn_fleet_step step;
   step.struct_size = sizeof step;
-  assert_ok(cairn_fleet_next(fleet, &step));
+  assert_ok(cairn_fleet_next(fleet, &step, NULL));
   return step;
 }
 
 void to_body(const cairn_pose* T_map_body, const double point[3], double out[3]) {
   cairn_pose inverse;
-  assert_int_equal(cairn_pose_inverse(T_map_body, &inverse), CAIRN_OK);
-  assert_int_equal(cairn_pose_apply(&inverse, point, out), CAIRN_OK);
+  assert_int_equal(cairn_pose_inverse(T_map_body, &inverse, NULL), CAIRN_OK);
+  assert_int_equal(cairn_pose_apply(&inverse, point, out, NULL), CAIRN_OK);
 }
 
 /* 64 short steps of second order, independent of the library's exponential. */
@@ -86,12 +86,12 @@ cairn_pose moved(const cairn_pose* pose, const double velocity[3], const double 
   for (k = 0; k < 64; ++k) {
     for (i = 0; i < 3; ++i) way[i] = velocity[i] * dt / 64, turn[i] = rate[i] * dt / 128;
     memset(half.position, 0, sizeof half.position);
-    assert_int_equal(cairn_quaternion_exp(turn, half.quaternion), CAIRN_OK);
+    assert_int_equal(cairn_quaternion_exp(turn, half.quaternion, NULL), CAIRN_OK);
     memcpy(step.position, way, sizeof way);
     step.quaternion[0] = 1, step.quaternion[1] = step.quaternion[2] = step.quaternion[3] = 0;
-    assert_int_equal(cairn_pose_compose(&result, &half, &result), CAIRN_OK);
-    assert_int_equal(cairn_pose_compose(&result, &step, &result), CAIRN_OK);
-    assert_int_equal(cairn_pose_compose(&result, &half, &result), CAIRN_OK);
+    assert_int_equal(cairn_pose_compose(&result, &half, &result, NULL), CAIRN_OK);
+    assert_int_equal(cairn_pose_compose(&result, &step, &result, NULL), CAIRN_OK);
+    assert_int_equal(cairn_pose_compose(&result, &half, &result, NULL), CAIRN_OK);
   }
   return result;
 }

@@ -14,40 +14,40 @@ static void null_and_bad_values_are_refused(void** state) {
   size_t n;
   (void)state;
   step.struct_size = sizeof step, head.struct_size = sizeof head, wheels.struct_size = sizeof wheels;
-  assert_refused(cairn_world_next(NULL, &step), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_next(w, NULL), CAIRN_ERROR_ARGUMENT, "step");
-  assert_refused(cairn_world_rewind(NULL), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_steps(NULL, &n), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_steps(w, NULL), CAIRN_ERROR_ARGUMENT, "steps");
-  assert_refused(cairn_world_most_observations(w, NULL), CAIRN_ERROR_ARGUMENT, "count");
-  assert_refused(cairn_world_most_observations(NULL, &n), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_head(NULL, &head), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_head(w, NULL), CAIRN_ERROR_ARGUMENT, "head");
-  assert_refused(cairn_world_wheels(NULL, &wheels), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_wheels(w, NULL), CAIRN_ERROR_ARGUMENT, "wheels");
-  assert_refused(cairn_world_pose(NULL, 0, &pose), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_pose(w, 0, NULL), CAIRN_ERROR_ARGUMENT, "pose");
-  assert_refused(cairn_world_pose(w, -0.1, &pose), CAIRN_ERROR_ARGUMENT, "time");
-  assert_refused(cairn_world_pose(w, 400.1, &pose), CAIRN_ERROR_ARGUMENT, "time");
-  assert_refused(cairn_world_pose(w, NAN, &pose), CAIRN_ERROR_ARGUMENT, "time");
-  assert_refused(cairn_world_contacts(NULL, 0, v), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_contacts(w, 0, NULL), CAIRN_ERROR_ARGUMENT, "points");
-  assert_refused(cairn_world_contacts(w, 401, v), CAIRN_ERROR_ARGUMENT, "time");
-  assert_refused(cairn_world_height(NULL, 0, 0, v), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_height(w, NAN, 0, v), CAIRN_ERROR_ARGUMENT, "x");
-  assert_refused(cairn_world_height(w, 0, INFINITY, v), CAIRN_ERROR_ARGUMENT, "y");
-  assert_refused(cairn_world_height(w, 0, 0, NULL), CAIRN_ERROR_ARGUMENT, "height");
-  assert_refused(cairn_world_extent(NULL, v, v), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_extent(w, NULL, v), CAIRN_ERROR_ARGUMENT, "lower");
-  assert_refused(cairn_world_extent(w, v, NULL), CAIRN_ERROR_ARGUMENT, "upper");
-  assert_refused(cairn_world_landmark(NULL, 0, v), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_landmark(w, 0, NULL), CAIRN_ERROR_ARGUMENT, "position");
-  assert_refused(cairn_world_landmark(w, 200, v), CAIRN_ERROR_NOT_FOUND, "id 200");
-  assert_refused(cairn_world_landmark(w, CAIRN_ID_NONE, v), CAIRN_ERROR_NOT_FOUND, "id");
-  assert_refused(cairn_world_landmarks(NULL, v, 4, &n), CAIRN_ERROR_ARGUMENT, "world");
-  assert_refused(cairn_world_landmarks(w, v, 4, NULL), CAIRN_ERROR_ARGUMENT, "needed");
+  assert_refused(cairn_world_next(NULL, &step, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_next(w, NULL, NULL), CAIRN_ERROR_ARGUMENT, "step");
+  assert_refused(cairn_world_rewind(NULL, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_steps(NULL, &n, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_steps(w, NULL, NULL), CAIRN_ERROR_ARGUMENT, "steps");
+  assert_refused(cairn_world_most_observations(w, NULL, NULL), CAIRN_ERROR_ARGUMENT, "count");
+  assert_refused(cairn_world_most_observations(NULL, &n, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_head(NULL, &head, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_head(w, NULL, NULL), CAIRN_ERROR_ARGUMENT, "head");
+  assert_refused(cairn_world_wheels(NULL, &wheels, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_wheels(w, NULL, NULL), CAIRN_ERROR_ARGUMENT, "wheels");
+  assert_refused(cairn_world_pose(NULL, 0, &pose, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_pose(w, 0, NULL, NULL), CAIRN_ERROR_ARGUMENT, "pose");
+  assert_refused(cairn_world_pose(w, -0.1, &pose, NULL), CAIRN_ERROR_ARGUMENT, "time");
+  assert_refused(cairn_world_pose(w, 400.1, &pose, NULL), CAIRN_ERROR_ARGUMENT, "time");
+  assert_refused(cairn_world_pose(w, NAN, &pose, NULL), CAIRN_ERROR_ARGUMENT, "time");
+  assert_refused(cairn_world_contacts(NULL, 0, v, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_contacts(w, 0, NULL, NULL), CAIRN_ERROR_ARGUMENT, "points");
+  assert_refused(cairn_world_contacts(w, 401, v, NULL), CAIRN_ERROR_ARGUMENT, "time");
+  assert_refused(cairn_world_height(NULL, 0, 0, v, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_height(w, NAN, 0, v, NULL), CAIRN_ERROR_ARGUMENT, "x");
+  assert_refused(cairn_world_height(w, 0, INFINITY, v, NULL), CAIRN_ERROR_ARGUMENT, "y");
+  assert_refused(cairn_world_height(w, 0, 0, NULL, NULL), CAIRN_ERROR_ARGUMENT, "height");
+  assert_refused(cairn_world_extent(NULL, v, v, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_extent(w, NULL, v, NULL), CAIRN_ERROR_ARGUMENT, "lower");
+  assert_refused(cairn_world_extent(w, v, NULL, NULL), CAIRN_ERROR_ARGUMENT, "upper");
+  assert_refused(cairn_world_landmark(NULL, 0, v, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_landmark(w, 0, NULL, NULL), CAIRN_ERROR_ARGUMENT, "position");
+  assert_refused(cairn_world_landmark(w, 200, v, NULL), CAIRN_ERROR_NOT_FOUND, "id 200");
+  assert_refused(cairn_world_landmark(w, CAIRN_ID_NONE, v, NULL), CAIRN_ERROR_NOT_FOUND, "id");
+  assert_refused(cairn_world_landmarks(NULL, v, 4, &n, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_landmarks(w, v, 4, NULL, NULL), CAIRN_ERROR_ARGUMENT, "needed");
   n = 0;
-  assert_refused(cairn_world_landmarks(w, v, 4, &n), CAIRN_ERROR_BUFFER, "200");
+  assert_refused(cairn_world_landmarks(w, v, 4, &n, NULL), CAIRN_ERROR_BUFFER, "200");
   assert_int_equal(n, 200);
   cairn_world_destroy(w);
   cairn_world_destroy(NULL);
@@ -67,9 +67,9 @@ static void sizes_of_step(void** state) {
   memset(bytes, 0x5a, sizeof bytes);
   memcpy(&step, bytes, sizeof step);
   step.struct_size = wrong;
-  assert_refused(cairn_world_next(w, &step), CAIRN_ERROR_ARGUMENT, "step");
+  assert_refused(cairn_world_next(w, &step, NULL), CAIRN_ERROR_ARGUMENT, "step");
   step.struct_size = size;
-  assert_ok(cairn_world_next(w, &step));
+  assert_ok(cairn_world_next(w, &step, NULL));
   assert_int_equal(step.number, 0);
   memcpy(bytes, &step, sizeof step);
   for (i = old; i < sizeof bytes; ++i) assert_int_equal(bytes[i], 0x5a);
@@ -101,9 +101,9 @@ static void the_end_and_rewind(void** state) {
     assert_near(step.time, 2.0 * (double)k, 1e-12);
     assert_int_equal(step.motion_count, 10);
   }
-  assert_refused(cairn_world_next(w, &step), CAIRN_ERROR_STATE, "201 steps");
-  assert_refused(cairn_world_next(w, &step), CAIRN_ERROR_STATE, "201 steps");
-  assert_ok(cairn_world_rewind(w));
+  assert_refused(cairn_world_next(w, &step, NULL), CAIRN_ERROR_STATE, "201 steps");
+  assert_refused(cairn_world_next(w, &step, NULL), CAIRN_ERROR_STATE, "201 steps");
+  assert_ok(cairn_world_rewind(w, NULL));
   next_step(w);
   step = next_step(w);
   assert_memory_equal(step.observations, first, sizeof first);
@@ -155,7 +155,7 @@ static void draws_are_pinned(void** state) {
   o.motion_period = o.imu_period;
   o.rate_sigma = 1;
   w = open_world(&o);
-  assert_ok(cairn_world_landmark(w, 0, position));
+  assert_ok(cairn_world_landmark(w, 0, position, NULL));
   assert_near(position[2], 0.7072563490833963, 0);
   assert_near(hypot(position[0], position[1]), 98.20688325407642, 1e-12);
   next_step(w);
@@ -168,10 +168,10 @@ static void draws_are_pinned(void** state) {
 static double slope_of(const cairn_world* w, double x, double y) {
   const double h = 1e-4;
   double a, b, c, d;
-  assert_ok(cairn_world_height(w, x - h, y, &a));
-  assert_ok(cairn_world_height(w, x + h, y, &b));
-  assert_ok(cairn_world_height(w, x, y - h, &c));
-  assert_ok(cairn_world_height(w, x, y + h, &d));
+  assert_ok(cairn_world_height(w, x - h, y, &a, NULL));
+  assert_ok(cairn_world_height(w, x + h, y, &b, NULL));
+  assert_ok(cairn_world_height(w, x, y - h, &c, NULL));
+  assert_ok(cairn_world_height(w, x, y + h, &d, NULL));
   return hypot(b - a, d - c) / (2 * h);
 }
 
@@ -185,7 +185,7 @@ static void rolling_ground(void** state) {
     int i;
     o.seed = seed;
     w = open_world(&o);
-    assert_ok(cairn_world_height(w, 100, 20, &height));
+    assert_ok(cairn_world_height(w, 100, 20, &height, NULL));
     assert_near(height, -0.3174, 1e-12);
     for (i = 0; i < 20000; ++i) {
       const double slope = slope_of(w, -300 + 6.1 * (i % 100), -300 + 3.07 * (i / 100));
@@ -203,12 +203,12 @@ static void other_grounds(void** state) {
   (void)state;
   o.terrain = CAIRN_TERRAIN_WAVES;
   w = open_world(&o);
-  assert_ok(cairn_world_height(w, 31, -17, &height));
+  assert_ok(cairn_world_height(w, 31, -17, &height, NULL));
   assert_near(height, sin(31.0 / 15) + 0.8 * cos(-17.0 / 12), 1e-15);
   cairn_world_destroy(w);
   o.terrain = CAIRN_TERRAIN_FLAT;
   w = open_world(&o);
-  assert_ok(cairn_world_height(w, 31, -17, &height));
+  assert_ok(cairn_world_height(w, 31, -17, &height, NULL));
   assert_near(height, 0, 0);
   cairn_world_destroy(w);
 }
@@ -227,11 +227,11 @@ static void wheels_touch_the_ground(void** state) {
   for (k = 0; k <= 400; ++k) {
     double points[12], give[4];
     cairn_pose pose;
-    assert_ok(cairn_world_contacts(w, k, points));
-    assert_ok(cairn_world_pose(w, k, &pose));
+    assert_ok(cairn_world_contacts(w, k, points, NULL));
+    assert_ok(cairn_world_pose(w, k, &pose, NULL));
     for (i = 0; i < 4; ++i) {
       double height, body[3];
-      assert_ok(cairn_world_height(w, points[3 * i], points[3 * i + 1], &height));
+      assert_ok(cairn_world_height(w, points[3 * i], points[3 * i + 1], &height, NULL));
       assert_near(points[3 * i + 2], height, 1e-9);
       to_body(&pose, points + 3 * i, body);
       assert_near(body[0], i < 2 ? 1 : -1, 1e-9);
@@ -261,12 +261,12 @@ static void small_rover_stands_on_a_point(void** state) {
   for (k = 0; k < 400; k += 13) {
     cairn_pose a, b;
     double error[6];
-    assert_ok(cairn_world_pose(wheels, k, &a));
-    assert_ok(cairn_world_pose(point, k, &b));
-    assert_int_equal(cairn_pose_error(&a, &b, error), CAIRN_OK);
+    assert_ok(cairn_world_pose(wheels, k, &a, NULL));
+    assert_ok(cairn_world_pose(point, k, &b, NULL));
+    assert_int_equal(cairn_pose_error(&a, &b, error, NULL), CAIRN_OK);
     for (i = 0; i < 6; ++i) assert_near(error[i], 0, 1e-6);
   }
-  assert_refused(cairn_world_contacts(point, 0, points), CAIRN_ERROR_STATE, "CAIRN_CONTACT_POINT");
+  assert_refused(cairn_world_contacts(point, 0, points, NULL), CAIRN_ERROR_STATE, "CAIRN_CONTACT_POINT");
   cairn_world_destroy(wheels), cairn_world_destroy(point);
 }
 
@@ -282,10 +282,10 @@ static void rough_ground(void** state) {
   w = open_world(&o);
   for (k = 0; k <= 400; ++k) {
     double points[12];
-    assert_ok(cairn_world_contacts(w, k, points));
+    assert_ok(cairn_world_contacts(w, k, points, NULL));
     for (i = 0; i < 4; ++i) {
       double height;
-      assert_ok(cairn_world_height(w, points[3 * i], points[3 * i + 1], &height));
+      assert_ok(cairn_world_height(w, points[3 * i], points[3 * i + 1], &height, NULL));
       assert_near(points[3 * i + 2], height, 1e-9);
       if (fabs(height - points[2]) > deepest) deepest = fabs(height - points[2]);
     }

@@ -6,11 +6,11 @@ the pose's error [dp; dtheta] in the axes of the map. Arrays are numpy arrays; t
 
 Filter, Map, Team, World, Fleet, Pose and CairnError are the Python layer. `cairn.lib` has every function and constant
 of the C headers, and `cairn.ffi` is its cffi object. Constants are also here without their prefix: cairn.NEW is
-lib.CAIRN_NEW. The library is loaded at the first use of one of these names, so that cairn.report works without it.
+lib.CAIRN_RESULT_NEW. The library is loaded at the first use of one of these names, so that cairn.report works without it.
 """
 import importlib
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 __all__ = ["CairnError", "Filter", "Fleet", "Map", "Pose", "Team", "World", "ffi", "lib", "planar_pose", "pose_compose",
            "pose_error", "pose_inverse", "quaternion_from_euler", "quaternion_to_euler", "version"]
 
@@ -20,7 +20,7 @@ _HOMES = {"CairnError": "error", "Filter": "filter", "Fleet": "fleet", "Map": "m
 
 
 def version():
-    """Version of the loaded library, for example "0.1.0"."""
+    """Version of the loaded library, for example "0.2.0"."""
     from ._library import ffi, lib
     return ffi.string(lib.cairn_version()).decode()
 

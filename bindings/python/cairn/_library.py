@@ -35,9 +35,15 @@ def _builds(folder, soname):
     return ([best] if os.path.isfile(best) and _has_v3() else []) + [os.path.join(folder, soname)]
 
 
+def _soversion():
+    """The number in the SONAME. Before 1.0 it has the minor version, which may break the interface."""
+    major = str(_declared.CAIRN_VERSION_MAJOR)
+    return f"{major}.{_declared.CAIRN_VERSION_MINOR}" if major == "0" else major
+
+
 def _open(stem):
     """Opens lib`stem`.so in the named folder, or on the search path of the loader."""
-    soname = f"lib{stem}.so.{_declared.CAIRN_VERSION_MAJOR}"
+    soname = f"lib{stem}.so.{_soversion()}"
     named = os.environ.get("CAIRN_LIBRARY")
     if named and os.path.isfile(named) and stem == "cairn":
         paths = [named]
@@ -58,7 +64,7 @@ def _open(stem):
 
 
 class Library:
-    """Every function and constant of the C headers by its name: `lib.cairn_version()`, `lib.CAIRN_NEW`."""
+    """Every function and constant of the C headers by its name: `lib.cairn_version()`, `lib.CAIRN_RESULT_NEW`."""
 
     def __init__(self):
         self._cairn = _open("cairn")

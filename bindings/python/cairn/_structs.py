@@ -83,7 +83,7 @@ def dtype(type_name):
 
 
 def constant(field, word, struct=""):
-    """The value of a constant that is given by a word: error="standard" is CAIRN_ERROR_STANDARD, join_loss="huber" is
+    """The value of a constant that is given by a word: error="standard" is CAIRN_STATE_ERROR_STANDARD, join_loss="huber" is
     CAIRN_LOSS_HUBER, and mode="joint" in an options struct of a team is CAIRN_TEAM_JOINT."""
     for prefix in (field, field.split("_")[0], field.split("_")[-1], *struct.split("_")[1:2]):
         value = getattr(lib, f"CAIRN_{prefix}_{word}".upper(), None)

@@ -3,18 +3,36 @@
 #include "capi/boundary.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 
 namespace cairn {
 namespace capi {
 namespace {
 
-thread_local char message[320] = "";
+thread_local char message[sizeof(cairn_error::message)] = "";
+
+// Copies a text of UTF-8 and ends it by a zero. A text that is too long is cut between two characters.
+void copy_text(const char* text, char* out, std::size_t room) noexcept {
+  std::size_t length = std::strlen(text);
+  if (length >= room) {
+    length = room - 1;
+    while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0u) == 0x80u) --length;
+  }
+  std::memcpy(out, text, length);
+  out[length] = '\0';
+}
 
 }  // namespace
 
-void set_message(const char* text) noexcept {
-  std::snprintf(message, sizeof message, "%s", text);
+cairn_status fail(cairn_status status, const char* text, cairn_error* error) noexcept {
+  copy_text(text, message, sizeof message);
+  if (error == nullptr) return status;
+  constexpr std::size_t kText = offsetof(cairn_error, message);
+  const std::size_t size = std::min<std::size_t>(error->struct_size, sizeof *error);
+  if (size >= kText) error->status = status;
+  if (size > kText) copy_text(text, error->message, size - kText);
+  return status;
 }
 
 const char* last_message() noexcept {
@@ -91,6 +109,15 @@ void check_probability(double value, const char* name) {
   if (!(value > 0.0 && value <= 1.0)) throw Error(ErrorCode::argument, "%s must lie in (0, 1], and is %g", name, value);
 }
 
+bool read_bool(cairn_bool value, const char* name) {
+  if (value != 0 && value != 1) throw Error(ErrorCode::argument, "%s must be 0 or 1, and is %d", name, value);
+  return value == 1;
+}
+
+void check_reserved(std::uint32_t value, const char* name) {
+  if (value != 0) throw Error(ErrorCode::argument, "%s must be 0, and is %u", name, value);
+}
+
 void check_position(const double* values, std::size_t count, const char* name) {
   check_finite(values, count, name);
   for (std::size_t i = 0; i < count; ++i)
@@ -153,13 +180,23 @@ void check_struct_size(std::size_t size, const char* name) {
     throw Error(ErrorCode::argument, "%s: struct_size is %zu; set it to the sizeof of the struct", name, size);
 }
 
+void check_unknown_bytes(const void* options, std::size_t size, std::size_t known, const char* name) {
+  const auto* bytes = static_cast<const unsigned char*>(options);
+  for (std::size_t i = known; i < size; ++i)
+    if (bytes[i] != 0)
+      throw Error(ErrorCode::argument,
+                  "%s: byte %zu is not zero, and this library knows only %zu bytes of the struct; it is older than the "
+                  "caller's header",
+                  name, i, known);
+}
+
 bool check_room(const void* buffer, std::size_t capacity, std::size_t count, std::size_t* needed, const char* name) {
   check_pointer(needed, "needed");
   if (buffer == nullptr && capacity > 0)
-    throw Error(ErrorCode::argument,
-                "%s is NULL and its capacity is %zu; pass NULL with capacity 0 to ask for the size", name, capacity);
+    throw Error(ErrorCode::argument, "%s is NULL and its capacity is %zu; pass capacity 0 to ask for the size", name,
+                capacity);
   *needed = count;
-  if (buffer == nullptr) return false;
+  if (capacity == 0) return false;
   if (capacity < count)
     throw Error(ErrorCode::buffer, "%s has room for %zu values, and %zu are needed", name, capacity, count);
   return true;

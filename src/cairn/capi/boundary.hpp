@@ -16,27 +16,24 @@
 namespace cairn {
 namespace capi {
 
-void set_message(const char* text) noexcept;
 const char* last_message() noexcept;  // of this thread
 cairn_status status_of(ErrorCode code) noexcept;
+// Keeps the text as this thread's message and writes it to the caller's error, which may be NULL. Returns the status.
+cairn_status fail(cairn_status status, const char* text, cairn_error* error) noexcept;
 
 template <class Function>
-cairn_status guard(Function&& function) noexcept {
+cairn_status guard(cairn_error* error, Function&& function) noexcept {
   try {
     function();
     return CAIRN_OK;
-  } catch (const Error& error) {
-    set_message(error.what());
-    return status_of(error.code());
+  } catch (const Error& thrown) {
+    return fail(status_of(thrown.code()), thrown.what(), error);
   } catch (const std::bad_alloc&) {
-    set_message("out of memory; create the handle with smaller capacities");
-    return CAIRN_ERROR_MEMORY;
-  } catch (const std::exception& error) {
-    set_message(error.what());
-    return CAIRN_ERROR_INTERNAL;
+    return fail(CAIRN_ERROR_MEMORY, "out of memory; create the handle with smaller capacities", error);
+  } catch (const std::exception& thrown) {
+    return fail(CAIRN_ERROR_INTERNAL, thrown.what(), error);
   } catch (...) {
-    set_message("an exception of unknown type: this is a defect of the library");
-    return CAIRN_ERROR_INTERNAL;
+    return fail(CAIRN_ERROR_INTERNAL, "an exception of unknown type: this is a defect of the library", error);
   }
 }
 
@@ -51,6 +48,8 @@ void check_not_negative(double value, const char* name);
 void check_not_negative(const double* values, std::size_t count, const char* name);
 void check_range(double value, double lower, double upper, const char* name);  // [lower, upper]
 void check_probability(double value, const char* name);                        // (0, 1]
+bool read_bool(cairn_bool value, const char* name);                            // 0 or 1
+void check_reserved(std::uint32_t value, const char* name);                    // 0
 
 // Numbers beyond these limits are mistakes. Inside them no product of a filter's numbers overflows or underflows.
 constexpr double kFarthest = 1e12;                           // m, of a position
@@ -87,6 +86,9 @@ void init_options(Options* options, std::size_t struct_size, const Options& defa
   options->struct_size = static_cast<std::uint32_t>(struct_size);
 }
 
+// A byte of the caller's struct that this library does not know must be zero: it asks for something new.
+void check_unknown_bytes(const void* options, std::size_t size, std::size_t known, const char* name);
+
 // The caller's options over the defaults. The smaller of both struct sizes is copied.
 template <class Options>
 Options read_options(const Options* options, const Options& defaults, const char* name) {
@@ -94,6 +96,7 @@ Options read_options(const Options* options, const Options& defaults, const char
   std::uint32_t size = 0;
   std::memcpy(&size, options, sizeof size);  // a caller's older struct may be shorter than ours
   check_struct_size(size, name);
+  check_unknown_bytes(options, size, sizeof(Options), name);
   Options merged = defaults;
   std::memcpy(static_cast<void*>(&merged), options, std::min<std::size_t>(size, sizeof(Options)));
   return merged;
@@ -111,7 +114,7 @@ void write_report(Report& from, Report* to) {
 }
 
 // --- arrays --- Sets `needed` to `count`. Returns true if the buffer has room, false if the caller asks for the size
-// only. A buffer that is too short is an error.
+// only, by capacity 0. A buffer that is too short is an error.
 bool check_room(const void* buffer, std::size_t capacity, std::size_t count, std::size_t* needed, const char* name);
 
 }  // namespace capi

@@ -19,7 +19,8 @@ RangeBearingParameters read_range_bearing(const cairn_range_bearing* user);
 template <class Pose>
 Cartesian<Pose> read_cartesian(const cairn_cartesian* user);
 template <class Pose>
-CustomSensor<Pose> read_custom(const cairn_custom* user);
+CustomSensor<Pose> read_custom(const cairn_custom* description, cairn_custom_predict_fn predict,
+                               cairn_custom_place_fn place, void* user);
 std::variant<FilterOptions<SE3>, FilterOptions<SE2>> read_filter_options(const cairn_filter_options* user);
 
 // Reads a pose. For a planar Pose it must have z = 0 and a rotation about z only.

@@ -54,8 +54,8 @@ SE2 read_pose_of<SE2>(const cairn_pose* pose, const char* name) {
 
 extern "C" {
 
-cairn_status cairn_filter_required_bytes(const cairn_filter_options* options, size_t* bytes) {
-  return guard([&] {
+cairn_status cairn_filter_required_bytes(const cairn_filter_options* options, size_t* bytes, cairn_error* error) {
+  return guard(error, [&] {
     const auto checked = read_filter_options(options);
     check_pointer(bytes, "bytes");
     std::visit(
@@ -67,8 +67,8 @@ cairn_status cairn_filter_required_bytes(const cairn_filter_options* options, si
   });
 }
 
-cairn_status cairn_filter_create(const cairn_filter_options* options, cairn_filter** filter) {
-  return guard([&] {
+cairn_status cairn_filter_create(const cairn_filter_options* options, cairn_filter** filter, cairn_error* error) {
+  return guard(error, [&] {
     const auto checked = read_filter_options(options);
     check_pointer(filter, "filter");
     std::visit([&](const auto& o) { *filter = new cairn_filter(o); }, checked);
@@ -79,36 +79,55 @@ void cairn_filter_destroy(cairn_filter* filter) {
   delete filter;
 }
 
-cairn_status cairn_filter_set_log(cairn_filter* filter, cairn_log log, void* payload) {
-  return guard([&] { with_filter(filter, [&](auto& f) { f.set_log(log, payload); }); });
+cairn_status cairn_filter_set_log(cairn_filter* filter, cairn_log_fn log, void* payload, cairn_release_fn release,
+                                  cairn_error* error) {
+  return guard(error, [&] {
+    with_filter(filter, [&](auto& f) { f.set_log(log, payload); });
+    filter->log = Payload(payload, release);
+  });
 }
 
-cairn_status cairn_filter_add_stereo_head(cairn_filter* filter, const cairn_stereo_head* head, int32_t* sensor) {
-  return guard([&] { with_filter(filter, [&](auto& f) { add_sensor(f, read_stereo_head(head), sensor); }); });
+cairn_status cairn_filter_add_stereo_head(cairn_filter* filter, const cairn_stereo_head* head, int32_t* sensor,
+                                          cairn_error* error) {
+  return guard(error, [&] { with_filter(filter, [&](auto& f) { add_sensor(f, read_stereo_head(head), sensor); }); });
 }
 
-cairn_status cairn_filter_add_stereo_camera(cairn_filter* filter, const cairn_stereo_camera* camera, int32_t* sensor) {
-  return guard([&] { with_filter(filter, [&](auto& f) { add_sensor(f, read_stereo_camera(camera), sensor); }); });
+cairn_status cairn_filter_add_stereo_camera(cairn_filter* filter, const cairn_stereo_camera* camera, int32_t* sensor,
+                                            cairn_error* error) {
+  return guard(error,
+               [&] { with_filter(filter, [&](auto& f) { add_sensor(f, read_stereo_camera(camera), sensor); }); });
 }
 
-cairn_status cairn_filter_add_range_bearing(cairn_filter* filter, const cairn_range_bearing* radar, int32_t* sensor) {
-  return guard(
-      [&] { with_filter(filter, [&](auto& f) { add_sensor(f, RangeBearing(read_range_bearing(radar)), sensor); }); });
+cairn_status cairn_filter_add_range_bearing(cairn_filter* filter, const cairn_range_bearing* radar, int32_t* sensor,
+                                            cairn_error* error) {
+  return guard(error, [&] {
+    with_filter(filter, [&](auto& f) { add_sensor(f, RangeBearing(read_range_bearing(radar)), sensor); });
+  });
 }
 
-cairn_status cairn_filter_add_cartesian(cairn_filter* filter, const cairn_cartesian* cartesian, int32_t* sensor) {
-  return guard([&] {
+cairn_status cairn_filter_add_cartesian(cairn_filter* filter, const cairn_cartesian* cartesian, int32_t* sensor,
+                                        cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) { add_sensor(f, read_cartesian<PoseOf<decltype(f)>>(cartesian), sensor); });
   });
 }
 
-cairn_status cairn_filter_add_custom(cairn_filter* filter, const cairn_custom* custom, int32_t* sensor) {
-  return guard(
-      [&] { with_filter(filter, [&](auto& f) { add_sensor(f, read_custom<PoseOf<decltype(f)>>(custom), sensor); }); });
+cairn_status cairn_filter_add_custom(cairn_filter* filter, const cairn_custom* custom, cairn_custom_predict_fn predict,
+                                     cairn_custom_place_fn place, void* user, cairn_release_fn release, int32_t* sensor,
+                                     cairn_error* error) {
+  return guard(error, [&] {
+    with_filter(filter, [&](auto& f) {
+      const auto model = read_custom<PoseOf<decltype(f)>>(custom, predict, place, user);
+      filter->custom.reserve(filter->custom.size() + 1);  // nothing fails after the sensor was added
+      add_sensor(f, model, sensor);
+    });
+    filter->custom.emplace_back(user, release);
+  });
 }
 
-cairn_status cairn_filter_point_head(cairn_filter* filter, int32_t sensor, double pan, double stick) {
-  return guard([&] {
+cairn_status cairn_filter_point_head(cairn_filter* filter, int32_t sensor, double pan, double stick,
+                                     cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       check_finite(pan, "pan");
       check_finite(stick, "stick");
@@ -117,8 +136,9 @@ cairn_status cairn_filter_point_head(cairn_filter* filter, int32_t sensor, doubl
   });
 }
 
-cairn_status cairn_filter_set_loss(cairn_filter* filter, int32_t sensor, int32_t loss, double width) {
-  return guard([&] {
+cairn_status cairn_filter_set_loss(cairn_filter* filter, int32_t sensor, int32_t loss, double width,
+                                   cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       if (loss == CAIRN_LOSS_NONE) return f.set_loss(sensor, RobustLoss());
       if (loss != CAIRN_LOSS_HUBER && loss != CAIRN_LOSS_CAUCHY)
@@ -130,8 +150,9 @@ cairn_status cairn_filter_set_loss(cairn_filter* filter, int32_t sensor, int32_t
   });
 }
 
-cairn_status cairn_filter_set_view(cairn_filter* filter, int32_t sensor, const double lower[3], const double upper[3]) {
-  return guard([&] {
+cairn_status cairn_filter_set_view(cairn_filter* filter, int32_t sensor, const double lower[3], const double upper[3],
+                                   cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       const int rows = f.sensor_rows(sensor);
       check_pointer(lower, "lower");
@@ -145,13 +166,13 @@ cairn_status cairn_filter_set_view(cairn_filter* filter, int32_t sensor, const d
   });
 }
 
-cairn_status cairn_filter_remove_landmark(cairn_filter* filter, uint64_t id) {
-  return guard([&] { with_filter(filter, [&](auto& f) { f.remove_landmark(id); }); });
+cairn_status cairn_filter_remove_landmark(cairn_filter* filter, uint64_t id, cairn_error* error) {
+  return guard(error, [&] { with_filter(filter, [&](auto& f) { f.remove_landmark(id); }); });
 }
 
-cairn_status cairn_filter_split_landmark(cairn_filter* filter, uint64_t id, uint64_t fresh,
-                                         const double covariance[9]) {
-  return guard([&] {
+cairn_status cairn_filter_split_landmark(cairn_filter* filter, uint64_t id, uint64_t fresh, const double covariance[9],
+                                         cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       if (fresh == CAIRN_ID_NONE) throw Error(ErrorCode::argument, "fresh is CAIRN_ID_NONE, which no landmark has");
       const auto apart = read_point_covariance<PoseOf<decltype(f)>>(covariance, "covariance");
@@ -161,15 +182,16 @@ cairn_status cairn_filter_split_landmark(cairn_filter* filter, uint64_t id, uint
   });
 }
 
-cairn_status cairn_filter_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]) {
-  return guard([&] {
+cairn_status cairn_filter_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36],
+                               cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](const auto& f) { write_estimate(f.pose(), f.pose_covariance(), pose, covariance); });
   });
 }
 
 cairn_status cairn_filter_joint_covariance(const cairn_filter* filter, const uint64_t* ids, size_t count,
-                                           double* matrix, size_t capacity, size_t* needed) {
-  return guard([&] {
+                                           double* matrix, size_t capacity, size_t* needed, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](const auto& f) {
       const std::vector<std::size_t> indices = read_ids(f.landmarks(), ids, count);
       const std::size_t size = 6 + 3 * count;
@@ -183,8 +205,9 @@ const cairn_map* cairn_filter_map(const cairn_filter* filter) {
   return filter != nullptr ? &filter->map : nullptr;
 }
 
-cairn_status cairn_filter_pose_nees(const cairn_filter* filter, const cairn_pose* truth, double* nees) {
-  return guard([&] {
+cairn_status cairn_filter_pose_nees(const cairn_filter* filter, const cairn_pose* truth, double* nees,
+                                    cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](const auto& f) {
       const auto pose = read_pose_of<PoseOf<decltype(f)>>(truth, "truth");
       check_pointer(nees, "nees");
@@ -196,8 +219,8 @@ cairn_status cairn_filter_pose_nees(const cairn_filter* filter, const cairn_pose
   });
 }
 
-cairn_status cairn_filter_audit(cairn_filter* filter, double* min_pivot) {
-  return guard([&] {
+cairn_status cairn_filter_audit(cairn_filter* filter, double* min_pivot, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       check_pointer(min_pivot, "min_pivot");
       *min_pivot = f.smallest_pivot();

@@ -52,6 +52,7 @@ void check_bounds(double value, const Bounds& bounds, const char* name) {
 }
 
 void check_filter_options(const cairn_filter_options& o) {
+  check_reserved(o.reserved, "options.reserved");
   // A dense map allocates the memory of all its landmarks at creation.
   const bool sparse = o.submap_landmarks > 0 && o.join != CAIRN_JOIN_DENSE;
   if (!sparse) check_range(o.max_landmarks, 1, 30000, "options.max_landmarks");
@@ -63,7 +64,7 @@ void check_filter_options(const cairn_filter_options& o) {
 }
 
 ErrorKind error_of(const cairn_filter_options& o) {
-  return o.error == CAIRN_ERROR_STANDARD ? ErrorKind::standard : ErrorKind::invariant;
+  return o.state_error == CAIRN_STATE_ERROR_STANDARD ? ErrorKind::standard : ErrorKind::invariant;
 }
 
 JoinKind join_of(const cairn_filter_options& o) {
@@ -145,8 +146,8 @@ std::variant<FilterOptions<SE3>, FilterOptions<SE2>> read_filter_options(const c
 
 extern "C" {
 
-cairn_status cairn_filter_options_init(cairn_filter_options* options, size_t struct_size) {
-  return guard([&] { init_options(options, struct_size, default_options(), "options"); });
+cairn_status cairn_filter_options_init(cairn_filter_options* options, size_t struct_size, cairn_error* error) {
+  return guard(error, [&] { init_options(options, struct_size, default_options(), "options"); });
 }
 
 }  // extern "C"

@@ -40,12 +40,12 @@ cairn_status closing_status(const ClosingReport& closing) {
 
 extern "C" {
 
-cairn_status cairn_filter_close_submap(cairn_filter* filter) {
-  return guard([&] { with_filter(filter, [&](auto& f) { f.close_submap(); }); });
+cairn_status cairn_filter_close_submap(cairn_filter* filter, cairn_error* error) {
+  return guard(error, [&] { with_filter(filter, [&](auto& f) { f.close_submap(); }); });
 }
 
-cairn_status cairn_filter_last_closing(const cairn_filter* filter, cairn_closing_report* report) {
-  return guard([&] {
+cairn_status cairn_filter_last_closing(const cairn_filter* filter, cairn_closing_report* report, cairn_error* error) {
+  return guard(error, [&] {
     ClosingReport c;
     with_filter(filter, [&](const auto& f) { c = f.closing(); });
     cairn_closing_report out = {};
@@ -74,15 +74,17 @@ cairn_status cairn_filter_last_closing(const cairn_filter* filter, cairn_closing
   });
 }
 
-cairn_status cairn_filter_local_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]) {
-  return guard([&] {
+cairn_status cairn_filter_local_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36],
+                                     cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter,
                 [&](const auto& f) { write_estimate(f.local_pose(), f.local_pose_covariance(), pose, covariance); });
   });
 }
 
-cairn_status cairn_filter_base_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36]) {
-  return guard([&] {
+cairn_status cairn_filter_base_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36],
+                                    cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](const auto& f) {
       using Pose = PoseOf<decltype(f)>;
       const typename Pose::Square known = Pose::Square::Zero();
@@ -97,8 +99,8 @@ const cairn_map* cairn_filter_local_map(const cairn_filter* filter) {
   return filter != nullptr ? &filter->local_map : nullptr;
 }
 
-cairn_status cairn_filter_submap_count(const cairn_filter* filter, size_t* count) {
-  return guard([&] {
+cairn_status cairn_filter_submap_count(const cairn_filter* filter, size_t* count, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](const auto& f) {
       check_pointer(count, "count");
       *count = f.map() != nullptr ? f.map()->submap_count() : 0;
@@ -107,8 +109,8 @@ cairn_status cairn_filter_submap_count(const cairn_filter* filter, size_t* count
 }
 
 cairn_status cairn_filter_submap(const cairn_filter* filter, size_t index, cairn_pose* base, uint64_t* ids,
-                                 size_t capacity, size_t* needed) {
-  return guard([&] {
+                                 size_t capacity, size_t* needed, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](const auto& f) {
       const auto* map = f.map();
       const std::size_t count = map != nullptr ? map->submap_count() : 0;

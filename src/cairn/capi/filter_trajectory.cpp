@@ -31,8 +31,8 @@ unsigned long long printable(std::uint64_t number) {
 
 extern "C" {
 
-cairn_status cairn_filter_keep_pose(cairn_filter* filter, uint64_t* number) {
-  return guard([&] {
+cairn_status cairn_filter_keep_pose(cairn_filter* filter, uint64_t* number, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       const auto& trajectory = read_trajectory(f);
       f.keep_pose();
@@ -41,8 +41,9 @@ cairn_status cairn_filter_keep_pose(cairn_filter* filter, uint64_t* number) {
   });
 }
 
-cairn_status cairn_filter_trajectory_range(const cairn_filter* filter, uint64_t* first, uint64_t* end) {
-  return guard([&] {
+cairn_status cairn_filter_trajectory_range(const cairn_filter* filter, uint64_t* first, uint64_t* end,
+                                           cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](const auto& f) {
       const auto& trajectory = read_trajectory(f);
       if (first != nullptr) *first = trajectory.first();
@@ -52,8 +53,8 @@ cairn_status cairn_filter_trajectory_range(const cairn_filter* filter, uint64_t*
 }
 
 cairn_status cairn_filter_trajectory(const cairn_filter* filter, uint64_t first, cairn_pose* poses, size_t capacity,
-                                     size_t* needed) {
-  return guard([&] {
+                                     size_t* needed, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](const auto& f) {
       const auto& trajectory = read_trajectory(f);
       if (first > trajectory.end())

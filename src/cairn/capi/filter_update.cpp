@@ -12,9 +12,9 @@ namespace capi {
 
 void write_match(const Match& match, cairn_match* out) {
   out->landmark = match.landmark;
-  out->result = match.decision == Decision::matched  ? CAIRN_MATCHED
-                : match.decision == Decision::placed ? CAIRN_NEW
-                                                     : CAIRN_REJECTED;
+  out->result = match.decision == Decision::matched  ? CAIRN_RESULT_MATCHED
+                : match.decision == Decision::placed ? CAIRN_RESULT_NEW
+                                                     : CAIRN_RESULT_REJECTED;
   switch (match.reason) {
     case Reason::none:
       out->reason = CAIRN_REASON_NONE;
@@ -84,8 +84,8 @@ void read_observation(const cairn_observation& from, const char* array, std::siz
 extern "C" {
 
 cairn_status cairn_filter_update(cairn_filter* filter, int32_t sensor, const cairn_observation* observations,
-                                 size_t count, cairn_match* matches) {
-  return guard([&] {
+                                 size_t count, cairn_match* matches, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       const std::size_t rows = static_cast<std::size_t>(f.sensor_rows(sensor));
       if (count > 0) check_pointer(observations, "observations");
@@ -104,8 +104,8 @@ cairn_status cairn_filter_update(cairn_filter* filter, int32_t sensor, const cai
 cairn_status cairn_filter_update_linear(cairn_filter* filter, const double* residual, size_t rows,
                                         const double* covariance, const double* jacobian_pose,
                                         const uint64_t* landmarks, size_t count, const double* jacobian_landmarks,
-                                        cairn_match* match) {
-  return guard([&] {
+                                        cairn_match* match, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       check_pointer(residual, "residual");
       constexpr std::size_t kDim = PoseOf<decltype(f)>::kDim;
@@ -134,8 +134,8 @@ cairn_status cairn_filter_update_linear(cairn_filter* filter, const double* resi
 }
 
 cairn_status cairn_filter_update_position(cairn_filter* filter, const double position[3], const double covariance[9],
-                                          const double lever_arm[3], cairn_match* match) {
-  return guard([&] {
+                                          const double lever_arm[3], cairn_match* match, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       check_pointer(position, "position");
       check_position(position, 3, "position");
@@ -150,8 +150,8 @@ cairn_status cairn_filter_update_position(cairn_filter* filter, const double pos
 }
 
 cairn_status cairn_filter_update_attitude(cairn_filter* filter, const double quaternion[4], const double covariance[9],
-                                          cairn_match* match) {
-  return guard([&] {
+                                          cairn_match* match, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       const SO3 attitude = read_quaternion(quaternion, "quaternion");
       check_pointer(covariance, "covariance");
@@ -169,8 +169,9 @@ cairn_status cairn_filter_update_attitude(cairn_filter* filter, const double qua
   });
 }
 
-cairn_status cairn_filter_update_heading(cairn_filter* filter, double heading, double sigma, cairn_match* match) {
-  return guard([&] {
+cairn_status cairn_filter_update_heading(cairn_filter* filter, double heading, double sigma, cairn_match* match,
+                                         cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       check_finite(heading, "heading");
       check_sigma(sigma, "sigma");
@@ -180,8 +181,9 @@ cairn_status cairn_filter_update_heading(cairn_filter* filter, double heading, d
   });
 }
 
-cairn_status cairn_filter_merge_landmarks(cairn_filter* filter, uint64_t id, uint64_t other, cairn_match* match) {
-  return guard([&] {
+cairn_status cairn_filter_merge_landmarks(cairn_filter* filter, uint64_t id, uint64_t other, cairn_match* match,
+                                          cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       f.merge_landmarks(id, other);
       write_matches(f, 1, match);
@@ -189,8 +191,8 @@ cairn_status cairn_filter_merge_landmarks(cairn_filter* filter, uint64_t id, uin
   });
 }
 
-cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_report* report) {
-  return guard([&] {
+cairn_status cairn_filter_last_update(const cairn_filter* filter, cairn_update_report* report, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](const auto& f) {
       const UpdateReport& r = f.report();
       cairn_update_report out = {};

@@ -4,7 +4,9 @@
 
 #include <cairn/cairn.h>
 
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "capi/boundary.hpp"
 #include "core/arena.hpp"
@@ -15,6 +17,29 @@ namespace cairn {
 namespace capi {
 
 std::uint64_t next_filter_number() noexcept;  // 1, 2, 3, ...
+
+// A pointer that the caller gave to a handle, for his callbacks. It goes back by `release`, once.
+class Payload {
+ public:
+  Payload() = default;
+  Payload(void* user, cairn_release_fn release) : user_(user), release_(release) {}
+  Payload(Payload&& other) noexcept : user_(other.user_), release_(std::exchange(other.release_, nullptr)) {}
+  Payload& operator=(Payload&& other) noexcept {
+    Payload(std::move(other)).swap(*this);
+    return *this;
+  }
+  ~Payload() {
+    if (release_ != nullptr) release_(user_);
+  }
+
+ private:
+  void swap(Payload& other) noexcept {
+    std::swap(user_, other.user_);
+    std::swap(release_, other.release_);
+  }
+  void* user_ = nullptr;
+  cairn_release_fn release_ = nullptr;
+};
 
 }  // namespace capi
 }  // namespace cairn
@@ -40,6 +65,10 @@ struct cairn_filter {
     measure.take<cairn::Observation>(static_cast<std::size_t>(max_observations));
     return measure.used();
   }
+
+  // The filter uses them, and is destroyed before them.
+  cairn::capi::Payload log;
+  std::vector<cairn::capi::Payload> custom;
 
   cairn::Arena arena;
   std::variant<cairn::Filter<cairn::SE3>, cairn::Filter<cairn::SE2>> filter;

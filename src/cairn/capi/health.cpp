@@ -83,16 +83,17 @@ cairn_health health_of(const HealthMonitor<Pose>& health) {
 
 extern "C" {
 
-cairn_status cairn_filter_health(const cairn_filter* filter, cairn_health* health) {
-  return guard([&] {
+cairn_status cairn_filter_health(const cairn_filter* filter, cairn_health* health, cairn_error* error) {
+  return guard(error, [&] {
     cairn_health out = {};
     with_filter(filter, [&](const auto& f) { out = health_of(f.health()); });
     write_report(out, health);
   });
 }
 
-cairn_status cairn_filter_sensor_health(const cairn_filter* filter, int32_t sensor, cairn_sensor_health* health) {
-  return guard([&] {
+cairn_status cairn_filter_sensor_health(const cairn_filter* filter, int32_t sensor, cairn_sensor_health* health,
+                                        cairn_error* error) {
+  return guard(error, [&] {
     cairn_sensor_health out = {};
     with_filter(filter, [&](const auto& f) {
       f.check_sensor(sensor);

@@ -69,16 +69,16 @@ void write_landmarks(const Landmarks& map, const std::vector<std::size_t>& indic
 
 extern "C" {
 
-cairn_status cairn_map_size(const cairn_map* map, size_t* count) {
-  return guard([&] {
+cairn_status cairn_map_size(const cairn_map* map, size_t* count, cairn_error* error) {
+  return guard(error, [&] {
     const Landmarks& source = read_map(map);
     check_pointer(count, "count");
     *count = source.size();
   });
 }
 
-cairn_status cairn_map_landmark(const cairn_map* map, uint64_t id, cairn_landmark* landmark) {
-  return guard([&] {
+cairn_status cairn_map_landmark(const cairn_map* map, uint64_t id, cairn_landmark* landmark, cairn_error* error) {
+  return guard(error, [&] {
     const Landmarks& source = read_map(map);
     check_pointer(landmark, "landmark");
     std::size_t index = 0;
@@ -88,16 +88,17 @@ cairn_status cairn_map_landmark(const cairn_map* map, uint64_t id, cairn_landmar
   });
 }
 
-cairn_status cairn_map_landmarks(const cairn_map* map, cairn_landmark* landmarks, size_t capacity, size_t* needed) {
-  return guard([&] {
+cairn_status cairn_map_landmarks(const cairn_map* map, cairn_landmark* landmarks, size_t capacity, size_t* needed,
+                                 cairn_error* error) {
+  return guard(error, [&] {
     const Landmarks& source = read_map(map);
     write_landmarks(source, all_by_id(source), landmarks, capacity, needed);
   });
 }
 
 cairn_status cairn_map_within(const cairn_map* map, const double centre[3], double radius, cairn_landmark* landmarks,
-                              size_t capacity, size_t* needed) {
-  return guard([&] {
+                              size_t capacity, size_t* needed, cairn_error* error) {
+  return guard(error, [&] {
     const Landmarks& source = read_map(map);
     check_pointer(centre, "centre");
     check_finite(centre, 3, "centre");
@@ -107,8 +108,8 @@ cairn_status cairn_map_within(const cairn_map* map, const double centre[3], doub
 }
 
 cairn_status cairn_map_nearest(const cairn_map* map, const double point[3], size_t count, cairn_landmark* landmarks,
-                               size_t capacity, size_t* needed) {
-  return guard([&] {
+                               size_t capacity, size_t* needed, cairn_error* error) {
+  return guard(error, [&] {
     const Landmarks& source = read_map(map);
     check_pointer(point, "point");
     check_finite(point, 3, "point");
@@ -117,8 +118,8 @@ cairn_status cairn_map_nearest(const cairn_map* map, const double point[3], size
 }
 
 cairn_status cairn_map_in_box(const cairn_map* map, const double lower[3], const double upper[3],
-                              cairn_landmark* landmarks, size_t capacity, size_t* needed) {
-  return guard([&] {
+                              cairn_landmark* landmarks, size_t capacity, size_t* needed, cairn_error* error) {
+  return guard(error, [&] {
     const Landmarks& source = read_map(map);
     check_pointer(lower, "lower");
     check_pointer(upper, "upper");
@@ -132,8 +133,8 @@ cairn_status cairn_map_in_box(const cairn_map* map, const double lower[3], const
 }
 
 cairn_status cairn_map_joint_covariance(const cairn_map* map, const uint64_t* ids, size_t count, double* matrix,
-                                        size_t capacity, size_t* needed) {
-  return guard([&] {
+                                        size_t capacity, size_t* needed, cairn_error* error) {
+  return guard(error, [&] {
     const Landmarks& source = read_map(map);
     const std::vector<std::size_t> indices = read_ids(source, ids, count);
     if (check_room(matrix, capacity, 9 * count * count, needed, "matrix"))

@@ -53,7 +53,8 @@ MergeOptions read_merge_options(const cairn_merge_options* given) {
   options.max_landmarks = o.max_landmarks;
   check_range(o.max_tilt, 0.0, kPi, "options.max_tilt");
   options.max_tilt = o.max_tilt;
-  if (o.has_transform != 0) {
+  check_reserved(o.reserved, "options.reserved");
+  if (read_bool(o.has_transform, "options.has_transform")) {
     check_covariance(o.covariance, 6, true, "options.covariance");
     options.prior = TransformPrior{read_pose(&o.T_map_other, "options.T_map_other"), Matrix6(o.covariance)};
   }
@@ -81,16 +82,16 @@ cairn_merge_report report_of(const MergeReport& from, const MergeOptions& option
 
 extern "C" {
 
-cairn_status cairn_map_kind(const cairn_map* map, int32_t* kind) {
-  return guard([&] {
+cairn_status cairn_map_kind(const cairn_map* map, int32_t* kind, cairn_error* error) {
+  return guard(error, [&] {
     const cairn_map& source = read_handle(map, "map");
     check_pointer(kind, "kind");
     *kind = source.landmarks->kind() == MapKind::sparse ? CAIRN_MAP_SPARSE : CAIRN_MAP_DENSE;
   });
 }
 
-cairn_status cairn_map_copy(const cairn_map* map, cairn_map** copy) {
-  return guard([&] {
+cairn_status cairn_map_copy(const cairn_map* map, cairn_map** copy, cairn_error* error) {
+  return guard(error, [&] {
     const cairn_map& source = read_handle(map, "map");
     check_pointer(copy, "copy");
     auto owned = std::make_unique<OwnedMap>(*source.landmarks, origins_of(source));
@@ -104,13 +105,13 @@ void cairn_map_destroy(cairn_map* map) {
   if (map != nullptr && map->owned != nullptr) delete map;
 }
 
-cairn_status cairn_merge_options_init(cairn_merge_options* options, size_t struct_size) {
-  return guard([&] { init_options(options, struct_size, default_options(), "options"); });
+cairn_status cairn_merge_options_init(cairn_merge_options* options, size_t struct_size, cairn_error* error) {
+  return guard(error, [&] { init_options(options, struct_size, default_options(), "options"); });
 }
 
 cairn_status cairn_map_merge(cairn_map* map, const cairn_map* other, const cairn_merge_options* options,
-                             cairn_merge_report* report) {
-  return guard([&] {
+                             cairn_merge_report* report, cairn_error* error) {
+  return guard(error, [&] {
     const cairn_map& target = read_handle(map, "map");
     const cairn_map& source = read_handle(other, "other");
     const MergeOptions checked = read_merge_options(options);
@@ -138,8 +139,9 @@ cairn_status cairn_map_merge(cairn_map* map, const cairn_map* other, const cairn
   });
 }
 
-cairn_status cairn_map_merged_ids(const cairn_map* map, cairn_merged_id* merged, size_t capacity, size_t* needed) {
-  return guard([&] {
+cairn_status cairn_map_merged_ids(const cairn_map* map, cairn_merged_id* merged, size_t capacity, size_t* needed,
+                                  cairn_error* error) {
+  return guard(error, [&] {
     const cairn_map& source = read_handle(map, "map");
     const std::size_t count = source.owned != nullptr ? source.owned->merged.size() : 0;
     if (!check_room(merged, capacity, count, needed, "merged")) return;

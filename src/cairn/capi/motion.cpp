@@ -62,6 +62,7 @@ Wheels read_wheels(const cairn_wheels* user) {
 
 TwistNoise read_twist_noise(const cairn_twist_noise* user) {
   const cairn_twist_noise n = read_options(user, default_twist_noise(), "noise");
+  check_reserved(n.reserved, "noise.reserved");
   check_sigma_or_zero(n.velocity_sigma, 3, "noise.velocity_sigma");
   check_sigma_or_zero(n.rate_sigma, 3, "noise.rate_sigma");
   return {Vector3(n.velocity_sigma), Vector3(n.rate_sigma)};
@@ -75,25 +76,25 @@ using namespace cairn::capi;
 
 extern "C" {
 
-cairn_status cairn_wheels_init(cairn_wheels* wheels, size_t struct_size) {
-  return guard([&] { init_options(wheels, struct_size, default_wheels(), "wheels"); });
+cairn_status cairn_wheels_init(cairn_wheels* wheels, size_t struct_size, cairn_error* error) {
+  return guard(error, [&] { init_options(wheels, struct_size, default_wheels(), "wheels"); });
 }
 
-cairn_status cairn_twist_noise_init(cairn_twist_noise* noise, size_t struct_size) {
-  return guard([&] { init_options(noise, struct_size, default_twist_noise(), "noise"); });
+cairn_status cairn_twist_noise_init(cairn_twist_noise* noise, size_t struct_size, cairn_error* error) {
+  return guard(error, [&] { init_options(noise, struct_size, default_twist_noise(), "noise"); });
 }
 
-cairn_status cairn_filter_set_wheels(cairn_filter* filter, const cairn_wheels* wheels) {
-  return guard([&] { with_filter(filter, [&](auto& f) { f.set_wheels(read_wheels(wheels)); }); });
+cairn_status cairn_filter_set_wheels(cairn_filter* filter, const cairn_wheels* wheels, cairn_error* error) {
+  return guard(error, [&] { with_filter(filter, [&](auto& f) { f.set_wheels(read_wheels(wheels)); }); });
 }
 
-cairn_status cairn_filter_set_twist_noise(cairn_filter* filter, const cairn_twist_noise* noise) {
-  return guard([&] { with_filter(filter, [&](auto& f) { f.set_twist_noise(read_twist_noise(noise)); }); });
+cairn_status cairn_filter_set_twist_noise(cairn_filter* filter, const cairn_twist_noise* noise, cairn_error* error) {
+  return guard(error, [&] { with_filter(filter, [&](auto& f) { f.set_twist_noise(read_twist_noise(noise)); }); });
 }
 
-cairn_status cairn_filter_predict_wheels(cairn_filter* filter, double dt, double left_rad_per_s,
-                                         double right_rad_per_s) {
-  return guard([&] {
+cairn_status cairn_filter_predict_wheels(cairn_filter* filter, double dt, double left_rad_per_s, double right_rad_per_s,
+                                         cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       check_positive(dt, "dt");
       check_finite(left_rad_per_s, "left_rad_per_s");
@@ -104,8 +105,8 @@ cairn_status cairn_filter_predict_wheels(cairn_filter* filter, double dt, double
 }
 
 cairn_status cairn_filter_predict_wheels_gyro(cairn_filter* filter, double dt, double left_rad_per_s,
-                                              double right_rad_per_s, const double rate[3]) {
-  return guard([&] {
+                                              double right_rad_per_s, const double rate[3], cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       check_positive(dt, "dt");
       check_finite(left_rad_per_s, "left_rad_per_s");
@@ -117,9 +118,9 @@ cairn_status cairn_filter_predict_wheels_gyro(cairn_filter* filter, double dt, d
   });
 }
 
-cairn_status cairn_filter_predict_twist(cairn_filter* filter, double dt, const double velocity[3],
-                                        const double rate[3]) {
-  return guard([&] {
+cairn_status cairn_filter_predict_twist(cairn_filter* filter, double dt, const double velocity[3], const double rate[3],
+                                        cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       check_positive(dt, "dt");
       check_pointer(velocity, "velocity");
@@ -132,8 +133,8 @@ cairn_status cairn_filter_predict_twist(cairn_filter* filter, double dt, const d
 }
 
 cairn_status cairn_filter_predict_increment(cairn_filter* filter, const cairn_pose* T_before_after,
-                                            const double covariance[36]) {
-  return guard([&] {
+                                            const double covariance[36], cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       using Pose = PoseOf<decltype(f)>;
       Increment<Pose> increment;

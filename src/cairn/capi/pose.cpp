@@ -8,15 +8,16 @@ using namespace cairn::capi;
 
 extern "C" {
 
-cairn_status cairn_pose_identity(cairn_pose* pose) {
-  return guard([&] {
+cairn_status cairn_pose_identity(cairn_pose* pose, cairn_error* error) {
+  return guard(error, [&] {
     check_pointer(pose, "pose");
     write_pose(SE3(), pose);
   });
 }
 
-cairn_status cairn_pose_compose(const cairn_pose* T_a_b, const cairn_pose* T_b_c, cairn_pose* result) {
-  return guard([&] {
+cairn_status cairn_pose_compose(const cairn_pose* T_a_b, const cairn_pose* T_b_c, cairn_pose* result,
+                                cairn_error* error) {
+  return guard(error, [&] {
     const SE3 product = read_pose(T_a_b, "T_a_b") * read_pose(T_b_c, "T_b_c");
     check_pointer(result, "result");
     check_finite(product.translation().data(), 3, "T_a_b * T_b_c");
@@ -24,8 +25,8 @@ cairn_status cairn_pose_compose(const cairn_pose* T_a_b, const cairn_pose* T_b_c
   });
 }
 
-cairn_status cairn_pose_inverse(const cairn_pose* T_a_b, cairn_pose* result) {
-  return guard([&] {
+cairn_status cairn_pose_inverse(const cairn_pose* T_a_b, cairn_pose* result, cairn_error* error) {
+  return guard(error, [&] {
     const SE3 inverse = read_pose(T_a_b, "T_a_b").inverse();
     check_pointer(result, "result");
     check_finite(inverse.translation().data(), 3, "inverse of T_a_b");
@@ -33,8 +34,8 @@ cairn_status cairn_pose_inverse(const cairn_pose* T_a_b, cairn_pose* result) {
   });
 }
 
-cairn_status cairn_pose_apply(const cairn_pose* T_a_b, const double point_b[3], double point_a[3]) {
-  return guard([&] {
+cairn_status cairn_pose_apply(const cairn_pose* T_a_b, const double point_b[3], double point_a[3], cairn_error* error) {
+  return guard(error, [&] {
     const SE3 T = read_pose(T_a_b, "T_a_b");
     check_pointer(point_b, "point_b");
     check_finite(point_b, 3, "point_b");
@@ -45,8 +46,9 @@ cairn_status cairn_pose_apply(const cairn_pose* T_a_b, const double point_b[3], 
   });
 }
 
-cairn_status cairn_quaternion_from_euler(double roll, double pitch, double yaw, double quaternion[4]) {
-  return guard([&] {
+cairn_status cairn_quaternion_from_euler(double roll, double pitch, double yaw, double quaternion[4],
+                                         cairn_error* error) {
+  return guard(error, [&] {
     check_finite(roll, "roll");
     check_finite(pitch, "pitch");
     check_finite(yaw, "yaw");
@@ -55,8 +57,9 @@ cairn_status cairn_quaternion_from_euler(double roll, double pitch, double yaw, 
   });
 }
 
-cairn_status cairn_quaternion_to_euler(const double quaternion[4], double* roll, double* pitch, double* yaw) {
-  return guard([&] {
+cairn_status cairn_quaternion_to_euler(const double quaternion[4], double* roll, double* pitch, double* yaw,
+                                       cairn_error* error) {
+  return guard(error, [&] {
     const Euler angles = to_euler(read_quaternion(quaternion, "quaternion"));
     check_pointer(roll, "roll");
     check_pointer(pitch, "pitch");
@@ -65,8 +68,8 @@ cairn_status cairn_quaternion_to_euler(const double quaternion[4], double* roll,
   });
 }
 
-cairn_status cairn_quaternion_exp(const double rotation_vector[3], double quaternion[4]) {
-  return guard([&] {
+cairn_status cairn_quaternion_exp(const double rotation_vector[3], double quaternion[4], cairn_error* error) {
+  return guard(error, [&] {
     check_pointer(rotation_vector, "rotation_vector");
     check_finite(rotation_vector, 3, "rotation_vector");
     check_pointer(quaternion, "quaternion");
@@ -77,23 +80,24 @@ cairn_status cairn_quaternion_exp(const double rotation_vector[3], double quater
   });
 }
 
-cairn_status cairn_quaternion_log(const double quaternion[4], double rotation_vector[3]) {
-  return guard([&] {
+cairn_status cairn_quaternion_log(const double quaternion[4], double rotation_vector[3], cairn_error* error) {
+  return guard(error, [&] {
     const Vector3 theta = read_quaternion(quaternion, "quaternion").log();
     check_pointer(rotation_vector, "rotation_vector");
     std::copy_n(theta.data(), 3, rotation_vector);
   });
 }
 
-cairn_status cairn_pose_error(const cairn_pose* truth, const cairn_pose* estimate, double error[6]) {
-  return guard([&] {
+cairn_status cairn_pose_error(const cairn_pose* truth, const cairn_pose* estimate, double difference[6],
+                              cairn_error* error) {
+  return guard(error, [&] {
     const SE3 t = read_pose(truth, "truth"), e = read_pose(estimate, "estimate");
-    check_pointer(error, "error");
+    check_pointer(difference, "difference");
     const Vector3 dp = t.translation() - e.translation();
     const Vector3 dtheta = (t.rotation() * e.rotation().inverse()).log();
     check_finite(dp.data(), 3, "truth - estimate");
-    std::copy_n(dp.data(), 3, error);
-    std::copy_n(dtheta.data(), 3, error + 3);
+    std::copy_n(dp.data(), 3, difference);
+    std::copy_n(dtheta.data(), 3, difference + 3);
   });
 }
 

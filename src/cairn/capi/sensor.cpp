@@ -108,6 +108,7 @@ StereoHead read_stereo_head(const cairn_stereo_head* user) {
 
 StereoCamera read_stereo_camera(const cairn_stereo_camera* user) {
   const cairn_stereo_camera c = read_options(user, default_stereo_camera(), "camera");
+  check_reserved(c.reserved, "camera.reserved");
   check_positive(c.fu, "camera.fu");
   check_positive(c.fv, "camera.fv");
   check_finite(c.cu, "camera.cu");
@@ -133,6 +134,7 @@ StereoCamera read_stereo_camera(const cairn_stereo_camera* user) {
 
 RangeBearingParameters read_range_bearing(const cairn_range_bearing* user) {
   const cairn_range_bearing r = read_options(user, default_range_bearing(), "radar");
+  check_reserved(r.reserved, "radar.reserved");
   check_sigma(r.range_sigma, "radar.range_sigma");
   check_sigma(r.bearing_sigma, "radar.bearing_sigma");
   check_positive(r.near_range, "radar.near_range");
@@ -142,6 +144,7 @@ RangeBearingParameters read_range_bearing(const cairn_range_bearing* user) {
 template <class Pose>
 Cartesian<Pose> read_cartesian(const cairn_cartesian* user) {
   const cairn_cartesian c = read_options(user, default_cartesian(), "cartesian");
+  check_reserved(c.reserved, "cartesian.reserved");
   check_sigma(c.sigma, Pose::kDim, "cartesian.sigma");
   CartesianParameters<Pose> parameters;
   parameters.T_body_sensor = read_pose_of<Pose>(&c.T_body_sensor, "cartesian.T_body_sensor");
@@ -156,31 +159,30 @@ static_assert(sizeof(cairn_pose) == 7 * sizeof(double) && offsetof(cairn_pose, q
               "position, then quaternion w x y z");
 
 template <class Pose>
-CustomSensor<Pose> read_custom(const cairn_custom* user) {
+CustomSensor<Pose> read_custom(const cairn_custom* description, cairn_custom_predict_fn predict,
+                               cairn_custom_place_fn place, void* user) {
   constexpr std::uint32_t kDim = Pose::kDim;
-  const cairn_custom c = read_options(user, default_custom(), "custom");
+  const cairn_custom c = read_options(description, default_custom(), "custom");
   if (c.rows < 1 || c.rows > kDim)
     throw Error(ErrorCode::argument, "custom.rows must lie in [1, %u], and is %u", kDim, c.rows);
-  if (c.predict == nullptr) throw Error(ErrorCode::argument, "custom.predict is NULL; a sensor must predict");
+  if (predict == nullptr) throw Error(ErrorCode::argument, "predict is NULL; a sensor must predict");
   if (c.angle_mask >> c.rows != 0)
     throw Error(ErrorCode::argument, "custom.angle_mask = %u has bits beyond custom.rows = %u", c.angle_mask, c.rows);
-  if (c.place != nullptr && c.rows < kDim)
-    throw Error(ErrorCode::argument, "custom.place is set, but %u values cannot place a landmark; leave it NULL",
-                c.rows);
-  if (c.relative > 1) throw Error(ErrorCode::argument, "custom.relative must be 0 or 1, and is %u", c.relative);
+  if (place != nullptr && c.rows < kDim)
+    throw Error(ErrorCode::argument, "place is given, but %u values cannot place a landmark; leave it NULL", c.rows);
   check_sigma(c.sigma, c.rows, "custom.sigma");
   CustomParameters parameters;
   parameters.rows = static_cast<int>(c.rows);
-  parameters.predict = reinterpret_cast<CustomPredict>(c.predict);
-  parameters.place = reinterpret_cast<CustomPlace>(c.place);
-  parameters.user = c.user;
+  parameters.predict = reinterpret_cast<CustomPredict>(predict);
+  parameters.place = reinterpret_cast<CustomPlace>(place);
+  parameters.user = user;
   parameters.angle_mask = c.angle_mask;
-  parameters.relative = c.relative != 0;
+  parameters.relative = read_bool(c.relative, "custom.relative");
   for (std::uint32_t i = 0; i < c.rows; ++i) parameters.sigma(i) = c.sigma[i];
   return CustomSensor<Pose>(parameters);
 }
-template CustomSensor<SE2> read_custom<SE2>(const cairn_custom*);
-template CustomSensor<SE3> read_custom<SE3>(const cairn_custom*);
+template CustomSensor<SE2> read_custom<SE2>(const cairn_custom*, cairn_custom_predict_fn, cairn_custom_place_fn, void*);
+template CustomSensor<SE3> read_custom<SE3>(const cairn_custom*, cairn_custom_predict_fn, cairn_custom_place_fn, void*);
 
 }  // namespace capi
 }  // namespace cairn
@@ -190,30 +192,31 @@ using namespace cairn::capi;
 
 extern "C" {
 
-cairn_status cairn_stereo_head_init(cairn_stereo_head* head, size_t struct_size) {
-  return guard([&] { init_options(head, struct_size, default_stereo_head(), "head"); });
+cairn_status cairn_stereo_head_init(cairn_stereo_head* head, size_t struct_size, cairn_error* error) {
+  return guard(error, [&] { init_options(head, struct_size, default_stereo_head(), "head"); });
 }
 
-cairn_status cairn_stereo_camera_init(cairn_stereo_camera* camera, size_t struct_size) {
-  return guard([&] { init_options(camera, struct_size, default_stereo_camera(), "camera"); });
+cairn_status cairn_stereo_camera_init(cairn_stereo_camera* camera, size_t struct_size, cairn_error* error) {
+  return guard(error, [&] { init_options(camera, struct_size, default_stereo_camera(), "camera"); });
 }
 
-cairn_status cairn_range_bearing_init(cairn_range_bearing* radar, size_t struct_size) {
-  return guard([&] { init_options(radar, struct_size, default_range_bearing(), "radar"); });
+cairn_status cairn_range_bearing_init(cairn_range_bearing* radar, size_t struct_size, cairn_error* error) {
+  return guard(error, [&] { init_options(radar, struct_size, default_range_bearing(), "radar"); });
 }
 
-cairn_status cairn_cartesian_init(cairn_cartesian* cartesian, size_t struct_size) {
-  return guard([&] { init_options(cartesian, struct_size, default_cartesian(), "cartesian"); });
+cairn_status cairn_cartesian_init(cairn_cartesian* cartesian, size_t struct_size, cairn_error* error) {
+  return guard(error, [&] { init_options(cartesian, struct_size, default_cartesian(), "cartesian"); });
 }
 
-cairn_status cairn_custom_init(cairn_custom* custom, size_t struct_size) {
-  return guard([&] { init_options(custom, struct_size, default_custom(), "custom"); });
+cairn_status cairn_custom_init(cairn_custom* custom, size_t struct_size, cairn_error* error) {
+  return guard(error, [&] { init_options(custom, struct_size, default_custom(), "custom"); });
 }
 
-cairn_status cairn_custom_check(const cairn_custom* custom, const cairn_pose* pose, const double landmark[3],
-                                double* worst) {
-  return guard([&] {
-    const CustomSensor<SE3> sensor = read_custom<SE3>(custom);
+cairn_status cairn_custom_check(const cairn_custom* custom, cairn_custom_predict_fn predict,
+                                cairn_custom_place_fn place, void* user, const cairn_pose* pose,
+                                const double landmark[3], double* worst, cairn_error* error) {
+  return guard(error, [&] {
+    const CustomSensor<SE3> sensor = read_custom<SE3>(custom, predict, place, user);
     const SE3 T = read_pose(pose, "pose");
     check_pointer(landmark, "landmark");
     check_finite(landmark, 3, "landmark");

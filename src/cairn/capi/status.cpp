@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The C functions of cairn/status.h, and the check of covariances.
 #include <cmath>
+#include <cstring>
 
 #include "capi/guard.hpp"
 
@@ -76,6 +77,21 @@ const char* cairn_last_message(void) {
 
 const char* cairn_version(void) {
   return CAIRN_TEXT(CAIRN_VERSION_MAJOR) "." CAIRN_TEXT(CAIRN_VERSION_MINOR) "." CAIRN_TEXT(CAIRN_VERSION_PATCH);
+}
+
+uint32_t cairn_version_number(void) {
+  return CAIRN_VERSION;
+}
+
+cairn_bool cairn_has(const char* feature) {
+  if (feature == nullptr) return 0;
+  for (const char* name : {"sparse", "teams", "trajectory", "systematic", "robust", "health", "errors"})
+    if (std::strcmp(feature, name) == 0) return 1;
+  return 0;
+}
+
+uint64_t cairn_id_none(void) {
+  return CAIRN_ID_NONE;
 }
 
 const char* cairn_build(void) {

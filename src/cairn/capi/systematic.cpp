@@ -92,12 +92,13 @@ void read_errors(const double* sigma, const double* walk, int count, const char*
 
 extern "C" {
 
-cairn_status cairn_calibration_init(cairn_calibration* calibration, size_t struct_size) {
-  return guard([&] { init_options(calibration, struct_size, default_calibration(), "calibration"); });
+cairn_status cairn_calibration_init(cairn_calibration* calibration, size_t struct_size, cairn_error* error) {
+  return guard(error, [&] { init_options(calibration, struct_size, default_calibration(), "calibration"); });
 }
 
-cairn_status cairn_filter_calibrate_sensor(cairn_filter* filter, int32_t sensor, const cairn_calibration* calibration) {
-  return guard([&] {
+cairn_status cairn_filter_calibrate_sensor(cairn_filter* filter, int32_t sensor, const cairn_calibration* calibration,
+                                           cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](auto& f) {
       using Pose = PoseOf<decltype(f)>;
       Calibration<Pose> sigma, walk;
@@ -116,16 +117,16 @@ cairn_status cairn_filter_calibrate_sensor(cairn_filter* filter, int32_t sensor,
 }
 
 cairn_status cairn_filter_systematic_errors(const cairn_filter* filter, cairn_systematic_error* errors,
-                                            double* covariance, size_t capacity, size_t* needed) {
-  return guard([&] {
+                                            double* covariance, size_t capacity, size_t* needed, cairn_error* error) {
+  return guard(error, [&] {
     with_filter(filter, [&](const auto& f) {
       const auto count = static_cast<std::size_t>(f.systematic().count());
       if (!check_room(errors, capacity, count, needed, "errors")) return;
       std::vector<double> values(count), joint(count * count);
       f.systematic_errors(values.data(), joint.data());
       for (std::size_t i = 0; i < count; ++i) {
-        const auto error = static_cast<Index>(i);
-        errors[i] = describe<PoseOf<decltype(f)>>(f.systematic().sensor(error), f.systematic().number(error));
+        const auto number = static_cast<Index>(i);
+        errors[i] = describe<PoseOf<decltype(f)>>(f.systematic().sensor(number), f.systematic().number(number));
         errors[i].value = values[i];
         errors[i].sigma = std::sqrt(joint[i * (count + 1)]);
       }

@@ -94,8 +94,8 @@ std::int32_t result_of(Arrival arrival, PacketFault fault) {
 extern "C" {
 
 cairn_status cairn_team_create(const cairn_team_options* options, const cairn_filter_options* filter,
-                               const cairn_range_bearing* radar, cairn_team** team) {
-  return guard([&] {
+                               const cairn_range_bearing* radar, cairn_team** team, cairn_error* error) {
+  return guard(error, [&] {
     const cairn_team_options own = read_team_options(options);
     const TeamOptions checked = team_options(own, filter, radar);
     check_pointer(team, "team");
@@ -107,8 +107,9 @@ void cairn_team_destroy(cairn_team* team) {
   delete team;
 }
 
-cairn_status cairn_team_add(cairn_team* team, uint64_t vehicle, const cairn_pose* start, const double covariance[36]) {
-  return guard([&] {
+cairn_status cairn_team_add(cairn_team* team, uint64_t vehicle, const cairn_pose* start, const double covariance[36],
+                            cairn_error* error) {
+  return guard(error, [&] {
     Team& t = read_team(team);
     if (start == nullptr) return t.add(vehicle);
     const SE2 pose = read_pose_of<SE2>(start, "start");
@@ -117,12 +118,13 @@ cairn_status cairn_team_add(cairn_team* team, uint64_t vehicle, const cairn_pose
   });
 }
 
-cairn_status cairn_team_remove(cairn_team* team, uint64_t vehicle) {
-  return guard([&] { read_team(team).remove(vehicle); });
+cairn_status cairn_team_remove(cairn_team* team, uint64_t vehicle, cairn_error* error) {
+  return guard(error, [&] { read_team(team).remove(vehicle); });
 }
 
-cairn_status cairn_team_members(const cairn_team* team, uint64_t* vehicles, size_t capacity, size_t* needed) {
-  return guard([&] {
+cairn_status cairn_team_members(const cairn_team* team, uint64_t* vehicles, size_t capacity, size_t* needed,
+                                cairn_error* error) {
+  return guard(error, [&] {
     const std::vector<std::uint64_t> members = read_team(team).members();
     if (check_room(vehicles, capacity, members.size(), needed, "vehicles"))
       std::copy(members.begin(), members.end(), vehicles);
@@ -130,8 +132,8 @@ cairn_status cairn_team_members(const cairn_team* team, uint64_t* vehicles, size
 }
 
 cairn_status cairn_team_predict_increment(cairn_team* team, const cairn_pose* T_before_after,
-                                          const double covariance[36]) {
-  return guard([&] {
+                                          const double covariance[36], cairn_error* error) {
+  return guard(error, [&] {
     cairn_team& handle = read_handle(team);
     const SE2 pose = read_pose_of<SE2>(T_before_after, "T_before_after");
     propagate(handle, {pose, read_pose_covariance<SE2>(covariance, "covariance")});
@@ -139,8 +141,8 @@ cairn_status cairn_team_predict_increment(cairn_team* team, const cairn_pose* T_
 }
 
 cairn_status cairn_team_predict_twist(cairn_team* team, double dt, const double velocity[3], const double rate[3],
-                                      const cairn_twist_noise* noise) {
-  return guard([&] {
+                                      const cairn_twist_noise* noise, cairn_error* error) {
+  return guard(error, [&] {
     cairn_team& handle = read_handle(team);
     check_positive(dt, "dt");
     check_pointer(velocity, "velocity");
@@ -153,8 +155,9 @@ cairn_status cairn_team_predict_twist(cairn_team* team, double dt, const double 
 }
 
 cairn_status cairn_team_observe(cairn_team* team, double time, const cairn_observation* landmarks,
-                                size_t landmark_count, const cairn_observation* vehicles, size_t vehicle_count) {
-  return guard([&] {
+                                size_t landmark_count, const cairn_observation* vehicles, size_t vehicle_count,
+                                cairn_error* error) {
+  return guard(error, [&] {
     cairn_team& handle = read_handle(team);
     Team& t = handle.team;
     check_finite(time, "time");
@@ -171,20 +174,22 @@ cairn_status cairn_team_observe(cairn_team* team, double time, const cairn_obser
   });
 }
 
-cairn_status cairn_team_decisions(const cairn_team* team, cairn_match* matches, size_t capacity, size_t* needed) {
-  return guard([&] {
+cairn_status cairn_team_decisions(const cairn_team* team, cairn_match* matches, size_t capacity, size_t* needed,
+                                  cairn_error* error) {
+  return guard(error, [&] {
     const std::vector<Match>& own = read_team(team).matches();
     if (!check_room(matches, capacity, own.size(), needed, "matches")) return;
     for (std::size_t i = 0; i < own.size(); ++i) write_match(own[i], matches + i);
   });
 }
 
-cairn_status cairn_team_leave(cairn_team* team) {
-  return guard([&] { read_team(team).leave(); });
+cairn_status cairn_team_leave(cairn_team* team, cairn_error* error) {
+  return guard(error, [&] { read_team(team).leave(); });
 }
 
-cairn_status cairn_team_take_packet(cairn_team* team, uint8_t* packet, size_t capacity, size_t* needed) {
-  return guard([&] {
+cairn_status cairn_team_take_packet(cairn_team* team, uint8_t* packet, size_t capacity, size_t* needed,
+                                    cairn_error* error) {
+  return guard(error, [&] {
     Team& t = read_team(team);
     const std::vector<std::uint8_t>* next = t.next_packet();
     if (!check_room(packet, capacity, next != nullptr ? next->size() : 0, needed, "packet") || next == nullptr) return;
@@ -193,12 +198,13 @@ cairn_status cairn_team_take_packet(cairn_team* team, uint8_t* packet, size_t ca
   });
 }
 
-cairn_status cairn_team_ask(cairn_team* team) {
-  return guard([&] { read_team(team).ask(); });
+cairn_status cairn_team_ask(cairn_team* team, cairn_error* error) {
+  return guard(error, [&] { read_team(team).ask(); });
 }
 
-cairn_status cairn_team_receive(cairn_team* team, const uint8_t* packet, size_t size, int32_t* result) {
-  return guard([&] {
+cairn_status cairn_team_receive(cairn_team* team, const uint8_t* packet, size_t size, int32_t* result,
+                                cairn_error* error) {
+  return guard(error, [&] {
     Team& t = read_team(team);
     check_pointer(packet, "packet");
     PacketFault fault = PacketFault::none;
@@ -207,16 +213,17 @@ cairn_status cairn_team_receive(cairn_team* team, const uint8_t* packet, size_t 
   });
 }
 
-cairn_status cairn_team_pose(const cairn_team* team, uint64_t vehicle, cairn_pose* pose, double covariance[36]) {
-  return guard([&] {
+cairn_status cairn_team_pose(const cairn_team* team, uint64_t vehicle, cairn_pose* pose, double covariance[36],
+                             cairn_error* error) {
+  return guard(error, [&] {
     const Team& t = read_team(team);
     const VehicleEstimate now = t.estimate(vehicle);
     write_estimate(now.pose, now.covariance, pose, covariance);
   });
 }
 
-cairn_status cairn_team_pose_nees(const cairn_team* team, const cairn_pose* truth, double* nees) {
-  return guard([&] {
+cairn_status cairn_team_pose_nees(const cairn_team* team, const cairn_pose* truth, double* nees, cairn_error* error) {
+  return guard(error, [&] {
     const Team& t = read_team(team);
     const SE2 pose = read_pose_of<SE2>(truth, "truth");
     check_pointer(nees, "nees");
@@ -231,16 +238,16 @@ const cairn_map* cairn_team_map(const cairn_team* team) {
   return team != nullptr ? &team->map : nullptr;
 }
 
-cairn_status cairn_team_score(cairn_team* team, const cairn_pose* truth) {
-  return guard([&] {
+cairn_status cairn_team_score(cairn_team* team, const cairn_pose* truth, cairn_error* error) {
+  return guard(error, [&] {
     cairn_team& handle = read_handle(team);
     const SE2 pose = read_pose_of<SE2>(truth, "truth");
     handle.score.add(handle.team, handle.baseline ? &*handle.baseline : nullptr, pose);
   });
 }
 
-cairn_status cairn_team_last_report(const cairn_team* team, cairn_team_report* report) {
-  return guard([&] {
+cairn_status cairn_team_last_report(const cairn_team* team, cairn_team_report* report, cairn_error* error) {
+  return guard(error, [&] {
     const Team& t = read_team(team);
     const MailCounts& mail = t.mail_counts();
     const ScanCounts& scans = t.scan_counts();

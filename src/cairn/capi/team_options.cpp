@@ -50,7 +50,7 @@ TeamOptions team_options(const cairn_team_options& o, const cairn_filter_options
   TeamOptions options;
   options.mode = read_mode(o.mode);
   if (o.vehicle == CAIRN_ID_NONE) throw Error(ErrorCode::argument, "options.vehicle is CAIRN_ID_NONE");
-  if (o.baseline > 1) throw Error(ErrorCode::argument, "options.baseline must be 0 or 1, and is %u", o.baseline);
+  read_bool(o.baseline, "options.baseline");
   check_range(o.max_vehicles, 1, 256, "options.max_vehicles");
   check_positive(o.max_lag, "options.max_lag");
   check_not_negative(o.time_tolerance, "options.time_tolerance");
@@ -89,7 +89,7 @@ TeamOptions team_options(const cairn_team_options& o, const cairn_filter_options
 }  // namespace capi
 }  // namespace cairn
 
-extern "C" cairn_status cairn_team_options_init(cairn_team_options* options, size_t struct_size) {
+extern "C" cairn_status cairn_team_options_init(cairn_team_options* options, size_t struct_size, cairn_error* error) {
   using namespace cairn::capi;
-  return guard([&] { init_options(options, struct_size, default_options(), "options"); });
+  return guard(error, [&] { init_options(options, struct_size, default_options(), "options"); });
 }

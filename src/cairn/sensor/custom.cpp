@@ -17,13 +17,21 @@ namespace {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Packed = Eigen::Map<const RowMajor>;  // views memory, allocates none
 
-constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
-
 // Whether a callback gave an answer. A negative value aborts the whole call.
 bool answered(std::int32_t result, const char* name) {
   if (result < 0)
     throw Error(ErrorCode::callback, "custom.%s returned %d, which aborts the call; nothing was changed", name, result);
-  return result == 0;
+  if (result > 1)
+    throw Error(ErrorCode::callback, "custom.%s returned %d, and may return 1, 0 or a negative value", name, result);
+  return result == 1;
+}
+
+// Outputs of a callback. A value that it does not write is NaN and is refused.
+template <std::size_t n>
+std::array<double, n> unset() {
+  std::array<double, n> values;
+  values.fill(std::numeric_limits<double>::quiet_NaN());
+  return values;
 }
 
 std::array<double, 7> pack(const SE3& T) {
@@ -44,17 +52,19 @@ bool CustomSensor<Pose>::predict(const Pose& T_map_body, const Point& p_map, con
   const int n = rows();
   const std::array<double, 7> pose = pack(Embedding<Pose>::up(T_map_body));
   const Vector3 landmark = Embedding<Pose>::up(p_map);
-  // The callback must set every value of z (an unset value is NaN and is refused). It may leave out zeros of a
-  // Jacobian.
-  double z[3] = {kUnset, kUnset, kUnset}, J_pose[18] = {}, J_landmark[9] = {};
-  if (!answered(parameters_.predict(parameters_.user, pose.data(), landmark.data(), z, J_pose, J_landmark), "predict"))
+  auto z = unset<3>();
+  auto J_pose = unset<18>();
+  auto J_landmark = unset<9>();
+  if (!answered(parameters_.predict(parameters_.user, pose.data(), landmark.data(), z.data(), J_pose.data(),
+                                    J_landmark.data()),
+                "predict"))
     return false;
   out = Prediction<Pose>();
-  std::copy_n(z, n, out.z.data());
+  std::copy_n(z.data(), n, out.z.data());
   Matrix36 by_pose = Matrix36::Zero();
   Matrix3 by_landmark = Matrix3::Zero();
-  by_pose.topRows(n) = Packed(J_pose, n, 6);
-  by_landmark.topRows(n) = Packed(J_landmark, n, 3);
+  by_pose.topRows(n) = Packed(J_pose.data(), n, 6);
+  by_landmark.topRows(n) = Packed(J_landmark.data(), n, 3);
   out.J_z_pose = Embedding<Pose>::by_pose(by_pose);
   out.J_z_landmark = Embedding<Pose>::by_point(by_landmark);
   return out.z.allFinite() && out.J_z_pose.allFinite() && out.J_z_landmark.allFinite();
@@ -65,13 +75,16 @@ bool CustomSensor<Pose>::place(const Pose& T_map_body, const Vector3& z, const M
   if (!places()) return false;
   const int n = rows();
   const std::array<double, 7> pose = pack(Embedding<Pose>::up(T_map_body));
-  double landmark[3] = {kUnset, kUnset, kUnset}, J_pose[18] = {}, J_z[9] = {};
-  if (!answered(parameters_.place(parameters_.user, pose.data(), z.data(), landmark, J_pose, J_z), "place"))
+  auto landmark = unset<3>();
+  auto J_pose = unset<18>();
+  auto J_z = unset<9>();
+  if (!answered(parameters_.place(parameters_.user, pose.data(), z.data(), landmark.data(), J_pose.data(), J_z.data()),
+                "place"))
     return false;
   out = Placement<Pose>();
-  out.landmark = Embedding<Pose>::down(Vector3(landmark));
-  out.J_landmark_pose = Embedding<Pose>::by_pose(Packed(J_pose, 3, 6)).template topRows<Pose::kDim>();
-  out.J_landmark_z.leftCols(n) = Packed(J_z, 3, n).template topRows<Pose::kDim>();
+  out.landmark = Embedding<Pose>::down(Vector3(landmark.data()));
+  out.J_landmark_pose = Embedding<Pose>::by_pose(Packed(J_pose.data(), 3, 6)).template topRows<Pose::kDim>();
+  out.J_landmark_z.leftCols(n) = Packed(J_z.data(), 3, n).template topRows<Pose::kDim>();
   return out.landmark.allFinite() && out.J_landmark_pose.allFinite() && out.J_landmark_z.allFinite();
 }
 

@@ -9,8 +9,8 @@
 namespace cairn {
 
 // The functions of the caller. `pose` is seven doubles: position (m), then the quaternion w x y z. Jacobians are packed
-// and row-major: rows x 6 and rows x 3 for a prediction, 3 x 6 and 3 x rows for a placement. A function returns 0 on
-// success and a positive value if it refuses. A negative value aborts the call of the library: an Error is thrown.
+// and row-major: rows x 6 and rows x 3 for a prediction, 3 x 6 and 3 x rows for a placement. A function returns 1
+// for an answer and 0 if it has none. A negative value aborts the call of the library: an Error is thrown.
 using CustomPredict = std::int32_t (*)(void* user, const double* pose, const double* landmark, double* z,
                                        double* jacobian_pose, double* jacobian_landmark);
 using CustomPlace = std::int32_t (*)(void* user, const double* pose, const double* z, double* landmark,

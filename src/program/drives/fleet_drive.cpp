@@ -22,13 +22,13 @@ std::vector<cairn_observation> observations_of(const cairn_fleet_sighting* sight
 
 FleetDrive::FleetDrive(const cairn_fleet_options& options) : options_(options), fleet_(nullptr, &cairn_fleet_destroy) {
   cairn_fleet* fleet = nullptr;
-  check_sim(cairn_fleet_create(&options, &fleet));
+  check_sim(cairn_fleet_create(&options, &fleet, nullptr));
   fleet_.reset(fleet);
-  check_sim(cairn_fleet_steps(fleet, &steps_));
+  check_sim(cairn_fleet_steps(fleet, &steps_, nullptr));
   std::size_t count = 0;
-  check_sim(cairn_fleet_features(fleet, nullptr, 0, &count));
+  check_sim(cairn_fleet_features(fleet, nullptr, 0, &count, nullptr));
   features_.resize(2 * count);
-  if (count > 0) check_sim(cairn_fleet_features(fleet, features_.data(), count, &count));
+  if (count > 0) check_sim(cairn_fleet_features(fleet, features_.data(), count, &count, nullptr));
   step_.struct_size = sizeof step_;
   taken_ = take();
   for (std::size_t v = 0; v < step_.vehicle_count; ++v) {
@@ -38,7 +38,7 @@ FleetDrive::FleetDrive(const cairn_fleet_options& options) : options_(options), 
 }
 
 bool FleetDrive::take() {
-  const cairn_status status = cairn_fleet_next(fleet_.get(), &step_);
+  const cairn_status status = cairn_fleet_next(fleet_.get(), &step_, nullptr);
   if (status == CAIRN_ERROR_STATE) return false;
   check_sim(status);
   return true;
@@ -46,7 +46,7 @@ bool FleetDrive::take() {
 
 cairn_range_bearing FleetDrive::radar() const {
   cairn_range_bearing radar;
-  check(cairn_range_bearing_init(&radar, sizeof radar));
+  check(cairn_range_bearing_init(&radar, sizeof radar, nullptr));
   if (options_.range_sigma > 0) radar.range_sigma = options_.range_sigma;
   if (options_.bearing_sigma > 0) radar.bearing_sigma = options_.bearing_sigma;
   return radar;

@@ -10,7 +10,7 @@ namespace cairn::program {
 
 cairn_pose LogDrive::start() const {
   cairn_pose identity;
-  check(cairn_pose_identity(&identity));
+  check(cairn_pose_identity(&identity, nullptr));
   return log_.steps.front().truth.value_or(identity);
 }
 
@@ -60,21 +60,21 @@ std::int32_t LogDrive::equip(cairn_filter* filter) const {
   std::int32_t sensor = -1;
   switch (log_.sensor) {
     case logs::SensorKind::kStereoHead:
-      check(cairn_filter_add_stereo_head(filter, &log_.head, &sensor));
+      check(cairn_filter_add_stereo_head(filter, &log_.head, &sensor, nullptr));
       break;
     case logs::SensorKind::kStereoCamera: {
       cairn_stereo_camera camera = log_.camera;
       camera.min_disparity = camera_.min_disparity.value_or(camera.min_disparity);
       camera.min_disparity_sigmas = camera_.min_disparity_sigmas.value_or(camera.min_disparity_sigmas);
-      check(cairn_filter_add_stereo_camera(filter, &camera, &sensor));
-      check(cairn_filter_set_twist_noise(filter, &log_.twist_noise));
+      check(cairn_filter_add_stereo_camera(filter, &camera, &sensor, nullptr));
+      check(cairn_filter_set_twist_noise(filter, &log_.twist_noise, nullptr));
       break;
     }
     case logs::SensorKind::kCartesian:
-      check(cairn_filter_add_cartesian(filter, &log_.cartesian, &sensor));
+      check(cairn_filter_add_cartesian(filter, &log_.cartesian, &sensor, nullptr));
       break;
     case logs::SensorKind::kRangeBearing:
-      check(cairn_filter_add_range_bearing(filter, &log_.radar, &sensor));
+      check(cairn_filter_add_range_bearing(filter, &log_.radar, &sensor, nullptr));
       break;
   }
   return sensor;

@@ -23,16 +23,16 @@ using Filter = std::unique_ptr<cairn_filter, void (*)(cairn_filter*)>;
 
 Filter make_filter(std::size_t posts, const MrclamNoise& noise) {
   cairn_filter_options options;
-  check(cairn_filter_options_init(&options, sizeof options));
+  check(cairn_filter_options_init(&options, sizeof options, nullptr));
   options.vehicle = CAIRN_VEHICLE_PLANAR;
   options.max_landmarks = options.max_observations = static_cast<std::uint32_t>(std::max<std::size_t>(1, posts));
   options.max_observations = std::min<std::uint32_t>(4096, options.max_observations);
   cairn_filter* filter = nullptr;
-  check(cairn_filter_create(&options, &filter));
+  check(cairn_filter_create(&options, &filter, nullptr));
   Filter owner(filter, &cairn_filter_destroy);
   const cairn_range_bearing radar = robot_radar(noise);
   std::int32_t sensor = 0;
-  check(cairn_filter_add_range_bearing(filter, &radar, &sensor));
+  check(cairn_filter_add_range_bearing(filter, &radar, &sensor, nullptr));
   return owner;
 }
 
@@ -43,11 +43,11 @@ void feed(cairn_filter* filter, const VehicleStep& step) {
     noise.velocity_sigma[0] = motion.speed_sigma;
     noise.rate_sigma[2] = motion.rate_sigma;
     const double velocity[3] = {motion.speed, 0, 0}, rate[3] = {0, 0, motion.rate};
-    check(cairn_filter_set_twist_noise(filter, &noise));
-    check(cairn_filter_predict_twist(filter, motion.dt, velocity, rate));
+    check(cairn_filter_set_twist_noise(filter, &noise, nullptr));
+    check(cairn_filter_predict_twist(filter, motion.dt, velocity, rate, nullptr));
   }
   if (!step.landmarks.empty())
-    check(cairn_filter_update(filter, 0, step.landmarks.data(), step.landmarks.size(), nullptr));
+    check(cairn_filter_update(filter, 0, step.landmarks.data(), step.landmarks.size(), nullptr, nullptr));
 }
 
 // L L^T = A, n x n, row-major, in place. False if A is not positive definite.
@@ -73,15 +73,15 @@ std::optional<PostMap> map_of(const cairn_filter* filter) {
   PostMap map;
   const cairn_map* of = cairn_filter_map(filter);
   std::size_t count = 0;
-  check(cairn_map_size(of, &count));
+  check(cairn_map_size(of, &count, nullptr));
   if (count < 2) return std::nullopt;
   map.posts.resize(count);
-  check(cairn_map_landmarks(of, map.posts.data(), count, &count));
+  check(cairn_map_landmarks(of, map.posts.data(), count, &count, nullptr));
   std::vector<std::uint64_t> ids;
   for (const cairn_landmark& post : map.posts) ids.push_back(post.id);
   std::size_t needed = 9 * count * count;
   std::vector<double> joint(needed);
-  check(cairn_map_joint_covariance(of, ids.data(), count, joint.data(), needed, &needed));
+  check(cairn_map_joint_covariance(of, ids.data(), count, joint.data(), needed, &needed, nullptr));
   map.L.resize(4 * count * count);
   for (std::size_t i = 0; i < 2 * count; ++i)
     for (std::size_t j = 0; j < 2 * count; ++j)

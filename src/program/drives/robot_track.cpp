@@ -48,7 +48,7 @@ void RobotTrack::look(double time, VehicleStep& step) {
 
 cairn_range_bearing robot_radar(const MrclamNoise& noise) {
   cairn_range_bearing radar;
-  check(cairn_range_bearing_init(&radar, sizeof radar));
+  check(cairn_range_bearing_init(&radar, sizeof radar, nullptr));
   radar.range_sigma = noise.range;
   radar.bearing_sigma = noise.bearing;
   return radar;

@@ -13,35 +13,35 @@ WorldDrive::WorldDrive(const cairn_world_options& options, bool by_wheels, bool 
       by_wheels_(by_wheels),
       by_gyro_(scales_wheels && options.drive == CAIRN_DRIVE_WHEELS_GYRO) {
   cairn_world* world = nullptr;
-  const cairn_status status = cairn_world_create(&options, &world);
+  const cairn_status status = cairn_world_create(&options, &world, nullptr);
   if (status == CAIRN_ERROR_ARGUMENT) throw UsageError(cairn_sim_last_message());  // options that contradict each other
   check_sim(status);
   world_.reset(world);
-  check_sim(cairn_world_steps(world, &steps_));
+  check_sim(cairn_world_steps(world, &steps_, nullptr));
 }
 
 cairn_pose WorldDrive::start() const {
   cairn_pose pose;
-  check_sim(cairn_world_pose(world_.get(), 0, &pose));
+  check_sim(cairn_world_pose(world_.get(), 0, &pose, nullptr));
   return pose;
 }
 
 std::size_t WorldDrive::largest_frame() const {
   std::size_t count = 0;
-  check_sim(cairn_world_most_observations(world_.get(), &count));
+  check_sim(cairn_world_most_observations(world_.get(), &count, nullptr));
   return std::max<std::size_t>(1, count);
 }
 
 std::int32_t WorldDrive::equip(cairn_filter* filter) const {
   cairn_stereo_head head;
-  check(cairn_stereo_head_init(&head, sizeof head));
-  check_sim(cairn_world_head(world_.get(), &head));
+  check(cairn_stereo_head_init(&head, sizeof head, nullptr));
+  check_sim(cairn_world_head(world_.get(), &head, nullptr));
   cairn_wheels wheels;
-  check(cairn_wheels_init(&wheels, sizeof wheels));
-  check_sim(cairn_world_wheels(world_.get(), &wheels));
+  check(cairn_wheels_init(&wheels, sizeof wheels, nullptr));
+  check_sim(cairn_world_wheels(world_.get(), &wheels, nullptr));
   std::int32_t sensor = -1;
-  check(cairn_filter_add_stereo_head(filter, &head, &sensor));
-  check(cairn_filter_set_wheels(filter, &wheels));
+  check(cairn_filter_add_stereo_head(filter, &head, &sensor, nullptr));
+  check(cairn_filter_set_wheels(filter, &wheels, nullptr));
   return sensor;
 }
 
@@ -49,7 +49,7 @@ bool WorldDrive::next(DriveStep& step) {
   if (next_ == steps_) return false;
   cairn_world_step simulated;
   simulated.struct_size = sizeof simulated;
-  check_sim(cairn_world_next(world_.get(), &simulated));
+  check_sim(cairn_world_next(world_.get(), &simulated, nullptr));
   step.index = next_++;
   step.number = simulated.number;
   step.time = simulated.time;
@@ -70,7 +70,7 @@ bool WorldDrive::next(DriveStep& step) {
     }
   }
   cairn_twist_noise noise;
-  check(cairn_twist_noise_init(&noise, sizeof noise));
+  check(cairn_twist_noise_init(&noise, sizeof noise, nullptr));
   std::copy_n(simulated.velocity_sigma, 3, noise.velocity_sigma);
   std::copy_n(simulated.rate_sigma, 3, noise.rate_sigma);
   step.noise = noise;
@@ -83,7 +83,7 @@ bool WorldDrive::next(DriveStep& step) {
 }
 
 bool WorldDrive::true_landmark(std::uint64_t id, double position[3]) const {
-  return cairn_world_landmark(world_.get(), id, position) == CAIRN_OK;
+  return cairn_world_landmark(world_.get(), id, position, nullptr) == CAIRN_OK;
 }
 
 }  // namespace cairn::program

@@ -203,7 +203,7 @@ Log read_isam_log(const std::string& path, const std::string& text) {
   log.format = "iSAM text log";
   log.planar = true;
   log.sensor = SensorKind::kCartesian;
-  cairn_cartesian_init(&log.cartesian, sizeof log.cartesian);
+  cairn_cartesian_init(&log.cartesian, sizeof log.cartesian, nullptr);
   log.steps = steps_of(path, graph);
   log.notes = graph.notes;
   // Earlier poses are no part of a filter's state.

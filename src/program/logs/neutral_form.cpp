@@ -22,7 +22,7 @@ Increment spatial_increment(const double* v, const std::vector<double>& sigma) {
   for (int i = 0; i < 3; ++i) increment.T_before_after.position[i] = v[i];
   const double pitch = v[4];
   const double yaw = v[5];
-  cairn_quaternion_from_euler(v[3], pitch, yaw, increment.T_before_after.quaternion);
+  cairn_quaternion_from_euler(v[3], pitch, yaw, increment.T_before_after.quaternion, nullptr);
   const double jacobian[3][3] = {{std::cos(yaw) * std::cos(pitch), -std::sin(yaw), 0},
                                  {std::sin(yaw) * std::cos(pitch), std::cos(yaw), 0},
                                  {-std::sin(pitch), 0, 1}};
@@ -87,7 +87,7 @@ std::size_t NeutralForm::fields(std::string_view letter) const {
 cairn_pose NeutralForm::make_pose(const double* v) const {
   if (planar_) return planar_pose(v[0], v[1], v[2]);
   cairn_pose pose{{v[0], v[1], v[2]}, {}};
-  cairn_quaternion_from_euler(v[3], v[4], v[5], pose.quaternion);
+  cairn_quaternion_from_euler(v[3], v[4], v[5], pose.quaternion, nullptr);
   return pose;
 }
 
@@ -109,12 +109,12 @@ void NeutralForm::equip(Log& log) const {
   if (planar_) {
     log.format = "planar neutral text log";
     log.sensor = SensorKind::kRangeBearing;
-    cairn_range_bearing_init(&log.radar, sizeof log.radar);
+    cairn_range_bearing_init(&log.radar, sizeof log.radar, nullptr);
     return;
   }
   log.format = "neutral text log";
   log.sensor = SensorKind::kStereoHead;
-  cairn_stereo_head_init(&log.head, sizeof log.head);
+  cairn_stereo_head_init(&log.head, sizeof log.head, nullptr);
   log.head.range_sigma = kRangeSigma;
   log.head.azimuth_sigma = kDirectionSigma;
   log.head.elevation_sigma = kDirectionSigma;

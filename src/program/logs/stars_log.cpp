@@ -72,7 +72,7 @@ class Reader {
  private:
   void read_camera() {
     cairn_stereo_camera& camera = log_.camera;
-    cairn_stereo_camera_init(&camera, sizeof camera);
+    cairn_stereo_camera_init(&camera, sizeof camera, nullptr);
     camera.fu = positive_scalar("fu");
     camera.fv = positive_scalar("fv");
     camera.cu = file_.require_scalar("cu");
@@ -180,7 +180,7 @@ class Reader {
       std::copy_n(rate.column(k), 3, twist.rate.begin());
       log_.steps[k + 1].twist = twist;
     }
-    cairn_twist_noise_init(&log_.twist_noise, sizeof log_.twist_noise);
+    cairn_twist_noise_init(&log_.twist_noise, sizeof log_.twist_noise, nullptr);
     set_noise(log_.twist_noise.velocity_sigma, noise_.velocity, "v_var", kVelocitySigma);
     set_noise(log_.twist_noise.rate_sigma, noise_.rate, "w_var", kRateSigma);
   }
@@ -202,7 +202,7 @@ class Reader {
       if (!known) continue;
       cairn_pose pose{};
       std::copy_n(position.column(k), 3, pose.position);
-      cairn_quaternion_exp(attitude.column(k), pose.quaternion);
+      cairn_quaternion_exp(attitude.column(k), pose.quaternion, nullptr);
       log_.steps[k].truth = pose;
     }
   }

@@ -36,12 +36,12 @@ cairn_status SystematicChoices::calibrate(cairn_filter* filter, std::int32_t sen
   apply(room);
   if (room.max_sensor_errors == 0) return CAIRN_OK;
   cairn_calibration calibration;
-  const cairn_status status = cairn_calibration_init(&calibration, sizeof calibration);
+  const cairn_status status = cairn_calibration_init(&calibration, sizeof calibration, nullptr);
   if (status != CAIRN_OK) return status;
   std::copy(mount_shift.begin(), mount_shift.end(), calibration.mount_shift_sigma);
   std::copy(mount_turn.begin(), mount_turn.end(), calibration.mount_turn_sigma);
   std::copy(value_offset.begin(), value_offset.end(), calibration.offset_sigma);
-  return cairn_filter_calibrate_sensor(filter, sensor, &calibration);
+  return cairn_filter_calibrate_sensor(filter, sensor, &calibration, nullptr);
 }
 
 std::vector<Option> systematic_flags(SystematicChoices& o) {

@@ -128,7 +128,7 @@ OptionGroup robot_options(MrclamOptions& o) {
 
 UsvOptions default_usv_options() {
   UsvOptions options;
-  check_sim(cairn_fleet_options_init(&options.fleet, sizeof options.fleet));
+  check_sim(cairn_fleet_options_init(&options.fleet, sizeof options.fleet, nullptr));
   // A world has no outliers.
   options.team.filter.gate_probability = options.team.filter.batch_gate_probability = 1;
   options.team.score_from = 0.1;  // by then the exactly known start has lost its weight (docs/team.md)

@@ -42,7 +42,7 @@ Option preset_option(SimulateOptions& o) {
         std::int32_t preset = 0;
         choice({"--preset", "NAME", "", ""}, {"paper", "row1", "row2", "row3", "row4"}, preset).set(v);
         std::uint32_t submap_landmarks = 0;
-        check_sim(cairn_world_options_preset(&o.world, preset, &submap_landmarks));
+        check_sim(cairn_world_options_preset(&o.world, preset, &submap_landmarks, nullptr));
         o.filter.submap_landmarks = submap_landmarks;
       });
 }
@@ -194,7 +194,7 @@ OptionGroup faults_group(cairn_world_options& w) {
 
 SimulateOptions default_simulate_options() {
   SimulateOptions options;
-  check_sim(cairn_world_options_init(&options.world, sizeof options.world));
+  check_sim(cairn_world_options_init(&options.world, sizeof options.world, nullptr));
   options.filter.gate_probability = options.filter.batch_gate_probability = 1;  // a world has no outliers
   // The largest possible frame is much larger than a usual one.
   options.filter.submap_landmarks = kUsualSubmap;

@@ -29,11 +29,11 @@ constexpr double kTerrainMargin = 10;  // m
 
 const char* result_name(std::int32_t result) {
   switch (result) {
-    case CAIRN_MATCHED:
+    case CAIRN_RESULT_MATCHED:
       return "matched";
-    case CAIRN_NEW:
+    case CAIRN_RESULT_NEW:
       return "new";
-    case CAIRN_REJECTED:
+    case CAIRN_RESULT_REJECTED:
       return "rejected";
     default:
       return "unknown";
@@ -88,7 +88,7 @@ double sigma3(double variance) {
 
 void write_pose(OutputFile& file, const cairn_pose& pose) {
   double euler[3] = {};
-  cairn_quaternion_to_euler(pose.quaternion, &euler[0], &euler[1], &euler[2]);
+  cairn_quaternion_to_euler(pose.quaternion, &euler[0], &euler[1], &euler[2], nullptr);
   file.fields(pose.position, 3);
   file.fields(pose.quaternion, 4);
   file.fields(euler, 3);
@@ -220,9 +220,9 @@ void CsvOutput::write_submaps(const cairn_filter* filter) {
     const cairn_closing_report& report = closed_[i].report;
     cairn_pose base;
     std::size_t count = 0;
-    check(cairn_filter_submap(filter, i, &base, nullptr, 0, &count));
+    check(cairn_filter_submap(filter, i, &base, nullptr, 0, &count, nullptr));
     ids.resize(count);
-    check(cairn_filter_submap(filter, i, &base, ids.data(), count, &count));
+    check(cairn_filter_submap(filter, i, &base, ids.data(), count, &count, nullptr));
     submaps.field(std::uint64_t{i});
     submaps.field(closed_[i].step);
     submaps.field(closing_name(report.reason));
@@ -247,7 +247,7 @@ void CsvOutput::write_submaps(const cairn_filter* filter) {
 
 void CsvOutput::write_terrain(const cairn_world* world) {
   double lower[2], upper[2];
-  check_sim(cairn_world_extent(world, lower, upper));
+  check_sim(cairn_world_extent(world, lower, upper, nullptr));
   for (int i = 0; i < 2; ++i) {
     lower[i] -= kTerrainMargin;
     upper[i] += kTerrainMargin;
@@ -260,7 +260,7 @@ void CsvOutput::write_terrain(const cairn_world* world) {
   for (int row = 0; row <= rows; ++row) {
     for (int column = 0; column <= columns; ++column) {
       double point[3] = {lower[0] + column * cell, lower[1] + row * cell, 0};
-      check_sim(cairn_world_height(world, point[0], point[1], &point[2]));
+      check_sim(cairn_world_height(world, point[0], point[1], &point[2], nullptr));
       file.fields(point, 3);
       file.end();
     }

@@ -52,7 +52,7 @@ class Scene {
 
 void write_scene(const cairn_fleet_options& options, const std::string& folder) {
   cairn_fleet* created = nullptr;
-  check_sim(cairn_fleet_create(&options, &created));
+  check_sim(cairn_fleet_create(&options, &created, nullptr));
   const Fleet fleet(created, &cairn_fleet_destroy);
   Scene scene(folder);
   scene.points("coast", &cairn_fleet_coast, fleet.get());
@@ -62,9 +62,9 @@ void write_scene(const cairn_fleet_options& options, const std::string& folder) 
   cairn_fleet_step step{};
   step.struct_size = sizeof step;
   std::size_t steps = 0;
-  check_sim(cairn_fleet_steps(fleet.get(), &steps));
+  check_sim(cairn_fleet_steps(fleet.get(), &steps, nullptr));
   for (std::size_t k = 0; k < steps; ++k) {
-    check_sim(cairn_fleet_next(fleet.get(), &step));
+    check_sim(cairn_fleet_next(fleet.get(), &step, nullptr));
     for (std::size_t v = 0; v < step.vehicle_count; ++v) {
       const cairn_fleet_vehicle& boat = step.vehicles[v];
       if (k == 0) {

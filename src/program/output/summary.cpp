@@ -34,9 +34,9 @@ double peak_rss_mib() {
 std::optional<PoseScore> score_pose(const cairn_filter* filter, const DriveStep& step, const cairn_pose& estimate) {
   if (!step.truth) return std::nullopt;
   PoseScore score{};
-  check(cairn_pose_error(&*step.truth, &estimate, score.error));
+  check(cairn_pose_error(&*step.truth, &estimate, score.error, nullptr));
   double nees = 0;
-  const cairn_status status = cairn_filter_pose_nees(filter, &*step.truth, &nees);
+  const cairn_status status = cairn_filter_pose_nees(filter, &*step.truth, &nees, nullptr);
   if (status == CAIRN_OK) {
     score.nees = nees;
   } else if (status != CAIRN_ERROR_NUMERICAL) {  // singular covariance, as at the known start: no score
@@ -48,9 +48,9 @@ std::optional<PoseScore> score_pose(const cairn_filter* filter, const DriveStep&
 std::vector<cairn_landmark> map_landmarks(const cairn_filter* filter) {
   const cairn_map* map = cairn_filter_map(filter);
   std::size_t count = 0;
-  cairn_status status = cairn_map_size(map, &count);
+  cairn_status status = cairn_map_size(map, &count, nullptr);
   std::vector<cairn_landmark> landmarks(count);
-  if (status == CAIRN_OK && count > 0) status = cairn_map_landmarks(map, landmarks.data(), count, &count);
+  if (status == CAIRN_OK && count > 0) status = cairn_map_landmarks(map, landmarks.data(), count, &count, nullptr);
   check(status);
   return landmarks;
 }
@@ -58,7 +58,7 @@ std::vector<cairn_landmark> map_landmarks(const cairn_filter* filter) {
 void Summary::add(const DriveStep& step, const StepResult& result, const std::optional<PoseScore>& score) {
   step_seconds_.push_back(result.seconds);
   observations_ += result.matches.size();
-  for (const cairn_match& match : result.matches) rejected_ += match.result == CAIRN_REJECTED;
+  for (const cairn_match& match : result.matches) rejected_ += match.result == CAIRN_RESULT_REJECTED;
   if (!names_known_) add_pairings(step, result);
   nis_sum_ += result.report.nis;
   nis_rows_ += result.report.rows;
@@ -93,9 +93,9 @@ void Summary::add_pairings(const DriveStep& step, const StepResult& result) {
   for (std::size_t i = 0; i < result.matches.size(); ++i) {
     const cairn_match& match = result.matches[i];
     const std::uint64_t name = step.observations[i].id;
-    if (match.result == CAIRN_NEW) {
+    if (match.result == CAIRN_RESULT_NEW) {
       names_[match.landmark] = name;
-    } else if (match.result == CAIRN_MATCHED) {
+    } else if (match.result == CAIRN_RESULT_MATCHED) {
       ++paired_;
       wrongly_paired_ += names_.at(match.landmark) != name;
     }
@@ -152,7 +152,7 @@ void Summary::finish(const cairn_filter* filter, const std::optional<cairn_closi
 void Summary::finish_health(const cairn_filter* filter) {
   cairn_health health{};
   health.struct_size = sizeof health;
-  check(cairn_filter_health(filter, &health));
+  check(cairn_filter_health(filter, &health, nullptr));
   figures_.push_back({"verdict", 0, false, cairn_verdict_text(health.verdict)});
   measure("verdict_good_share", health.good_share);
   measure("verdict_doubtful_share", health.doubtful_share);
@@ -205,8 +205,8 @@ void Summary::finish_pose(const cairn_filter* filter) {
   if (!last_truth_) return;
   cairn_pose pose;  // after all submaps are closed
   double error[6];
-  check(cairn_filter_pose(filter, &pose, nullptr));
-  check(cairn_pose_error(&*last_truth_, &pose, error));
+  check(cairn_filter_pose(filter, &pose, nullptr, nullptr));
+  check(cairn_pose_error(&*last_truth_, &pose, error, nullptr));
   measure("pose_end_m", std::sqrt(square_norm(error)));
   measure("attitude_end_deg", kDegreesPerRadian * std::sqrt(square_norm(error + 3)));
 }

@@ -41,10 +41,10 @@ SystematicCsv::SystematicCsv(const std::string& folder) : folder_(folder) {
 
 void SystematicCsv::add(const cairn_filter* filter, const DriveStep& step) {
   std::size_t count = 0;
-  check(cairn_filter_systematic_errors(filter, nullptr, nullptr, 0, &count));
+  check(cairn_filter_systematic_errors(filter, nullptr, nullptr, 0, &count, nullptr));
   if (count == 0) return;
   errors_.resize(count);
-  check(cairn_filter_systematic_errors(filter, errors_.data(), nullptr, count, &count));
+  check(cairn_filter_systematic_errors(filter, errors_.data(), nullptr, count, &count, nullptr));
   if (!file_) file_.emplace(folder_, "systematic.csv").text("step,time,name,value,sigma\n");
   for (const cairn_systematic_error& error : errors_) {
     file_->field(step.number);

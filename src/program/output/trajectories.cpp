@@ -28,12 +28,12 @@ void Trajectories::add(const DriveStep& step, const StepResult& result) {
 
 void Trajectories::finish(const cairn_filter* filter) {
   std::uint64_t first = 0;
-  check(cairn_filter_trajectory_range(filter, &first, nullptr));
+  check(cairn_filter_trajectory_range(filter, &first, nullptr, nullptr));
   if (first > 0) return;
   std::size_t count = 0;
-  check(cairn_filter_trajectory(filter, 0, nullptr, 0, &count));
+  check(cairn_filter_trajectory(filter, 0, nullptr, 0, &count, nullptr));
   corrected_.resize(count);
-  check(cairn_filter_trajectory(filter, 0, corrected_.data(), count, &count));
+  check(cairn_filter_trajectory(filter, 0, corrected_.data(), count, &count, nullptr));
 }
 
 std::optional<double> Trajectories::corrected_rmse() const {

@@ -20,21 +20,21 @@ TeamRunner::TeamRunner(TeamDrive& drive, const TeamChoices& choices)
     for (std::size_t other = 0; other < numbers.size(); ++other) {
       if (other == v || choices.mode == CAIRN_TEAM_MONO) continue;
       const cairn_pose start = drive.start(other);
-      check(cairn_team_add(teams_[v].get(), numbers[other], &start, drive.start_covariance(other)));
+      check(cairn_team_add(teams_[v].get(), numbers[other], &start, drive.start_covariance(other), nullptr));
     }
 }
 
 TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
   const FilterChoices& choices = choices_.filter;
   cairn_team_options options;
-  check(cairn_team_options_init(&options, sizeof options));
+  check(cairn_team_options_init(&options, sizeof options, nullptr));
   options.mode = choices_.mode;
   options.vehicle = drive_.vehicles()[vehicle];
   options.max_vehicles = static_cast<std::uint32_t>(drive_.vehicles().size());
   options.time_tolerance = 0;
   options.max_jump = std::numeric_limits<double>::max();  // a log may pause, and its times are sorted
   cairn_filter_options filter;
-  check(cairn_filter_options_init(&filter, sizeof filter));
+  check(cairn_filter_options_init(&filter, sizeof filter, nullptr));
   filter.vehicle = CAIRN_VEHICLE_PLANAR;
   // Without ids some landmarks may be placed twice.
   const std::uint32_t room = drive_.landmarks() * (choices.names_known() ? 1 : 4);
@@ -54,7 +54,7 @@ TeamRunner::Team TeamRunner::create(std::size_t vehicle) const {
   }
   const cairn_range_bearing radar = drive_.radar();
   cairn_team* team = nullptr;
-  check(cairn_team_create(&options, &filter, &radar, &team));
+  check(cairn_team_create(&options, &filter, &radar, &team, nullptr));
   return Team(team, &cairn_team_destroy);
 }
 
@@ -70,10 +70,10 @@ void TeamRunner::step(const TeamStep& step) {
       noise.velocity_sigma[0] = motion.speed_sigma;
       noise.rate_sigma[2] = motion.rate_sigma;
       const double velocity[3] = {motion.speed, 0, 0}, rate[3] = {0, 0, motion.rate};
-      check(cairn_team_predict_twist(team, motion.dt, velocity, rate, &noise));
+      check(cairn_team_predict_twist(team, motion.dt, velocity, rate, &noise, nullptr));
     }
     check(cairn_team_observe(team, step.time, own.landmarks.data(), own.landmarks.size(), own.vehicles.data(),
-                             own.vehicles.size()));
+                             own.vehicles.size(), nullptr));
   }
   exchange();
 }
@@ -85,16 +85,16 @@ void TeamRunner::exchange() {
       std::size_t size = 0;
       {
         const Stopwatch watch(seconds_[from]);
-        check(cairn_team_take_packet(teams_[from].get(), nullptr, 0, &size));
+        check(cairn_team_take_packet(teams_[from].get(), nullptr, 0, &size, nullptr));
         if (size == 0) break;
         packet.resize(size);
-        check(cairn_team_take_packet(teams_[from].get(), packet.data(), size, &size));
+        check(cairn_team_take_packet(teams_[from].get(), packet.data(), size, &size, nullptr));
       }
       if (choices_.mode == CAIRN_TEAM_MONO) continue;
       for (std::size_t to = 0; to < teams_.size(); ++to) {
         if (to == from) continue;
         const Stopwatch watch(seconds_[to]);
-        check(cairn_team_receive(teams_[to].get(), packet.data(), size, nullptr));
+        check(cairn_team_receive(teams_[to].get(), packet.data(), size, nullptr, nullptr));
       }
     }
   }
@@ -104,13 +104,13 @@ void TeamRunner::exchange() {
 // number is.
 void TeamRunner::note_pairs(std::size_t vehicle, const VehicleStep& step, VehicleScore& score) {
   std::size_t count = 0;
-  check(cairn_team_decisions(teams_[vehicle].get(), nullptr, 0, &count));
+  check(cairn_team_decisions(teams_[vehicle].get(), nullptr, 0, &count, nullptr));
   std::vector<cairn_match> matches(count);
-  if (count > 0) check(cairn_team_decisions(teams_[vehicle].get(), matches.data(), count, &count));
+  if (count > 0) check(cairn_team_decisions(teams_[vehicle].get(), matches.data(), count, &count, nullptr));
   for (std::size_t i = 0; i < std::min(count, step.landmarks.size()); ++i) {
-    if (matches[i].result == CAIRN_REJECTED) continue;
+    if (matches[i].result == CAIRN_RESULT_REJECTED) continue;
     auto& votes = votes_[vehicle][matches[i].landmark];
-    if (matches[i].result == CAIRN_MATCHED) {
+    if (matches[i].result == CAIRN_RESULT_MATCHED) {
       ++score.paired;
       score.paired_wrongly += !votes.empty() && name_of(vehicle, matches[i].landmark) != step.landmarks[i].id;
     }
@@ -132,13 +132,13 @@ double TeamRunner::score(std::size_t vehicle, const cairn_pose& truth, VehicleSc
   cairn_team* team = teams_[vehicle].get();
   cairn_pose pose;
   double P[36];
-  check(cairn_team_pose(team, drive_.vehicles()[vehicle], &pose, P));
+  check(cairn_team_pose(team, drive_.vehicles()[vehicle], &pose, P, nullptr));
   ++score.steps;
   score.claimed += position_norm(P);
   score.square_error +=
       std::pow(truth.position[0] - pose.position[0], 2) + std::pow(truth.position[1] - pose.position[1], 2);
   double nees = 0;
-  const cairn_status status = cairn_team_pose_nees(team, &truth, &nees);
+  const cairn_status status = cairn_team_pose_nees(team, &truth, &nees, nullptr);
   if (status == CAIRN_ERROR_NUMERICAL) return std::numeric_limits<double>::quiet_NaN();
   check(status);
   ++score.nees_steps;
@@ -149,9 +149,9 @@ double TeamRunner::score(std::size_t vehicle, const cairn_pose& truth, VehicleSc
 std::vector<cairn_landmark> TeamRunner::map(std::size_t vehicle) const {
   const cairn_map* map = cairn_team_map(teams_[vehicle].get());
   std::size_t count = 0;
-  check(cairn_map_size(map, &count));
+  check(cairn_map_size(map, &count, nullptr));
   std::vector<cairn_landmark> landmarks(count);
-  if (count > 0) check(cairn_map_landmarks(map, landmarks.data(), count, &count));
+  if (count > 0) check(cairn_map_landmarks(map, landmarks.data(), count, &count, nullptr));
   for (cairn_landmark& landmark : landmarks) landmark.id = name_of(vehicle, landmark.id);
   return landmarks;
 }
@@ -169,7 +169,8 @@ TeamResult TeamRunner::run(const Observer& observe) {
     for (std::size_t v = 0; v < teams_.size(); ++v) {
       result.seconds += estimates[v].seconds = seconds_[v];
       if (!choices_.filter.names_known()) note_pairs(v, next.vehicles[v], result.vehicles[v]);
-      check(cairn_team_pose(teams_[v].get(), drive_.vehicles()[v], &estimates[v].pose, estimates[v].covariance));
+      check(
+          cairn_team_pose(teams_[v].get(), drive_.vehicles()[v], &estimates[v].pose, estimates[v].covariance, nullptr));
       if (!next.vehicles[v].truth || static_cast<double>(number) < first) continue;
       const double own = score(v, *next.vehicles[v].truth, result.vehicles[v]);
       if (v == 0) nees = own;
@@ -192,7 +193,7 @@ TeamResult TeamRunner::run(const Observer& observe) {
   for (std::size_t v = 0; v < (all ? 1 : teams_.size()); ++v) {
     cairn_team_report report{};
     report.struct_size = sizeof report;
-    check(cairn_team_last_report(teams_[v].get(), &report));
+    check(cairn_team_last_report(teams_[v].get(), &report, nullptr));
     result.rejected += report.rejected;
   }
   return result;

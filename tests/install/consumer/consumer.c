@@ -4,7 +4,7 @@
 #include <cairn/cairn.h>
 #include <stdio.h>
 
-static int failed(cairn_status status, const char *call) {
+static int failed(cairn_status status, const char* call) {
   if (status == CAIRN_OK) return 0;
   fprintf(stderr, "%s: %s: %s\n", call, cairn_status_name(status), cairn_last_message());
   return 1;
@@ -13,7 +13,7 @@ static int failed(cairn_status status, const char *call) {
 int main(void) {
   cairn_filter_options options;
   cairn_cartesian sensor;
-  cairn_filter *filter = NULL;
+  cairn_filter* filter = NULL;
   cairn_landmark landmark;
   cairn_pose pose;
   int32_t number = -1;
@@ -21,18 +21,18 @@ int main(void) {
   const double velocity[3] = {1.0, 0.0, 0.0}, rate[3] = {0.0, 0.0, 0.0};
   cairn_observation seen = {7, {20.0, 3.0, 1.0}, {0.0}};
 
-  if (failed(cairn_filter_options_init(&options, sizeof options), "options_init")) return 1;
-  if (failed(cairn_filter_create(&options, &filter), "create")) return 1;
-  if (failed(cairn_cartesian_init(&sensor, sizeof sensor), "cartesian_init")) return 1;
-  if (failed(cairn_filter_add_cartesian(filter, &sensor, &number), "add_cartesian")) return 1;
-  if (failed(cairn_filter_update(filter, number, &seen, 1, NULL), "first update")) return 1;
+  if (failed(cairn_filter_options_init(&options, sizeof options, NULL), "options_init")) return 1;
+  if (failed(cairn_filter_create(&options, &filter, NULL), "create")) return 1;
+  if (failed(cairn_cartesian_init(&sensor, sizeof sensor, NULL), "cartesian_init")) return 1;
+  if (failed(cairn_filter_add_cartesian(filter, &sensor, &number, NULL), "add_cartesian")) return 1;
+  if (failed(cairn_filter_update(filter, number, &seen, 1, NULL, NULL), "first update")) return 1;
   for (step = 0; step < 100; ++step) {
-    if (failed(cairn_filter_predict_twist(filter, 0.1, velocity, rate), "predict")) return 1;
+    if (failed(cairn_filter_predict_twist(filter, 0.1, velocity, rate, NULL), "predict")) return 1;
   }
   seen.z[0] = 10.0;
-  if (failed(cairn_filter_update(filter, number, &seen, 1, NULL), "second update")) return 1;
-  if (failed(cairn_filter_pose(filter, &pose, NULL), "pose")) return 1;
-  if (failed(cairn_map_landmark(cairn_filter_map(filter), 7, &landmark), "landmark")) return 1;
+  if (failed(cairn_filter_update(filter, number, &seen, 1, NULL, NULL), "second update")) return 1;
+  if (failed(cairn_filter_pose(filter, &pose, NULL, NULL), "pose")) return 1;
+  if (failed(cairn_map_landmark(cairn_filter_map(filter), 7, &landmark, NULL), "landmark")) return 1;
   cairn_filter_destroy(filter);
 
   printf("%s %s\n", cairn_version(), cairn_build());
