@@ -99,25 +99,21 @@ class Generator:
         for p in parameters:
             getattr(self, "parameter_" + p["role"])(p, function, inputs, arguments, outputs, sizes)
         # Lengths of lists first: another parameter may be the length.
-        order = {"list": 0, "size": 1, "check": 2, "room": 3}
-        self.put(*(line for kind in order for rank, line in inputs if rank == kind))
-        line = f"{function['name']}({', '.join(arguments)})"
+        self.put(*(line for rank in ("list", "size", "check", "room") for kind, line in inputs if kind == rank))
+        call = f"{function['name']}({', '.join(arguments)})"
         if function["fallible"]:
             message = LAST_MESSAGE[function["library"]] + "()"
             if two_steps:
-                self.put("  size_t needed = 0, capacity = 0;",
-                         *(f"  {declaration.split('=')[0].split('(')[0].rstrip()};"
-                           for rank, declaration in inputs if rank == "sized"),
-                         f"  cairn_status status = {line};", "  if (status == CAIRN_OK && needed > 0) {",
+                self.put("  size_t needed = 0, capacity = 0;", f"  cairn_status status = {call};", "  if (status == CAIRN_OK && needed > 0) {",
                          "    capacity = needed;",
-                         *(f"    {fill}" for rank, fill in inputs if rank == "resize"),
-                         f"    status = {line};", "  }", f"  if (!call.finish(status, {message})) return;")
+                         *(f"    {line}" for kind, line in inputs if kind == "resize"),
+                         f"    status = {call};", "  }", f"  if (!call.finish(status, {message})) return;")
             else:
-                self.put(f"  if (!call.finish({line}, {message})) return;")
+                self.put(f"  if (!call.finish({call}, {message})) return;")
         elif function["returns"]["kind"] == "void":
-            self.put(f"  {line};")
+            self.put(f"  {call};")
         else:
-            self.put(f"  const auto result = {line};", f"  {self.returned(function['returns'])}")
+            self.put(f"  const auto result = {call};", f"  {self.returned(function['returns'])}")
         self.put(*(f"  {output}" for output in outputs))
         self.put("}", "")
 
