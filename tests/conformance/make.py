@@ -17,10 +17,11 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from scenarios import first, poses  # noqa: E402
+from scenarios import (  # noqa: E402
+    association, custom, first, library, maps, poses, sensors, submaps, systematic, teams, worlds, wrong)
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-MODULES = [first, poses]
+MODULES = [first, library, poses, sensors, association, custom, submaps, maps, systematic, teams, worlds, wrong]
 BITS = re.compile("x[0-9a-f]{16}")
 
 
