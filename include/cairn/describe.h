@@ -9,10 +9,9 @@
 #define CAIRN_DESCRIBE_H
 
 #ifdef CAIRN_DESCRIBE
-/** A mark, as libclang reads it. */
 #define CAIRN_MARK(text) __attribute__((annotate(text)))
 #else
-#define CAIRN_MARK(text)
+#define CAIRN_MARK(text) /**< any of the marks below: an annotation if CAIRN_DESCRIBE is defined, otherwise nothing */
 #endif
 
 #define CAIRN_IN CAIRN_MARK("in")       /**< points to one value that the function reads */

@@ -176,8 +176,8 @@ CAIRN_API cairn_status cairn_merge_options_init(CAIRN_OUT cairn_merge_options *o
  *
  *  Threads: `map` one a handle; `other` as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT (also map ==
  *  other), CAIRN_ERROR_STATE (`map` belongs to a filter: copy it; the kinds differ; both hold landmarks of the same
- *  filter; a sparse `other` was itself merged with has_transform: merge the other way round), CAIRN_ERROR_NOT_FOUND (a map is
- *  empty, or there are too few common landmarks: with has_transform one is necessary, without it three),
+ *  filter; a sparse `other` was itself merged with has_transform: merge the other way round), CAIRN_ERROR_NOT_FOUND (a
+ *  map is empty, or there are too few common landmarks: with has_transform one is necessary, without it three),
  *  CAIRN_ERROR_NUMERICAL (the common landmarks lie on a line; they contradict each other, and message and report name
  *  the worst pair; by geometry: more than one transform fits), CAIRN_ERROR_CAPACITY (max_landmarks),
  *  CAIRN_ERROR_MEMORY. Complexity, for n landmarks in both maps and k common ones: dense O(n^2 k + k^3); sparse: that

@@ -144,7 +144,7 @@ typedef int32_t (*cairn_custom_predict_fn)(void *user, CAIRN_IN const cairn_pose
  *  \param landmark         out, point in the map, m
  *  \param jacobian_pose    out, 3 x 6, row-major: dlandmark / [dp; dtheta]
  *  \param jacobian_z       out, 3 x rows, row-major: dlandmark / dz
- *  \return 1, 0 or a negative value, as \ref cairn_custom_predict_fn: 0 says that `z` cannot place a landmark. The
+ *  \return 1, 0 or a negative value, as for \ref cairn_custom_predict_fn. 0 says that `z` cannot place a landmark. The
  *          outputs are NaN before the call here, too */
 typedef int32_t (*cairn_custom_place_fn)(void *user, CAIRN_IN const cairn_pose *pose,
     CAIRN_IN_ARRAY(cairn_custom.rows) CAIRN_UNIT(sensor) const double *z, CAIRN_OUT CAIRN_UNIT(m) double landmark[3],
