@@ -46,6 +46,13 @@ void read(const json& from, T (&to)[n]) {
   for (size_t i = 0; i < n; ++i) read(from[i], to[i]);
 }
 
+/* A list that was given is never NULL, also if it is empty. */
+template <class T>
+const T* data_of(const std::optional<std::vector<T>>& list) {
+  static const T nothing = {};
+  return !list ? nullptr : list->empty() ? &nothing : list->data();
+}
+
 /* The generated dispatch has read() and defaults() of each struct. defaults() does what `_init` does, or sets zeros, and
    sets struct_size. */
 

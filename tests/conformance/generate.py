@@ -170,7 +170,7 @@ class Generator:
         if p["direction"] == "in":
             optional = "true" if p["optional"] else "false"
             inputs.append(("list", f'  const auto {name} = call.list<{kind}>("{name}", {optional});'))
-            arguments.append(f"{name} ? {name}->data() : nullptr")
+            arguments.append(f"data_of({name})")
             if length.isidentifier() and length not in sizes:
                 sizes[length] = name
                 inputs.append(("size", f"  const size_t {length} = {name} ? {name}->size() : 0;"))

@@ -97,7 +97,7 @@ def wrong_world():
                     {"wheel_scale": [-1.5, 0.0]}):
         s.wrong("ARGUMENT", "cairn_world_create", options=options)
     made = s.call("cairn_world_create", gives={"world": "$world"},
-                  options={"landmarks": 4, "frame_period": 200.0, "terrain": "CAIRN_TERRAIN_FLAT"})
+                  options={"landmarks": 200, "frame_period": 200.0, "terrain": "CAIRN_TERRAIN_FLAT"})
     s.call("cairn_world_steps", world=made)
     for _ in range(3):
         s.call("cairn_world_next", gives={"step": "$step"}, world=made)
