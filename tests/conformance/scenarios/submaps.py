@@ -72,8 +72,10 @@ def limits():
             s.call("cairn_filter_update", filter=rover, sensor=0, observations=drive.cartesian(reach=8.9, most=2, sigma=0.5))
         s.call("cairn_filter_update", filter=rover, sensor=0, observations=drive.cartesian(reach=20.0, most=20, sigma=0.5))
         s.call("cairn_filter_last_closing", filter=rover)
-    drive.twist(s, rover, 1.0, 0.05)
-    s.call("cairn_filter_update", filter=rover, sensor=0, observations=drive.cartesian(reach=8.0, most=1, sigma=0.5))
+    rover = s.call("cairn_filter_create", gives={"filter": "$fixed"}, options={"submap_landmarks": 40,
+                   "initial_covariance": START, "initial_pose": drive.pose()})
+    s.call("cairn_filter_add_cartesian", filter=rover, cartesian={})
+    s.call("cairn_filter_update", filter=rover, sensor=0, observations=drive.cartesian(reach=20.0, most=5))
     s.call("cairn_filter_update_position", filter=rover, position=drive.pose()["position"], covariance=diagonal(1.0, 1.0, 1.0))
     s.call("cairn_filter_last_closing", filter=rover)
     return s

@@ -4,7 +4,16 @@
 from .scenario import Scenario
 
 
+def steps(s, world, count):
+    """Steps whose outputs are recorded."""
+    for _ in range(count):
+        s.call("cairn_world_next", world=world)
+        s.call("cairn_world_motions", world=world)
+        s.call("cairn_world_observations", world=world)
+
+
 def step(s, world):
+    """A step whose outputs are the inputs of later calls."""
     s.call("cairn_world_next", gives={"step": "$step"}, world=world)
     s.call("cairn_world_motions", gives={"motions": "$motions"}, world=world)
     s.call("cairn_world_observations", gives={"observations": "$frame"}, world=world)
@@ -18,10 +27,7 @@ def world():
     s.call("cairn_world_motions", world=made)
     s.call("cairn_world_observations", world=made)
     for _ in range(2):
-        for _ in range(3):
-            s.call("cairn_world_next", world=made)
-            s.call("cairn_world_motions", world=made)
-            s.call("cairn_world_observations", world=made)
+        steps(s, made, 3)
         s.call("cairn_world_rewind", world=made)
     s.call("cairn_world_pose", world=made, time=12.5)
     s.call("cairn_world_contacts", world=made, time=12.5)
@@ -57,10 +63,7 @@ def kinds():
         s.call("cairn_world_options_preset", options={"seed": "5"}, preset="CAIRN_PRESET_" + preset)
     for number, options in enumerate(KINDS):
         made = s.call("cairn_world_create", gives={"world": f"$world{number}"}, options={"seed": "3", **options})
-        for _ in range(3):
-            s.call("cairn_world_next", world=made)
-            s.call("cairn_world_motions", world=made)
-            s.call("cairn_world_observations", world=made)
+        steps(s, made, 3)
     s.wrong("STATE", "cairn_world_contacts", world="$world1", time=1.0)
     return s
 

@@ -112,7 +112,6 @@ def updates():
     s.wrong("NOT_FOUND", **linear, residual=[0.0], covariance=[1.0], landmarks=["3"], jacobian_landmarks=[1.0, 0.0, 0.0])
     s.wrong("ARGUMENT", **linear, residual=[0.0], covariance=[0.0], landmarks=["1"], jacobian_landmarks=[1.0, 0.0, 0.0])
     s.wrong("ARGUMENT", **linear, residual=["nan"], covariance=[1.0], landmarks=["1"], jacobian_landmarks=[1.0, 0.0, 0.0])
-    s.wrong("ARGUMENT", **linear, residual=[], covariance=[], landmarks=["1"], jacobian_landmarks=[])
     s.wrong("ARGUMENT", **linear, residual=[0.0], covariance=[1.0], landmarks=["1", "1"],
             jacobian_landmarks=[1.0, 0.0, 0.0, 1.0, 0.0, 0.0])
     s.wrong("ARGUMENT", **linear, residual=[0.0], covariance=[1.0], landmarks=[], jacobian_landmarks=[])
