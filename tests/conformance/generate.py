@@ -104,7 +104,8 @@ class Generator:
         if function["fallible"]:
             message = LAST_MESSAGE[function["library"]] + "()"
             if two_steps:
-                self.put("  size_t needed = 0, capacity = 0;", f"  cairn_status status = {call};", "  if (status == CAIRN_OK && needed > 0) {",
+                self.put("  size_t needed = 0, capacity = 0;", f"  cairn_status status = {call};",
+                         "  if (status == CAIRN_OK && needed > 0) {",
                          "    capacity = needed;",
                          *(f"    {line}" for kind, line in inputs if kind == "resize"),
                          f"    status = {call};", "  }", f"  if (!call.finish(status, {message})) return;")

@@ -24,7 +24,8 @@ def unknown(name, about, kind, **options):
     frame = drive.cartesian(reach=10.0)
     twin = [round(value + 0.11, 4) for value in frame[0]["z"]]
     far = [round(value + 0.28, 4) for value in frame[1]["z"]]
-    s.call("cairn_filter_update", filter=rover, sensor=0, observations=without_ids(frame + [seen(0, *twin), seen(0, *far)]))
+    s.call("cairn_filter_update", filter=rover, sensor=0,
+           observations=without_ids(frame + [seen(0, *twin), seen(0, *far)]))
     # Each passes its own gate, but they do not go together.
     drive.twist(s, rover, 1.0, 0.1)
     frame = drive.cartesian(reach=10.0, sigma=0.0)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every field of every struct of options is set to a value of its own, and the result depends on it: a binding that
-mixes up two fields is found."""
+"""Every field of every struct of options has a value of its own, so that a binding that mixes up two fields is found.
+
+The results depend on most of these values. Limits that are not reached change no result; other scenarios set them to
+values that are refused, with a message that names the field."""
 
 from .drive import Drive
 from .scenario import Scenario, diagonal, pose
@@ -20,7 +22,8 @@ FILTER = {
     "join": "CAIRN_JOIN_SPARSE", "join_loss": "CAIRN_LOSS_CAUCHY", "join_loss_width": 1.7, "trajectory_poses": 30,
     "submap_distance": 9.0, "submap_extent": 25.0, "submap_sigma": 2.0, "velocity_bias_sigma": [0.05, 0.06, 0.07],
     "velocity_bias_walk": [0.001, 0.002, 0.003], "rate_bias_sigma": [0.004, 0.005, 0.006],
-    "rate_bias_walk": [0.0001, 0.0002, 0.0003], "wheel_scale_sigma": [0.02, 0.03], "wheel_scale_walk": [0.0002, 0.0003],
+    "rate_bias_walk": [0.0001, 0.0002, 0.0003], "wheel_scale_sigma": [0.02, 0.03],
+    "wheel_scale_walk": [0.0002, 0.0003],
     "max_sensor_errors": 9,
 }
 HEAD = {"encoder_mode": "CAIRN_ENCODER_PER_FRAME", "platform": [0.1, 0.2, 0.3], "stick": [0.01, 0.02, 0.03],
@@ -33,7 +36,8 @@ CARTESIAN = {"T_body_sensor": pose(0.1, 0.2, 0.3, TILT), "sigma": [0.05, 0.06, 0
 CALIBRATION = {"mount_shift_sigma": [0.1, 0.2, 0.3], "mount_shift_walk": [0.001, 0.002, 0.003],
                "mount_turn_sigma": [0.01, 0.02, 0.03], "mount_turn_walk": [0.0001, 0.0002, 0.0003],
                "offset_sigma": [0.04, 0.05, 0.06], "offset_walk": [0.0004, 0.0005, 0.0006]}
-WHEELS = {"yaw_sign": "CAIRN_YAW_LEFT_MINUS_RIGHT", "radius": 0.25, "track": 0.9, "rate_sigma": 0.02, "slip_sigma": 0.03,
+WHEELS = {"yaw_sign": "CAIRN_YAW_LEFT_MINUS_RIGHT", "radius": 0.25, "track": 0.9, "rate_sigma": 0.02,
+          "slip_sigma": 0.03,
           "lateral_sigma": 0.04, "vertical_sigma": 0.05, "roll_rate_sigma": 0.06, "pitch_rate_sigma": 0.07}
 TWIST = {"velocity_sigma": [0.03, 0.04, 0.05], "rate_sigma": [0.003, 0.004, 0.005]}
 RADAR = {"T_body_sensor": pose(0.3, 0.1, 0.0, (0.8, 0.0, 0.0, 0.6)), "range_sigma": 0.2, "bearing_sigma": 0.03,
@@ -47,7 +51,8 @@ MERGE = {"association": "CAIRN_MERGE_BY_GEOMETRY", "gate_probability": 0.9995, "
 WORLD = {
     "course": "CAIRN_COURSE_CIRCLE", "seed": "11", "landmarks": 30, "terrain": "CAIRN_TERRAIN_ROLLING",
     "contact": "CAIRN_CONTACT_WHEELS", "drive": "CAIRN_DRIVE_WHEELS_GYRO",
-    "accelerometer": "CAIRN_ACCELEROMETER_ACCELERATION", "stick_noise": "CAIRN_STICK_PER_FRAME", "observe_at_start": True,
+    "accelerometer": "CAIRN_ACCELEROMETER_ACCELERATION", "stick_noise": "CAIRN_STICK_PER_FRAME",
+    "observe_at_start": True,
     "traverse_closed": False, "speed": 1.3, "laps": 0.5, "centre": [3.0, -4.0], "radius": 20.0, "start_azimuth": 0.4,
     "round_length": 900.0, "round_variation": 0.2, "strip": 15.0, "landmark_area": 120.0, "landmark_height": 2.5,
     "max_slope": 0.2, "wavelength": [20.0, 120.0], "start_height": 0.5, "wheel_radius": 0.25, "track": 0.9,
@@ -59,7 +64,8 @@ WORLD = {
     "velocity_bias": [0.01, 0.02, 0.03], "rate_bias": [0.001, 0.002, 0.003], "wheel_scale": [0.01, -0.02],
     "mount_turn": [0.01, 0.02, 0.03], "mount_shift": [0.1, 0.2, 0.3], "value_offset": [0.1, 0.02, 0.03],
 }
-FLEET = {"layout": "CAIRN_FLEET_COAST", "seed": "12", "vehicles": 3, "features": 9, "area": 9000.0, "separation": 1400.0,
+FLEET = {"layout": "CAIRN_FLEET_COAST", "seed": "12", "vehicles": 3, "features": 9, "area": 9000.0,
+         "separation": 1400.0,
          "course_length": 1600.0, "duration": 1400.0, "period": 4.0, "radar_range": 3000.0, "range_sigma": 20.0,
          "bearing_sigma": 0.006, "speed_sigma": 0.3, "rate_sigma": 0.002, "coast_distance": 0.3, "coast_relief": 0.06,
          "coast_strip": 0.04}
@@ -100,7 +106,8 @@ def every_option():
 def every_option_of_others():
     s = Scenario("every_option_of_others", "Every option of a team, a radar, a merge, a world and a fleet.")
     drive = Drive(52, heights=False)
-    team = s.call("cairn_team_create", gives={"team": "$team"}, options=TEAM, filter={"vehicle": "CAIRN_VEHICLE_PLANAR"},
+    team = s.call("cairn_team_create", gives={"team": "$team"}, options=TEAM,
+                  filter={"vehicle": "CAIRN_VEHICLE_PLANAR"},
                   radar=RADAR)
     for time in range(3):
         s.call("cairn_team_observe", team=team, time=float(time), landmarks=drive.radar(), vehicles=[])

@@ -84,7 +84,8 @@ def merge_sparse():
 
 
 def merge_geometry():
-    s = Scenario("merge_geometry", "Maps whose ids say nothing are merged by geometry, and by a transform that is known.")
+    s = Scenario("merge_geometry",
+                 "Maps whose ids say nothing are merged by geometry, and by a transform that is known.")
     west = survey(s, "$west", 16)
     east = survey(s, "$east", 18, x=2.0, numbered=1000)
     far = survey(s, "$far", 3, x=2.0, numbered=2000)
@@ -102,7 +103,8 @@ def merge_geometry():
 
 
 def merge_wrong():
-    s = Scenario("merge_wrong", "Merges that are refused: no common landmark, no room, kinds that differ, options out of range.")
+    s = Scenario("merge_wrong",
+                 "Merges that are refused: no common landmark, no room, kinds that differ, options out of range.")
     west = survey(s, "$west", 8)
     east = survey(s, "$east", 9, x=2.0)
     alien = survey(s, "$alien", 6, x=2.0, numbered=1000)

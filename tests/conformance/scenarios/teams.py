@@ -48,7 +48,8 @@ class Boat:
         return self.take()
 
     def take(self, name=None):
-        return self.s.call("cairn_team_take_packet", gives={"packet": name or f"$packet{self.number}"}, team=self.team)
+        return self.s.call("cairn_team_take_packet", gives={"packet": name or f"$packet{self.number}"},
+                           team=self.team)
 
     def receive(self, packet):
         self.s.call("cairn_team_receive", team=self.team, packet=packet)
@@ -109,7 +110,8 @@ def eo_diagonal():
 
 
 def submaps():
-    return together("team_submaps", "Each boat in its own submaps, fused by their common landmarks.", "CAIRN_TEAM_SUBMAPS",
+    return together("team_submaps", "Each boat in its own submaps, fused by their common landmarks.",
+                    "CAIRN_TEAM_SUBMAPS",
                     sight=False, submap_landmarks=6, join="CAIRN_JOIN_SPARSE")
 
 
@@ -121,7 +123,8 @@ def sealed(version=1, kind=1, size=None, body=bytes(40), damage=0):
 
 
 def packets():
-    s = Scenario("team_packets", "Packets that are late, repeated, own, foreign, damaged, contradicting, ahead of time, too many.")
+    s = Scenario("team_packets",
+                 "Packets that are late, repeated, own, foreign, damaged, contradicting, ahead of time, too many.")
     a, b = pair(s, "CAIRN_TEAM_JOINT", one={"max_waiting": 3})
     impostor = Boat(s, 2, 6.0, "CAIRN_TEAM_JOINT", name="$impostor")
     stranger = Boat(s, 7, 9.0, "CAIRN_TEAM_JOINT", name="$stranger")
@@ -158,7 +161,8 @@ def packets():
     narrow.receive(names["b", 1])                   # waiting
     narrow.receive(names["b", 2])                   # full
     late = Boat(s, 3, -5.0, "CAIRN_TEAM_JOINT", options={"max_jump": 1000.0})
-    s.call("cairn_team_add", team=a.team, vehicle="3", start=late.start(), covariance=diagonal(0.01, 0.01, 0, 0, 0, 0.001))
+    s.call("cairn_team_add", team=a.team, vehicle="3", start=late.start(),
+           covariance=diagonal(0.01, 0.01, 0, 0, 0, 0.001))
     a.receive(late.step(6.0))
     a.receive(late.step(500.0))                     # ahead
     s.call("cairn_team_remove", team=a.team, vehicle="3")
@@ -215,12 +219,14 @@ def wrong():
     s.wrong("ARGUMENT", "cairn_team_create", options={"time_tolerance": -1.0}, filter=planar, radar=RADAR)
     s.wrong("ARGUMENT", "cairn_team_create", options={"max_jump": "nan"}, filter=planar, radar=RADAR)
     s.wrong("ARGUMENT", "cairn_team_create", options={"max_vehicles": 0}, filter=planar, radar=RADAR)
+    s.wrong("ARGUMENT", "cairn_team_create", options={"max_waiting": 0}, filter=planar, radar=RADAR)
     s.wrong("ARGUMENT", "cairn_team_create", options={"history": 0}, filter=planar, radar=RADAR)
     s.wrong("ARGUMENT", "cairn_team_create", options={}, filter=planar, radar={"range_sigma": 0.0})
     a = Boat(s, 1, 0.0, "CAIRN_TEAM_JOINT", options={"max_vehicles": 2})
     team = a.team
     s.wrong("ARGUMENT", "cairn_team_add", team=team, vehicle="1", start=pose(1.0))
-    s.wrong("ARGUMENT", "cairn_team_add", team=team, vehicle="2", start=pose(1.0), covariance=diagonal(-1, 1, 0, 0, 0, 1))
+    s.wrong("ARGUMENT", "cairn_team_add", team=team, vehicle="2", start=pose(1.0),
+            covariance=diagonal(-1, 1, 0, 0, 0, 1))
     s.call("cairn_team_add", team=team, vehicle="2", start=pose(1.0))
     s.wrong("ARGUMENT", "cairn_team_add", team=team, vehicle="2", start=pose(1.0))
     s.wrong("CAPACITY", "cairn_team_add", team=team, vehicle="3", start=pose(1.0))
@@ -228,7 +234,8 @@ def wrong():
     s.wrong("ARGUMENT", "cairn_team_remove", team=team, vehicle="1")
     s.wrong("NOT_FOUND", "cairn_team_pose", team=team, vehicle="3")
     s.wrong("ARGUMENT", "cairn_team_predict_twist", team=team, dt=0.0, velocity=[1.0, 0.0, 0.0], rate=[0.0, 0.0, 0.0])
-    s.wrong("ARGUMENT", "cairn_team_predict_increment", team=team, T_before_after=pose(quaternion=(0.0, 0.0, 0.0, 0.0)),
+    s.wrong("ARGUMENT", "cairn_team_predict_increment", team=team,
+            T_before_after=pose(quaternion=(0.0, 0.0, 0.0, 0.0)),
             covariance=[0.0] * 36)
     s.wrong("NUMERICAL", "cairn_team_pose_nees", team=team, truth=pose())
     s.wrong("ARGUMENT", "cairn_team_score", team=team, truth=pose("nan"))
