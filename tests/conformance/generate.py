@@ -31,14 +31,14 @@ class Generator:
             return f"write_{name}"
         if kind == "enum":
             bits = next(enum["bits"] for enum in self.api["enums"] if enum["name"] == name)
-            return f"[](auto value) {{ return write_{'bits' if bits else 'constant'}(value, names_of_{name}); }}"
+            return f"[](auto v) {{ return write_{'bits' if bits else 'constant'}(v, names_of_{name}); }}"
         if kind == "number":
             return "write_double"
         if kind == "bool":
             return "write_bool"
         if what["base"] == "uint64_t":
             return "write_unsigned"
-        return "[](auto value) { return write_integer(static_cast<int64_t>(value)); }"
+        return "[](auto v) { return write_integer(static_cast<int64_t>(v)); }"
 
     def written(self, what, value, length=None):
         """A C++ expression: the JSON of a value, or of a list of this length."""
