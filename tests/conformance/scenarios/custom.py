@@ -37,9 +37,11 @@ def points():
            predict="range_only")
     s.call("cairn_filter_add_custom", filter=rover, custom={"sigma": [0.05, 0.05, 0.05]}, predict="body_point_ahead",
            place="refusing")
-    for _ in range(5):
+    for step in range(5):
         drive.twist(s, rover, 1.0, 0.1)
         s.call("cairn_filter_update", filter=rover, sensor=0, observations=drive.cartesian())
+        if step == 0:
+            continue  # ranges to landmarks that were placed just now say nothing about the pose
         ranges = [seen(o["id"], round(sum(v * v for v in o["z"]) ** 0.5, 4)) for o in drive.cartesian(most=4)]
         s.call("cairn_filter_update", filter=rover, sensor=1, observations=ranges)
     s.call("cairn_filter_set_loss", filter=rover, sensor=1, loss="CAIRN_LOSS_HUBER", width=2.0)
