@@ -517,6 +517,10 @@ class Api:
             field["kind"] = "text"
         if what["kind"] == "number":
             field["unit"] = self.unit(cursor, f"{struct}.{name}", marks, doc)
+        field["repeatable"] = "differs from run to run" not in doc
+        if field["repeatable"] == bool(re.fullmatch(r"(.*_)?seconds", name)):
+            self.problems.add(cursor, f"{struct}.{name}: durations, and only they, are named `seconds` or `..._seconds` "
+                                      "and \"differ from run to run\"")
         field["range"] = self.range(cursor, marks) or (documented_range(doc) if role == "value" else None)
         field["default"] = documented_default(doc) if role == "value" else None
         if role == "value" and self.init_of(struct) and field["default"] is None:

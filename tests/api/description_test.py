@@ -111,6 +111,8 @@ CASES = (
     ("a call without error", "sensor.h", "cairn_cartesian *cartesian, size_t struct_size,\n"
      "                                            cairn_error *error", "cairn_cartesian *cartesian, size_t struct_size",
      "cairn_cartesian_init: its last parameter must be cairn_error"),
+    ("a duration that does not say so", "filter.h", "/**< duration of the closing, s; it differs from run to run */",
+     "/**< duration of the closing, s */", "cairn_closing_report.seconds: durations, and only they"),
     ("no comment", "map.h", "/** Landmarks in one frame", "/* Landmarks in one frame", "cairn_map has no comment"),
 )
 
