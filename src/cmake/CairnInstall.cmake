@@ -3,6 +3,8 @@
 include(CMakePackageConfigHelpers)
 
 install(TARGETS cairn cairn_sim EXPORT cairnTargets
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime # a DLL, and next line its import library
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/cairn DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.h")
@@ -52,7 +54,12 @@ endforeach()
 
 if(TARGET cairn_program)
   cairn_path_between(${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR} path)
-  set_target_properties(cairn_program PROPERTIES INSTALL_RPATH "$ORIGIN/${path}")
+  if(APPLE)
+    set(here @loader_path)
+  else()
+    set(here $ORIGIN)
+  endif()
+  set_target_properties(cairn_program PROPERTIES INSTALL_RPATH "${here}/${path}")
   install(TARGETS cairn_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
   if(EXISTS ${PROJECT_SOURCE_DIR}/docs/cairn.1)
     install(FILES ${PROJECT_SOURCE_DIR}/docs/cairn.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)

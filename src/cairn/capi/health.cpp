@@ -16,7 +16,7 @@ namespace {
 constexpr double kBand = 1.959963984540054;  // 95 %
 
 // The reasons have the same bits on both sides.
-constexpr bool same(Doubt here, int there) {
+constexpr bool same(DoubtReason here, int there) {
   return static_cast<int>(here) == there;
 }
 static_assert(same(kDoubtNis, CAIRN_DOUBT_NIS) && same(kDoubtRefusals, CAIRN_DOUBT_REFUSALS) &&

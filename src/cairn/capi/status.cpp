@@ -97,7 +97,7 @@ uint64_t cairn_id_none(void) {
 const char* cairn_build(void) {
 #if defined(__x86_64__) && defined(__AVX2__) && defined(__FMA__)
   return "x86-64-v3";
-#elif defined(__x86_64__)
+#elif defined(__x86_64__) || defined(_M_X64)
   return "x86-64";
 #else
   return "generic";

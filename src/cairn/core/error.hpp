@@ -7,13 +7,15 @@
 #include <cstdio>
 #include <exception>
 
+#include "core/compiler.hpp"
+
 namespace cairn {
 
 enum class ErrorCode { argument, buffer, capacity, not_found, numerical, state, callback };
 
 class Error : public std::exception {
  public:
-  [[gnu::format(printf, 3, 4)]] Error(ErrorCode code, const char* format, ...) : code_(code) {
+  CAIRN_PRINTF(3, 4) Error(ErrorCode code, const char* format, ...) : code_(code) {
     va_list arguments;
     va_start(arguments, format);
     std::vsnprintf(text_, sizeof text_, format, arguments);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/compiler.hpp"
 #include "linear/triangle.hpp"
 
 namespace cairn {
@@ -70,7 +71,7 @@ void EkfUpdate<Pose>::gather_columns() {
           for (Index d = 0; d < kDim; ++d) to[d * ld + k] = from_columns[k * ld + from + d];
         continue;
       }
-      for (Index k = 0; k < kAhead; ++k) __builtin_prefetch(from_columns + (kAhead + k) * ld + from);
+      for (Index k = 0; k < kAhead; ++k) CAIRN_PREFETCH_READ(from_columns + (kAhead + k) * ld + from);
       for (Index d = 0; d < kDim; ++d)
         for (Index k = 0; k < kAhead; ++k) to[d * ld + k] = from_columns[k * ld + from + d];
     }

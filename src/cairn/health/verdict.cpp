@@ -36,7 +36,7 @@ Verdict::Verdict(double gate_probability) : honest_refusals_(1.0 - gate_probabil
   for (int dof = 1; dof <= 6; ++dof) jump_bound_[dof] = chi_square_quantile(dof, 1.0 - kJumpProbability);
 }
 
-void Verdict::doubt(Doubt reason, int hold) {
+void Verdict::doubt(DoubtReason reason, int hold) {
   for (Index kind = 0; kind < kKinds; ++kind)
     if ((reason >> kind) & 1U) hold_[kind] = std::max(hold_[kind], hold);
 }

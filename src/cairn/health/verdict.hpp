@@ -13,7 +13,7 @@ namespace cairn {
 enum class Trust { good, doubtful, lost };
 
 // One bit each.
-enum Doubt : std::uint32_t {
+enum DoubtReason : std::uint32_t {
   kDoubtNis = 1,
   kDoubtRefusals = 2,
   kDoubtWidened = 4,
@@ -72,7 +72,7 @@ class Verdict {
  private:
   static constexpr Index kKinds = 11;
   static constexpr int kHold = 10;  // updates for which a reason stays
-  void doubt(Doubt reason, int hold = kHold);
+  void doubt(DoubtReason reason, int hold = kHold);
   void judge_refusals(const UpdateEvidence& evidence);
   void judge_jump(const UpdateEvidence& evidence);
 

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "core/compiler.hpp"
+#include "linear/lanes.hpp"
 #include "linear/triangle.hpp"
 
 namespace cairn {
@@ -11,17 +14,32 @@ namespace {
 
 // Four doubles: one AVX2 register, two of SSE2. With GCC's vectors the sums of a strip stay in registers; with a loop
 // over an array they went through memory.
+#if defined(CAIRN_VECTOR_TYPES)
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+#else
+using Four = Lanes<4>;
+#endif
 constexpr int kFours = 3;            // registers for a column of a strip
 constexpr Index kRows = 4 * kFours;  // rows that the right solve handles at once
 constexpr Index kPanel = 48;         // columns of a blocked Cholesky factor
 
+#if defined(CAIRN_VECTOR_TYPES)
 Four load(const double* p) {
   return *reinterpret_cast<const Four*>(p);
 }
 void store(double* p, Four value) {
   *reinterpret_cast<Four*>(p) = value;
 }
+#else
+Four load(const double* p) {
+  Four value;
+  std::memcpy(&value, p, sizeof value);
+  return value;
+}
+void store(double* p, const Four& value) {
+  std::memcpy(p, &value, sizeof value);
+}
+#endif
 
 // Columns j to j + count - 1 of one strip of W: minus the solved columns before them. `strip` is kRows x m, packed;
 // `rows_of_L` is L by rows with the reciprocal of the diagonal.

@@ -15,12 +15,8 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__clang__)
-#define CAIRN_UNROLL _Pragma("unroll")
-#else
-#define CAIRN_UNROLL _Pragma("GCC unroll 4")
-#endif
-#define CAIRN_INLINE [[gnu::always_inline]] inline
+#include "core/compiler.hpp"
+#include "linear/lanes.hpp"
 
 namespace cairn {
 namespace {
@@ -43,15 +39,19 @@ constexpr Index kBlock = 24576;  // doubles of one block of A
 constexpr Index kAlign = 8;      // doubles of a cache line
 static_assert(kBlock / kDepth >= kRows, "a block holds a panel");
 
+#if defined(CAIRN_VECTOR_TYPES)
 typedef double Vector __attribute__((vector_size(kLanes * sizeof(double))));
+#else
+using Vector = Lanes<kLanes>;
+#endif
 
-CAIRN_INLINE Vector load(const double* from) {
+CAIRN_ALWAYS_INLINE Vector load(const double* from) {
   Vector v;
   std::memcpy(&v, from, sizeof v);
   return v;
 }
 
-CAIRN_INLINE void store(double* to, Vector v) {
+CAIRN_ALWAYS_INLINE void store(double* to, Vector v) {
   std::memcpy(to, &v, sizeof v);
 }
 
@@ -99,7 +99,7 @@ struct Tile {
   Vector sum[kColumns][kVectors];
 
   // The loops over constants are unrolled explicitly: the sums must stay in registers, also at -O2.
-  CAIRN_INLINE Tile(const double* a, const double* b, Index k) {
+  CAIRN_ALWAYS_INLINE Tile(const double* a, const double* b, Index k) {
     CAIRN_UNROLL for (Index q = 0; q < kColumns; ++q) {
       CAIRN_UNROLL for (Index v = 0; v < kVectors; ++v) sum[q][v] = Vector{};
     }
@@ -119,10 +119,10 @@ struct Tile {
   }
 };
 
-CAIRN_INLINE void add_full_tile(const double* a, const double* b, Index k, double* c, Index ldc) {
+CAIRN_ALWAYS_INLINE void add_full_tile(const double* a, const double* b, Index k, double* c, Index ldc) {
   CAIRN_UNROLL for (Index q = 0; q < kColumns; ++q) {
-    __builtin_prefetch(c + q * ldc, 1);
-    __builtin_prefetch(c + q * ldc + kRows - 1, 1);
+    CAIRN_PREFETCH_WRITE(c + q * ldc);
+    CAIRN_PREFETCH_WRITE(c + q * ldc + kRows - 1);
   }
   const Tile<kGroups> tile(a, b, k);
   CAIRN_UNROLL for (Index q = 0; q < kColumns; ++q) {

@@ -120,7 +120,7 @@ struct SpatialIndex::Nearest {
   }
 };
 
-[[gnu::noinline]] double SpatialIndex::distance(const Vector3& a, const Vector3& b) {
+CAIRN_NEVER_INLINE double SpatialIndex::distance(const Vector3& a, const Vector3& b) {
   return (a - b).norm();
 }
 

@@ -2,6 +2,7 @@
 // The caller's log of a filter: lines of text, silent by default.
 #pragma once
 
+#include "core/compiler.hpp"
 #include "core/error.hpp"
 
 namespace cairn {
@@ -11,7 +12,7 @@ class Log {
   using Function = void (*)(void* payload, const char* line);
 
   void set(Function function, void* payload) { function_ = function, payload_ = payload; }
-  void say(const char* format, ...) const __attribute__((format(printf, 2, 3)));
+  CAIRN_PRINTF(2, 3) void say(const char* format, ...) const;
 
   // Makes the call. A numerical error is also written to the log, because the caller may only look at the status.
   template <class Call>

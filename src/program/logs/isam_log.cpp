@@ -5,11 +5,11 @@
 // R is upper triangular, the square root of the information: R^T R is the inverse of the covariance of an additive
 // error of the measured values. The records may come in any order. NAME_groundtruth.EXT beside NAME.EXT has the same
 // form; its values are the true ones.
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
+#include <system_error>
 
 #include "program/logs/log.hpp"
 #include "program/logs/planar.hpp"
@@ -211,8 +211,8 @@ Log read_isam_log(const std::string& path, const std::string& text) {
   note_left_out(log, graph.edges_again, "EDGE2 between two poses that already have one");
   note_left_out(log, graph.sightings_again, "LANDMARK of a landmark that the pose already has");
   const std::string beside = truth_path(path);
-  struct stat status {};
-  if (stat(beside.c_str(), &status) == 0) add_truth(Reader(beside, read_file(beside)).read(), log);
+  std::error_code ignored;
+  if (std::filesystem::exists(beside, ignored)) add_truth(Reader(beside, read_file(beside)).read(), log);
   return log;
 }
 

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/logs/mrclam_log.hpp"
 
-#include <dirent.h>
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <memory>
+#include <filesystem>
 #include <set>
 #include <string_view>
+#include <system_error>
 
 #include "program/logs/log.hpp"
 #include "program/logs/text_table.hpp"
@@ -32,8 +28,8 @@ double wrapped(double angle) {
 }
 
 bool exists(const std::string& path) {
-  struct stat status {};
-  return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
 }
 
 class Reader {
@@ -62,11 +58,12 @@ class Reader {
 
   // Robots that have one of the three files.
   std::set<std::uint64_t> find_robots() const {
-    const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir(folder_.c_str()), &closedir);
-    if (!folder) throw LogError(folder_ + ": " + std::strerror(errno));
+    std::error_code cause;
+    const std::filesystem::directory_iterator folder(folder_, cause);
+    if (cause) throw LogError(folder_ + ": " + cause.message());
     std::set<std::uint64_t> robots;
-    while (const dirent* entry = readdir(folder.get())) {
-      const std::string_view name = entry->d_name;
+    for (const std::filesystem::directory_entry& entry : folder) {
+      const std::string name = entry.path().filename().string();
       constexpr std::string_view kStart = "Robot";
       if (name.substr(0, kStart.size()) != kStart) continue;
       std::uint64_t id = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Opens a log. Its content decides its kind, never its name.
-#include <sys/stat.h>
+#include <filesystem>
+#include <system_error>
 
 #include "program/logs/log.hpp"
 #include "program/logs/text_file.hpp"
@@ -25,8 +26,8 @@ bool is_isam_log(const std::string& path, const std::string& content) {
 }  // namespace
 
 Log read_log(const std::string& path, const NoiseOverride& noise) {
-  struct stat status {};
-  if (stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode))
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
     throw LogError(path + ": a folder, and no MRCLAM one: it holds no Barcodes.dat");
   const std::string content = read_file(path);
   if (content.empty()) throw LogError(path + ":1: the file is empty");

@@ -1,27 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/output/output_file.hpp"
 
-#include <sys/stat.h>
-
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 #include "program/usage_error.hpp"
 
 namespace cairn::program {
 
 void create_folder(const std::string& folder) {
-  if (mkdir(folder.c_str(), 0777) == 0) return;
-  const int cause = errno;
-  struct stat status {};
-  if (cause == EEXIST && stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) return;
-  throw UsageError("cannot create the folder " + folder + ": " + std::strerror(cause));
+  std::error_code cause;
+  std::filesystem::create_directory(folder, cause);
+  if (cause) throw UsageError("cannot create the folder " + folder + ": " + cause.message());
 }
 
 OutputFile::OutputFile(const std::string& folder, const std::string& name, char separator)
-    : path_(folder + "/" + name), separator_(separator), file_(std::fopen(path_.c_str(), "w"), &std::fclose) {
+    : path_(folder + "/" + name), separator_(separator), file_(std::fopen(path_.c_str(), "wb"), &std::fclose) {
   if (!file_) fail();
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/output/progress.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <string>
+
+#include "program/output/process.hpp"
 
 namespace cairn::program {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::size_t kBarWidth = 40;
 }  // namespace
 
 Progress::Progress(std::size_t steps, bool quiet)
-    : steps_(steps), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), last_(std::chrono::steady_clock::now()) {}
+    : steps_(steps), quiet_(quiet), terminal_(stderr_is_terminal()), last_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
   if (drawn_) std::fputs("\r\033[K", stderr);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/output/summary.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <unordered_set>
 
 #include "program/library.hpp"
+#include "program/output/process.hpp"
 
 namespace cairn::program {
 namespace {
@@ -21,12 +20,6 @@ double square_norm(const double* v) {
 
 double mean(std::vector<double>::const_iterator begin, std::vector<double>::const_iterator end) {
   return std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin);
-}
-
-double peak_rss_mib() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts it in KiB
 }
 
 }  // namespace

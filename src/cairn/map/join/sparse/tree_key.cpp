@@ -28,7 +28,14 @@ std::uint64_t cell(double offset) {
 }
 
 int leading_zeros(std::uint64_t x) {
-  return x == 0 ? 64 : __builtin_clzll(x);
+  if (x == 0) return 64;
+  int zeros = 0;
+  for (int width = 32; width > 0; width /= 2) {
+    if (x >> (64 - width) != 0) continue;
+    zeros += width;
+    x <<= width;
+  }
+  return zeros;
 }
 
 }  // namespace
