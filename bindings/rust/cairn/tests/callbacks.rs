@@ -9,7 +9,7 @@ use std::error::Error as _;
 use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use std::sync::Arc;
-use support::scene::{bits, custom, filter, filter_with_points, place, points, predict};
+use support::scene::{bits, custom, filter, place, points, predict};
 
 /// How a model behaves that the test can switch while the filter owns it.
 const ANSWER: u32 = 0;
@@ -130,17 +130,25 @@ fn a_panic_at_the_end_of_a_closure_does_not_cross_c() {
     assert_eq!(panic.downcast_ref::<&str>(), Some(&"the end fails"));
 }
 
-/// Observations that contradict the filter so much that it writes a line.
-fn contradict(filter: &mut Filter, sensor: Sensor) -> Result<Vec<Match>> {
-    let mut wrong = points();
-    wrong[0].z[0] += 0.45;
-    wrong[1].z[1] -= 0.45;
-    filter.update(sensor, &wrong)
+/// A filter in which only the gate of a whole batch can refuse, and a frame that this gate refuses.
+fn contradicted() -> (Filter, Sensor, [Observation; 4]) {
+    let options = FilterOptions { max_landmarks: 50, gate_probability: 1.0, ..Default::default() };
+    let mut filter = Filter::new(&options).unwrap();
+    let sensor = filter.add_cartesian(&Default::default()).unwrap();
+    let mut frame = [[4.0, 0.0], [-4.0, 0.0], [0.0, 4.0], [0.0, -4.0]].map(|[x, y]| Observation::new(0, [x, y, 0.0]));
+    for (id, observation) in frame.iter_mut().enumerate() {
+        observation.id = id as u64;
+    }
+    filter.update(sensor, &frame).unwrap();
+    for observation in &mut frame {
+        observation.z = observation.z.map(|value| 2.0 * value);
+    }
+    (filter, sensor, frame)
 }
 
 #[test]
 fn a_log_receives_lines_until_it_is_replaced() {
-    let (mut filter, sensor) = filter_with_points();
+    let (mut filter, sensor, frame) = contradicted();
     let lines = Arc::new(AtomicU32::new(0));
     let inside = Arc::clone(&lines);
     filter
@@ -149,13 +157,13 @@ fn a_log_receives_lines_until_it_is_replaced() {
             inside.fetch_add(1, Relaxed);
         })
         .unwrap();
-    contradict(&mut filter, sensor).unwrap();
+    filter.update(sensor, &frame).unwrap();
     assert!(lines.load(Relaxed) > 0, "the case writes no line");
     assert_eq!(Arc::strong_count(&lines), 2);
     filter.set_log(|_| panic!("the log fails")).unwrap();
     assert_eq!(Arc::strong_count(&lines), 1);
-    let panic = catch_unwind(AssertUnwindSafe(|| contradict(&mut filter, sensor))).unwrap_err();
+    let panic = catch_unwind(AssertUnwindSafe(|| filter.update(sensor, &frame))).unwrap_err();
     assert_eq!(panic.downcast_ref::<&str>(), Some(&"the log fails"));
     filter.clear_log().unwrap();
-    contradict(&mut filter, sensor).unwrap();
+    filter.update(sensor, &frame).unwrap();
 }
