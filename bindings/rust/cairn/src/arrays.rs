@@ -59,3 +59,13 @@ pub(crate) fn expect_length(name: &str, length: usize, expected: usize) -> Resul
 pub(crate) fn pointer<T, U>(value: Option<&T>) -> *const U {
     value.map_or(std::ptr::null(), |value| (value as *const T).cast())
 }
+
+/// The first element of a slice. The library knows an empty array as NULL, like every array that is missing.
+#[inline]
+pub(crate) fn first<T>(values: &[T]) -> *const T {
+    if values.is_empty() {
+        std::ptr::null()
+    } else {
+        values.as_ptr()
+    }
+}

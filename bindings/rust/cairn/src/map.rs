@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! Maps: borrowed from a filter or a team, or copies of the caller's own.
-use crate::arrays::{fill, gather, get};
+use crate::arrays::{fill, first, gather, get};
 use crate::error::{call, Result};
 use crate::{Landmark, MapForm, MergeOptions, MergeReport, MergedId};
 use cairn_sys as sys;
@@ -192,8 +192,8 @@ impl Map {
     /// As [`Map::joint_covariance`].
     pub fn joint_covariance_into(&self, ids: &[u64], matrix: &mut Vec<f64>) -> Result<()> {
         // SAFETY: the library writes at most `capacity` values.
-        fill(matrix, |first, capacity, needed, error| unsafe {
-            sys::cairn_map_joint_covariance(self.c(), ids.as_ptr(), ids.len(), first, capacity, needed, error)
+        fill(matrix, |start, capacity, needed, error| unsafe {
+            sys::cairn_map_joint_covariance(self.c(), first(ids), ids.len(), start, capacity, needed, error)
         })
     }
 

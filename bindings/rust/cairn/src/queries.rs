@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! What a filter knows: pose, maps, reports, health, systematic errors.
-use crate::arrays::{fill, gather, get};
+use crate::arrays::{fill, first, gather, get};
 use crate::error::{call, Result};
 use crate::{Covariance, Filter, Health, Map, Pose, Sensor, SensorHealth, SystematicError, UpdateReport};
 use cairn_sys as sys;
@@ -84,8 +84,8 @@ impl Filter {
     /// As [`Filter::joint_covariance`].
     pub fn joint_covariance_into(&self, ids: &[u64], matrix: &mut Vec<f64>) -> Result<()> {
         // SAFETY: the library writes at most `capacity` values.
-        fill(matrix, |first, capacity, needed, error| unsafe {
-            sys::cairn_filter_joint_covariance(self.c(), ids.as_ptr(), ids.len(), first, capacity, needed, error)
+        fill(matrix, |start, capacity, needed, error| unsafe {
+            sys::cairn_filter_joint_covariance(self.c(), first(ids), ids.len(), start, capacity, needed, error)
         })
     }
 

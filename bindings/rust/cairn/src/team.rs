@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! Teams of planar vehicles that exchange packets.
-use crate::arrays::{fill, gather, get, pointer};
+use crate::arrays::{fill, first, gather, get, pointer};
 use crate::error::{call, Result};
 use crate::library::suitable;
 use crate::queries::{posed, report};
@@ -184,8 +184,8 @@ impl Team {
     /// - [`Status::ERROR_STATE`](crate::Status::ERROR_STATE): the vehicle has left the team
     /// - [`Status::ERROR_MEMORY`](crate::Status::ERROR_MEMORY)
     pub fn observe(&mut self, time: f64, landmarks: &[Observation], vehicles: &[Observation]) -> Result<()> {
-        let (landmark, landmark_count) = (landmarks.as_ptr().cast(), landmarks.len());
-        let (vehicle, vehicle_count) = (vehicles.as_ptr().cast(), vehicles.len());
+        let (landmark, landmark_count) = (first(landmarks).cast(), landmarks.len());
+        let (vehicle, vehicle_count) = (first(vehicles).cast(), vehicles.len());
         // SAFETY: arrays of the stated lengths, with the layout of C.
         self.change(|team, error| unsafe {
             sys::cairn_team_observe(team, time, landmark, landmark_count, vehicle, vehicle_count, error)
@@ -292,7 +292,7 @@ impl Team {
         let mut result = 0;
         // SAFETY: bytes of the stated number; a number is written.
         self.change(|team, error| unsafe {
-            sys::cairn_team_receive(team, packet.as_ptr(), packet.len(), &mut result, error)
+            sys::cairn_team_receive(team, first(packet), packet.len(), &mut result, error)
         })?;
         Ok(Packet(result))
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! Observations, and changes of single landmarks.
-use crate::arrays::{expect_length, pointer};
+use crate::arrays::{expect_length, first, pointer};
 use crate::error::Result;
 use crate::{Filter, Match, MatchResult, Observation, Reason, Sensor, ID_NONE};
 use cairn_sys as sys;
@@ -58,10 +58,10 @@ impl Filter {
             expect_length("matches", matches.len(), observations.len())?;
             matches.as_mut_ptr()
         };
-        let (first, count) = (observations.as_ptr().cast(), observations.len());
+        let (start, count) = (first(observations).cast(), observations.len());
         // SAFETY: arrays of `count` elements with the layout of C.
         self.change(|filter, error| unsafe {
-            sys::cairn_filter_update(filter, sensor.0, first, count, wanted.cast(), error)
+            sys::cairn_filter_update(filter, sensor.0, start, count, wanted.cast(), error)
         })
     }
 
@@ -100,18 +100,18 @@ impl Filter {
             expect_length("jacobian_pose", jacobian.len(), rows * 6)?;
         }
         expect_length("jacobian_landmarks", jacobian_landmarks.len(), rows * 3 * count)?;
-        let (first, jacobian_landmarks) = (landmarks.as_ptr(), jacobian_landmarks.as_ptr());
-        let jacobian_pose = jacobian_pose.map_or(std::ptr::null(), <[f64]>::as_ptr);
+        let (landmarks, jacobian_landmarks) = (first(landmarks), first(jacobian_landmarks));
+        let jacobian_pose = first(jacobian_pose.unwrap_or_default());
         // SAFETY: the lengths are those that the library reads.
         self.matched(|filter, found, error| unsafe {
-            let (residual, covariance) = (residual.as_ptr(), covariance.as_ptr());
+            let (residual, covariance) = (first(residual), first(covariance));
             sys::cairn_filter_update_linear(
                 filter,
                 residual,
                 rows,
                 covariance,
                 jacobian_pose,
-                first,
+                landmarks,
                 count,
                 jacobian_landmarks,
                 found,
