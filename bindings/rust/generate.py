@@ -19,6 +19,9 @@ import sys
 import textwrap
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(HERE.parent.parent / "src" / "api"))
+import bindings_check  # noqa: E402
 HEAD = "// SPDX-License-Identifier: BSD-3-Clause\n// Written by generate.py from api.json. Do not edit.\n"
 RENAMED = {"cairn_result": "MatchResult"}  # Result is Rust's own
 KEYWORDS = {"match", "type", "box", "move", "ref", "loop", "where", "use", "in", "as"}
@@ -40,7 +43,7 @@ def snake(name):
 
 class Api:
     def __init__(self, path):
-        api = json.loads(path.read_text())
+        api = self.json = json.loads(path.read_text())
         self.constants = api["constants"]
         self.enums = api["enums"]
         self.structs = api["structs"]
@@ -225,7 +228,7 @@ def from_c(api, field):
 
 def safe_enum(api, names, enum):
     name, base = camel(enum["name"]), INTEGERS[enum["base"]]
-    bits = enum["name"] == "cairn_doubts"
+    bits = enum["bits"]
     out = ["\n", doc(names.markdown(enum["doc"]), ""),
            "#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]\n#[repr(transparent)]\n"
            f"pub struct {name}(\n    /// The value in C.\n    pub {base},\n);\n\nimpl {name} {{\n"]
@@ -346,7 +349,7 @@ mod layout {
 def test_fields(api):
     out = [HEAD, "use super::json::{Fields, Json, Value};\nuse cairn::*;\n"]
     for enum in api.enums:
-        name, bits = camel(enum["name"]), enum["name"] == "cairn_doubts"
+        name, bits = camel(enum["name"]), enum["bits"]
         table = ", ".join(f'("{value["name"]}", {value["value"]})' for value in enum["values"])
         out.append(f"\nimpl Json for {name} {{\n    fn read(value: &Value) -> Self {{\n"
                    f"        {name}(value.{'bits' if bits else 'constant'}(&[{table}]))\n    }}\n"
@@ -354,7 +357,7 @@ def test_fields(api):
                    f"(self.0, &[{table}])\n    }}\n}}\n")
     for struct in api.safe_structs():
         name = camel(struct["name"])
-        read = [field for field in values(struct) if not field["name"].endswith("seconds")]
+        read = [field for field in values(struct) if field["repeatable"]]
         out.append(f"\nimpl Fields for {name} {{\n    fn set(&mut self, name: &str, value: &Value) -> bool {{\n"
                    "        match name {\n" +
                    "".join(f'            "{field["name"]}" => self.{snake(field["name"])} = Json::read(value),\n'
@@ -454,13 +457,23 @@ def documented(api, names, path):
     return "\n".join(out)
 
 
-def missing_functions(api, methods):
-    """Functions that no method is marked with, or that its code does not call."""
+def implemented(api, methods):
+    """The names of C that a user of the safe crate has, read from its sources: functions that a method is marked with and
+    calls, fields of public structs, constants."""
     code = "\n".join(path.read_text() for path in (HERE / "cairn" / "src").glob("*.rs"))
-    called = set(re.findall(r"\bsys::(cairn_\w+)", code))
-    marked = set(methods) | {struct["init"] for struct in api.structs if struct["init"]}
-    return sorted(function["name"] for function in api.functions
-                  if function["name"] not in called or function["name"] not in marked)
+    names = {name for name in set(methods) | {struct["init"] for struct in api.structs if struct["init"]}
+             if re.search(rf"\bsys::{name}\b", code)}
+    for struct in api.safe_structs():
+        body = re.search(rf"pub struct {camel(struct['name'])} {{(.*?)\n}}", code, re.DOTALL)
+        fields = set(re.findall(r"^    pub (\w+):", body.group(1), re.MULTILINE)) if body else set()
+        names |= {f"{struct['name']}.{field['name']}" for field in struct["fields"] if snake(field["name"]) in fields}
+    for enum in api.enums:
+        constants = set(re.findall(rf"pub const (\w+): {camel(enum['name'])} =", code))
+        names |= {value["name"] for value in enum["values"] if value["name"].removeprefix(enum["prefix"]) in constants}
+    # An Error has the fields of cairn_error as methods. The parts of the version are those of the package.
+    names |= {"cairn_error.status", "cairn_error.message"}
+    raw = (HERE / "cairn-sys" / "src" / "bindings.rs").read_text()
+    return names | {constant["name"] for constant in api.constants if f"pub const {constant['name']}:" in raw}
 
 
 def main():
@@ -476,19 +489,21 @@ def main():
              HERE / "cairn/tests/support/fields.rs": test_fields(api)}
     files.update({path: documented(api, names, path) for path in sources()})
     differing = [path for path, text in files.items() if not path.exists() or path.read_text() != text]
-    missing = missing_functions(api, methods)
+    have = implemented(api, methods)
+    missing = bindings_check.missing(api.json, have) + bindings_check.unknown(api.json, have)
     if arguments.check:
         for path in differing:
             print(f"{path.relative_to(HERE)} is not what generate.py writes", file=sys.stderr)
         for name in missing:
-            print(f"no method calls {name}", file=sys.stderr)
-        print(f"{len(api.functions)} functions, {len(missing)} without a method; {len(differing)} files differ")
+            print(f"the crate lacks {name}", file=sys.stderr)
+        print(f"{len(bindings_check.required(api.json))} names of functions, fields and constants, of which {len(missing)} "
+              f"are missing; {len(files)} files, of which {len(differing)} differ")
         sys.exit(1 if differing or missing else 0)
     for path in differing:
         path.write_text(files[path])
         print(f"wrote {path.relative_to(HERE)}")
     if missing:
-        print("without a method:", *missing)
+        print("missing:", *missing)
 
 
 main()

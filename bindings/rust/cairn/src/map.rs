@@ -17,6 +17,20 @@ pub struct Map(sys::cairn_map);
 unsafe impl Sync for Map {}
 
 /// A map of the caller's own. It does not follow the filter, and other maps can be merged into it.
+///
+/// The map of a filter cannot be changed, and a map cannot be merged with itself:
+///
+/// ```compile_fail
+/// let filter = cairn::Filter::new(&Default::default()).unwrap();
+/// let copy = filter.map().copy().unwrap();
+/// filter.map().merge(&copy, None);
+/// ```
+///
+/// ```compile_fail
+/// let filter = cairn::Filter::new(&Default::default()).unwrap();
+/// let mut copy = filter.map().copy().unwrap();
+/// copy.merge(&copy, None);
+/// ```
 pub struct MapCopy(NonNull<sys::cairn_map>);
 
 // SAFETY: a handle belongs to no thread.

@@ -303,7 +303,7 @@ impl Team {
     /// their scans. The pose of a teammate is that of its last packet that is part of the estimate; only the modes
     /// [`TeamMode::JOINT`](crate::TeamMode::JOINT) and [`TeamMode::SUBMAPS`](crate::TeamMode::SUBMAPS) have it.
     ///
-    /// Complexity: O(1).
+    /// Complexity: O(own motions that wait for teammates).
     ///
     /// # Errors
     ///
@@ -319,7 +319,7 @@ impl Team {
     /// coordinates of the filter. The pose is the one that [`Team::pose`](crate::Team::pose) returns. A consistent
     /// filter has 3 on average. On an error `*nees` is not written.
     ///
-    /// Complexity: O(1).
+    /// Complexity: O(own motions that wait for teammates).
     ///
     /// # Errors
     ///
@@ -345,7 +345,7 @@ impl Team {
     /// Compares the present pose of this vehicle with the true pose. With the option `baseline` it compares the pose of
     /// the second filter, too. [`Team::last_report`](crate::Team::last_report) returns the means.
     ///
-    /// Complexity: O(1).
+    /// Complexity: O(own motions that wait for teammates).
     ///
     /// # Errors
     ///
