@@ -37,23 +37,20 @@ pub fn custom() -> Custom {
 }
 
 pub fn predict(pose: &Pose, landmark: &[f64; 3], out: Prediction<'_>) -> Answer {
-    for i in 0..3 {
-        out.z[i] = landmark[i] - pose.position[i];
-        out.jacobian_pose[i] = [0.0; 6];
-        out.jacobian_pose[i][i] = -1.0;
-        out.jacobian_landmark[i] = [0.0; 3];
-        out.jacobian_landmark[i][i] = 1.0;
-    }
+    out.jacobian_pose.copy_from_slice(&pose_columns(-1.0));
+    out.jacobian_landmark.copy_from_slice(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    out.z.copy_from_slice(&[0, 1, 2].map(|i| landmark[i] - pose.position[i]));
     Ok(true)
 }
 
 pub fn place(pose: &Pose, z: &[f64], out: Placement<'_>) -> Answer {
-    out.jacobian_z.fill(0.0);
-    for i in 0..3 {
-        out.landmark[i] = pose.position[i] + z[i];
-        out.jacobian_pose[i] = [0.0; 6];
-        out.jacobian_pose[i][i] = 1.0;
-        out.jacobian_z[3 * i + i] = 1.0;
-    }
+    *out.jacobian_pose = pose_columns(1.0);
+    out.jacobian_z.copy_from_slice(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+    *out.landmark = [0, 1, 2].map(|i| pose.position[i] + z[i]);
     Ok(true)
+}
+
+/// The derivative by [dp; dtheta] of a value that depends on the position.
+fn pose_columns(sign: f64) -> [[f64; 6]; 3] {
+    [[sign, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0, sign, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, sign, 0.0, 0.0, 0.0]]
 }
