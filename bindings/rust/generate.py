@@ -246,10 +246,17 @@ def safe_enum(api, names, enum):
     return "".join(out)
 
 
+def whole(api, struct):
+    """Whether a struct holds no floating-point number, so that equality is total."""
+    return all(whole(api, api.struct[field["type"]]) if field["kind"] == "struct" else field["kind"] != "number"
+               for field in struct["fields"])
+
+
 def safe_struct(api, names, struct):
     name, plain = camel(struct["name"]), struct["name"] in api.plain
-    out = ["\n", doc(names.markdown(struct["doc"]), ""), f"#[derive(Clone, Debug, PartialEq{', Copy' if not struct['versioned'] else ''})]\n"
-           + ("#[repr(C)]\n" if plain else "") + f"pub struct {name} {{\n"]
+    out = ["\n", doc(names.markdown(struct["doc"]), ""), "#[derive(Clone, Debug, PartialEq" +
+           (", Eq" if whole(api, struct) else "") + (", Copy" if not struct["versioned"] else "") + ")]\n" +
+           ("#[repr(C)]\n" if plain else "") + f"pub struct {name} {{\n"]
     for field in values(struct):
         text = names.markdown(field["doc"])
         out.append(doc(text, "    ") + f"    pub {snake(field['name'])}: {safe_type(api, field)},\n")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! Functions of the caller that the library calls. An error or a panic in such a function never crosses C: it is kept
 //! for this thread, the call is aborted, and the error or the panic continues when the call has returned.
+#![allow(clippy::declare_interior_mutable_const)] // what clippy 1.63 says of every thread_local with a const value
 use crate::error::Source;
 use crate::Pose;
 use cairn_sys as sys;

@@ -14,7 +14,7 @@ use std::ptr::{null_mut, NonNull};
 ///
 /// Changes take `&mut self`: two threads cannot change one filter at the same time.
 ///
-/// ```compile_fail
+/// ```compile_fail,E0499
 /// let mut filter = cairn::Filter::new(&Default::default()).unwrap();
 /// std::thread::scope(|scope| {
 ///     scope.spawn(|| filter.predict_wheels(0.1, 1.0, 1.0));
@@ -24,13 +24,13 @@ use std::ptr::{null_mut, NonNull};
 ///
 /// A closed filter cannot be used, and its map ends with it:
 ///
-/// ```compile_fail
+/// ```compile_fail,E0382
 /// let filter = cairn::Filter::new(&Default::default()).unwrap();
 /// filter.close();
 /// filter.pose();
 /// ```
 ///
-/// ```compile_fail
+/// ```compile_fail,E0505
 /// let filter = cairn::Filter::new(&Default::default()).unwrap();
 /// let map = filter.map();
 /// drop(filter);

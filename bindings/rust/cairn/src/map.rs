@@ -20,13 +20,13 @@ unsafe impl Sync for Map {}
 ///
 /// The map of a filter cannot be changed, and a map cannot be merged with itself:
 ///
-/// ```compile_fail
+/// ```compile_fail,E0599
 /// let filter = cairn::Filter::new(&Default::default()).unwrap();
 /// let copy = filter.map().copy().unwrap();
 /// filter.map().merge(&copy, None);
 /// ```
 ///
-/// ```compile_fail
+/// ```compile_fail,E0502
 /// let filter = cairn::Filter::new(&Default::default()).unwrap();
 /// let mut copy = filter.map().copy().unwrap();
 /// copy.merge(&copy, None);

@@ -963,7 +963,7 @@ impl Default for MergeReport {
 }
 
 /// Where a landmark of the other map is after a merge. Layout frozen.
-#[derive(Clone, Debug, PartialEq, Copy)]
+#[derive(Clone, Debug, PartialEq, Eq, Copy)]
 pub struct MergedId {
     /// its id in the other map
     pub other_id: u64,
