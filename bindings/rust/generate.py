@@ -8,8 +8,8 @@
 cairn-sys/src/bindings.rs        functions, structs and constants of C, and tests of their layout
 cairn/src/types.rs               the structs and constants in Rust's names
 cairn/tests/support/fields.rs    the fields of these structs by their names, for the conformance test
-cairn/src/*.rs                   in a file written by hand, a line `//~ cairn_filter_pose` stands above the method that calls
-                                 this function; the method's documentation is written below that line
+cairn/src/*.rs                   in a file written by hand, a line `//~ cairn_filter_pose` stands above the method that
+                                 calls this function; the method's documentation is written below that line
 """
 import argparse
 import json
@@ -154,6 +154,14 @@ def sys_bindings(api):
 
 # Types of the safe crate ----------------------------------------------------------------------------------------------
 
+ONLY_IN_C = re.compile(  # sentences that say who frees what, or what a pointer may be
+    r"[Cc]apacity 0|struct_size|writes at most|`capacity`|Never NULL|destroys it with|frees it with|On an error `\*|"
+    r"older or a newer header|`release` \(or|`user` is passed|(user|payload)` stays|Fails only for NULL|longjmp|"
+    r"must be NULL if|NULL, the default|NULL and any other|`base` may be NULL|^Each may be NULL|^`place` NULL")
+IN_RUST = [(r"; each may be NULL", ""), (r" \(or NULL\)", ""), (r", or NULL\)", ")"), (r"is not NULL", "is given"),
+           (r"^NULL, ", ""), (r"\bNULL\b", "`None`"), (r"`\*(\w+)`", r"`\1`")]
+
+
 class Names:
     """What the names of C are in Rust, for the documentation."""
 
@@ -175,10 +183,13 @@ class Names:
 
     def markdown(self, text):
         """Documentation of C as documentation of Rust: names become links; rules of C's memory are left out."""
-        text = " ".join((text or "").split())
-        sentences = re.split(r"(?<=[.;:]) (?=[A-Z`])", text)
-        text = " ".join(sentence for sentence in sentences
-                        if not re.search(r"[Cc]apacity 0|struct_size|writes at most|`capacity`|Never NULL", sentence))
+        return "\n\n".join(filter(None, map(self.paragraph, re.split(r"\n\s*\n", text or ""))))
+
+    def paragraph(self, text):
+        sentences = re.split(r"(?<=[.;:]) (?=[A-Z`])", " ".join(text.split()))
+        text = " ".join(sentence for sentence in sentences if not ONLY_IN_C.search(sentence))
+        for c, rust in IN_RUST:
+            text = re.sub(c, rust, text)
         parts = re.split(r"(`[^`]*`)", text)
         return "".join(self.code(part) if part.startswith("`") else self.prose(part) for part in parts)
 
@@ -266,7 +277,8 @@ def safe_struct(api, names, struct):
                    "        // SAFETY: numbers, for which zero is a value.\n"
                    f"        let mut c: sys::{struct['name']} = unsafe {{ zeroed() }};\n"
                    f"        c.struct_size = size_of::<sys::{struct['name']}>() as u32;\n        c\n    }}\n\n")
-    out.append(f"    #[allow(dead_code)]\n    pub(crate) fn from_c(c: &sys::{struct['name']}) -> Self {{\n        {name} {{\n" +
+    out.append(f"    #[allow(dead_code)]\n    pub(crate) fn from_c(c: &sys::{struct['name']}) -> Self {{\n"
+               f"        {name} {{\n" +
                "".join(f"            {snake(field['name'])}: {from_c(api, field)},\n" for field in values(struct)) +
                "        }\n    }\n")
     if struct["role"] == "options" or struct["name"] == "cairn_pose":
@@ -280,7 +292,8 @@ def safe_struct(api, names, struct):
     if struct["versioned"]:
         out.append(f"\nimpl Default for {name} {{\n" +
                    ("    /// The defaults of the library.\n" if struct["init"] else "    /// Zeros.\n") +
-                   "    fn default() -> Self {\n        " + ("let mut c" if struct["init"] else "let c") + " = Self::empty_c();\n")
+                   "    fn default() -> Self {\n"
+                   f"        let {'mut ' if struct['init'] else ''}c = Self::empty_c();\n")
         if struct["init"]:
             out.append("        // SAFETY: the library writes at most the size that it gets. It fails only for NULL.\n"
                        "        unsafe {\n"
@@ -321,7 +334,8 @@ fn debug_value<T: PartialEq + fmt::Display>(
 }
 
 fn debug_bits(f: &mut fmt::Formatter<'_>, name: &str, value: u32, constants: &[(u32, &str)]) -> fmt::Result {
-    let set: Vec<&str> = constants.iter().filter(|constant| value & constant.0 != 0).map(|constant| constant.1).collect();
+    let set = constants.iter().filter(|constant| value & constant.0 != 0).map(|constant| constant.1);
+    let set: Vec<&str> = set.collect();
     write!(f, "{name}({})", set.join(" | "))
 }
 
@@ -343,8 +357,9 @@ mod layout {
                        "        let (start, c) = (memory.as_ptr(), c.as_ptr());\n")
             for field in struct["fields"]:
                 out.append("        // SAFETY: only addresses are computed.\n"
-                           f"        let (rust, other) = unsafe {{ (addr_of!((*start).{snake(field['name'])}) as usize, "
-                           f"addr_of!((*c).{field['name']}) as usize) }};\n"
+                           "        let (rust, other) = unsafe {\n"
+                           f"            (addr_of!((*start).{snake(field['name'])}) as usize, "
+                           f"addr_of!((*c).{field['name']}) as usize)\n        }};\n"
                            "        assert_eq!(rust - start as usize, other - c as usize);\n")
             out.append("    }\n")
     out.append("}\n")
@@ -426,8 +441,8 @@ def method_doc(names, function):
 
 def errors_doc(names, function):
     errors = [(entry["status"], entry["when"]) for entry in function["errors"] if entry["when"] != "NULL"]
-    return "# Errors\n\n" + "\n".join(
-        f"- {names.link(status)}{': ' + names.markdown(when) if when else ''}" for status, when in errors) if errors else ""
+    lines = [f"- {names.link(status)}{': ' + names.markdown(when) if when else ''}" for status, when in errors]
+    return "# Errors\n\n" + "\n".join(lines) if lines else ""
 
 
 def documented(api, names, path):
@@ -465,8 +480,8 @@ def documented(api, names, path):
 
 
 def implemented(api, methods):
-    """The names of C that a user of the safe crate has, read from its sources: functions that a method is marked with and
-    calls, fields of public structs, constants."""
+    """The names of C that a user of the safe crate has, read from its sources: functions that a method is marked with
+    and calls, fields of public structs, constants."""
     code = "\n".join(path.read_text() for path in (HERE / "cairn" / "src").glob("*.rs"))
     names = {name for name in set(methods) | {struct["init"] for struct in api.structs if struct["init"]}
              if re.search(rf"\bsys::{name}\b", code)}
@@ -503,8 +518,9 @@ def main():
             print(f"{path.relative_to(HERE)} is not what generate.py writes", file=sys.stderr)
         for name in missing:
             print(f"the crate lacks {name}", file=sys.stderr)
-        print(f"{len(bindings_check.required(api.json))} names of functions, fields and constants, of which {len(missing)} "
-              f"are missing; {len(files)} files, of which {len(differing)} differ")
+        required = bindings_check.required(api.json)
+        print(f"{len(required)} names of functions, fields and constants, of which {len(missing)} are missing; "
+              f"{len(files)} files, of which {len(differing)} differ")
         sys.exit(1 if differing or missing else 0)
     for path in differing:
         path.write_text(files[path])

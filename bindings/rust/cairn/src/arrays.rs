@@ -60,7 +60,7 @@ pub(crate) fn pointer<T, U>(value: Option<&T>) -> *const U {
     value.map_or(std::ptr::null(), |value| (value as *const T).cast())
 }
 
-/// The first element of a slice. The library knows an empty array as NULL, like every array that is missing.
+/// The first element of a slice, or null: for the library an empty array is one that is missing.
 #[inline]
 pub(crate) fn first<T>(values: &[T]) -> *const T {
     if values.is_empty() {

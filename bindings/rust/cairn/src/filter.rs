@@ -64,8 +64,7 @@ impl FilterOptions {
 
 impl Filter {
     //~ cairn_filter_create
-    /// Creates a filter. The caller destroys it with [`Filter::drop`](crate::Filter::drop). Options of an older or a
-    /// newer header are used as far as both sides know them. On an error `*filter` is not written.
+    /// Creates a filter.
     ///
     /// Complexity: O(memory).
     ///
@@ -86,9 +85,8 @@ impl Filter {
     pub fn close(self) {}
 
     //~ cairn_filter_set_log
-    /// Sets the receiver of this filter's log lines (refused batches, numerical refusals). NULL, the default: no log.
-    /// The callback runs inside calls of the filter and must not call the same filter. `release` (or NULL) gets
-    /// `payload` when the log is replaced or the filter is destroyed. If this call fails, `payload` stays the caller's.
+    /// Sets the receiver of this filter's log lines (refused batches, numerical refusals). The callback runs inside
+    /// calls of the filter and must not call the same filter.
     ///
     /// Complexity: O(1).
     ///

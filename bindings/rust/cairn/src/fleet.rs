@@ -20,9 +20,9 @@ unsafe impl Sync for Fleet {}
 
 impl Fleet {
     //~ cairn_fleet_create
-    /// Creates a fleet before its first step. The caller destroys it with [`Fleet::drop`](crate::Fleet::drop). Options
-    /// of an older or a newer header are used as far as both sides know them. On an error `*fleet` is not written. Each
-    /// boat is commanded once around a circle of radius R = course_length / (2 pi), anticlockwise, at the constant
+    /// Creates a fleet before its first step.
+    ///
+    /// Each boat is commanded once around a circle of radius R = course_length / (2 pi), anticlockwise, at the constant
     /// speed course_length / duration and rate 2 pi / duration. It starts at the southernmost point of the circle,
     /// heading east. The centres of the circles are `separation` apart. The centre of a single boat is the origin. The
     /// centres of two boats are (-separation / 2, 0) and (separation / 2, 0). The centres of more boats form a square

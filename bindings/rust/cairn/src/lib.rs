@@ -87,3 +87,8 @@ pub use world::World;
 
 /// Covariance of the error `[dp; dtheta]` of a pose: 6 x 6, row-major.
 pub type Covariance = [f64; 36];
+
+/// The examples of the README are tested, too.
+#[cfg(all(doctest, feature = "sim"))]
+#[doc = include_str!("../README.md")]
+struct Readme;

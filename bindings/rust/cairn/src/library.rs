@@ -43,7 +43,7 @@ pub fn build() -> &'static str {
 //~ cairn_has
 /// Whether the loaded library has a feature: 1 or 0. Features have names that never change their meaning: "sparse"
 /// (sparse joining), "teams", "trajectory", "systematic" (estimated systematic errors), "robust" (robust losses),
-/// "health" (verdicts), "errors" (messages in a [`Error`](crate::Error)). NULL and any other name: 0.
+/// "health" (verdicts), "errors" (messages in a [`Error`](crate::Error)).
 ///
 /// Complexity: O(1).
 pub fn has(feature: &str) -> bool {

@@ -233,8 +233,8 @@ impl Map {
 
     //~ cairn_map_copy
     /// Makes a copy of the same kind. The copy stays as it is when the filter goes on or is destroyed. All queries work
-    /// on it. The caller owns the copy and frees it with [`MapCopy::drop`](crate::MapCopy::drop). A copy of a filter's
-    /// open submap ([`Filter::local_map`](crate::Filter::local_map)) is in the frame of this submap.
+    /// on it. A copy of a filter's open submap ([`Filter::local_map`](crate::Filter::local_map)) is in the frame of
+    /// this submap.
     ///
     /// Complexity: dense O(n^2); sparse O(n): the factor's parts are shared.
     ///
@@ -255,15 +255,18 @@ impl MapCopy {
     /// Merges the landmarks of `other` into `map`. `map` stays in its own frame. The merge finds the transform between
     /// both frames from the common landmarks (with has_transform also from the transform that the caller knows).
     /// Afterwards `map` holds the best estimate that follows from both maps (docs/map_merging.md). A call that fails
-    /// changes neither map. Ids of `map` never change. A common landmark keeps the id that it has in `map`. An added
-    /// landmark keeps its id. By geometry, an added landmark whose id is already used in `map` gets the smallest free
-    /// id above all ids of both maps; if there is none, the smallest free id.
-    /// [`Map::merged_ids`](crate::Map::merged_ids) returns all new ids. The maps must come from independent data. Two
-    /// copies of one filter's map, or a merged map and one of its parts, are refused, because the data that they share
-    /// would count twice. Information of a sparse `other` about its own frame (start pose, absolute observations) is
-    /// not merged. With has_transform its start pose is merged. `map` must be a copy. `other` may be a copy or a
-    /// filter's map. `options` may be NULL for the defaults. It is also filled in if the merge is refused because of
-    /// the contents of the maps.
+    /// changes neither map.
+    ///
+    /// Ids of `map` never change. A common landmark keeps the id that it has in `map`. An added landmark keeps its id.
+    /// By geometry, an added landmark whose id is already used in `map` gets the smallest free id above all ids of both
+    /// maps; if there is none, the smallest free id. [`Map::merged_ids`](crate::Map::merged_ids) returns all new ids.
+    ///
+    /// The maps must come from independent data. Two copies of one filter's map, or a merged map and one of its parts,
+    /// are refused, because the data that they share would count twice. Information of a sparse `other` about its own
+    /// frame (start pose, absolute observations) is not merged. With has_transform its start pose is merged.
+    ///
+    /// `map` must be a copy. `other` may be a copy or a filter's map. `options` may be `None` for the defaults. It is
+    /// also filled in if the merge is refused because of the contents of the maps.
     ///
     /// Complexity: for n landmarks in both maps and k common ones: dense O(n^2 k + k^3); sparse: that of closing all
     /// submaps of `other` at once, plus the joint test of at most 300 common landmarks. By geometry additionally O(n

@@ -92,7 +92,7 @@ impl Default for Pose {
 ///
 /// # Errors
 ///
-/// - [`Status::ERROR_ARGUMENT`](crate::Status::ERROR_ARGUMENT): NULL, not finite
+/// - [`Status::ERROR_ARGUMENT`](crate::Status::ERROR_ARGUMENT): not finite
 pub fn quaternion_from_euler(roll: f64, pitch: f64, yaw: f64) -> Result<[f64; 4]> {
     // SAFETY: an array of four values.
     get(|quaternion: *mut [f64; 4], error| unsafe {

@@ -28,7 +28,7 @@ pub(crate) fn report<T>(
 
 impl Filter {
     //~ cairn_filter_pose
-    /// Pose of the body in the map, and the covariance of its error \[dp; dtheta\] (6x6 row-major); each may be NULL.
+    /// Pose of the body in the map, and the covariance of its error \[dp; dtheta\] (6x6 row-major).
     ///
     /// Complexity: O(1).
     ///
@@ -43,7 +43,6 @@ impl Filter {
     //~ cairn_filter_map
     /// The filter's map. With submaps it holds the landmarks of the closed submaps; the landmarks of the open submap
     /// join it when this submap is closed. The filter owns this map; it lives as long as the filter and follows it.
-    /// Fails only for NULL, and then returns NULL.
     ///
     /// Complexity: O(1).
     pub fn map(&self) -> &Map {
@@ -54,7 +53,6 @@ impl Filter {
     //~ cairn_filter_local_map
     /// The landmarks of the open submap, in its frame; with a single map the same as
     /// [`Filter::map`](crate::Filter::map). The filter owns this map; it lives as long as the filter and follows it.
-    /// Fails only for NULL, and then returns NULL.
     ///
     /// Complexity: O(1).
     pub fn local_map(&self) -> &Map {
@@ -171,7 +169,7 @@ impl Filter {
 
     //~ cairn_filter_systematic_errors
     /// The estimates of all components that are states, those of the motion first, then sensor by sensor in the order
-    /// of their calibration, each in the order of kinds and components. `*needed` is their number.
+    /// of their calibration, each in the order of kinds and components. `needed` is their number.
     ///
     /// Complexity: O(1).
     ///

@@ -80,18 +80,13 @@ impl Filter {
     }
 
     //~ cairn_filter_add_custom
-    /// Adds a sensor of the caller's own. `predict` is required. `place` NULL: this sensor places no landmarks, it only
-    /// observes landmarks that other sensors placed. It must be NULL if rows \< 3 (planar: 2), because such an
-    /// observation does not determine a position. `user` is passed to both functions, which run inside
-    /// [`Filter::update`](crate::Filter::update). They must not call the same filter, and no exception and no longjmp
-    /// may leave them. `release` (or NULL) gets `user` when the filter is destroyed. If this call fails, `user` stays
-    /// the caller's.
+    /// Adds a sensor of the caller's own. `predict` is required.
     ///
     /// Complexity: O(1).
     ///
     //~
-    /// In Rust the functions are closures. [`Filter::add_custom_observer`] adds a sensor without `place`. Use
-    /// [`Custom::check`] to test the Jacobians.
+    /// In Rust the functions are closures, which run inside [`Filter::update`]. A sensor of fewer than 3 values (planar:
+    /// 2) cannot place a landmark: add it by [`Filter::add_custom_observer`]. [`Custom::check`] tests the Jacobians.
     //~ errors
     ///
     /// # Errors
@@ -228,8 +223,8 @@ impl Custom {
     //~ cairn_custom_check
     /// Compares a custom sensor's Jacobians with central differences on the manifold, at one pose and landmark. `worst`
     /// gets the largest difference; each difference is relative to max(1, |numerical value|). A correct Jacobian gives
-    /// about 1e-6 or less. If `place` is not NULL, it is checked at the observation that `predict` gives: its
-    /// Jacobians, and that it returns to the landmark. `relative` is not checked. `user` is passed to both functions.
+    /// about 1e-6 or less. If `place` is given, it is checked at the observation that `predict` gives: its Jacobians,
+    /// and that it returns to the landmark. `relative` is not checked.
     ///
     /// Complexity: O(1).
     ///

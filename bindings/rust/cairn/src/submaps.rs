@@ -66,7 +66,7 @@ impl Filter {
 
     //~ cairn_filter_submap
     /// A closed submap, counted from 0: the pose of its origin in the map as known now (dense: as known at its
-    /// closing), and the ids of its landmarks in the order in which they were placed. `base` may be NULL.
+    /// closing), and the ids of its landmarks in the order in which they were placed.
     ///
     /// Complexity: O(landmarks of the submap).
     ///
@@ -91,8 +91,8 @@ impl Filter {
     }
 
     //~ cairn_filter_local_pose
-    /// Pose of the body in the open submap, and the covariance of its error \[dp; dtheta\] (6x6 row-major); each may be
-    /// NULL. With a single map: in the map.
+    /// Pose of the body in the open submap, and the covariance of its error \[dp; dtheta\] (6x6 row-major). With a
+    /// single map: in the map.
     ///
     /// Complexity: O(1).
     ///
@@ -105,8 +105,8 @@ impl Filter {
     }
 
     //~ cairn_filter_base_pose
-    /// Pose of the open submap's origin in the map, and the covariance of its error \[dp; dtheta\] (6x6 row-major);
-    /// each may be NULL. With a single map: identity and zero.
+    /// Pose of the open submap's origin in the map, and the covariance of its error \[dp; dtheta\] (6x6 row-major).
+    /// With a single map: identity and zero.
     ///
     /// Complexity: O(1).
     ///
@@ -119,8 +119,8 @@ impl Filter {
     }
 
     //~ cairn_filter_keep_pose
-    /// Keeps the pose of the body now, as an update does: for a step in which nothing was observed. `number` (or NULL)
-    /// gets the number of the pose.
+    /// Keeps the pose of the body now, as an update does: for a step in which nothing was observed. `number` gets the
+    /// number of the pose.
     ///
     /// Complexity: O(1); allocates nothing.
     ///
@@ -136,8 +136,8 @@ impl Filter {
     }
 
     //~ cairn_filter_trajectory_range
-    /// The numbers of the poses that are kept: from `*first` up to but not including `*end`. `*end` is the number of
-    /// poses so far. Each may be NULL.
+    /// The numbers of the poses that are kept: from `first` up to but not including `end`. `end` is the number of poses
+    /// so far.
     ///
     /// Complexity: O(1).
     ///

@@ -21,12 +21,11 @@ unsafe impl Sync for Team {}
 
 impl Team {
     //~ cairn_team_create
-    /// Creates a vehicle's view of its team. The caller destroys it with [`Team::drop`](crate::Team::drop). `filter`
-    /// holds the options of the filter that the team runs: `vehicle` must be
-    /// [`Vehicle::PLANAR`](crate::Vehicle::PLANAR), `initial_pose` is the start of this vehicle in the frame of the
-    /// team, and `submap_landmarks` must be greater than 0 in mode [`TeamMode::SUBMAPS`](crate::TeamMode::SUBMAPS) and
-    /// 0 in all other modes. `radar` is the sensor of all vehicles. With extended observations it must be mounted at
-    /// the body's origin. On an error `*team` is not written.
+    /// Creates a vehicle's view of its team. `filter` holds the options of the filter that the team runs: `vehicle`
+    /// must be [`Vehicle::PLANAR`](crate::Vehicle::PLANAR), `initial_pose` is the start of this vehicle in the frame of
+    /// the team, and `submap_landmarks` must be greater than 0 in mode [`TeamMode::SUBMAPS`](crate::TeamMode::SUBMAPS)
+    /// and 0 in all other modes. `radar` is the sensor of all vehicles. With extended observations it must be mounted
+    /// at the body's origin.
     ///
     /// Complexity: O(memory).
     ///
@@ -60,10 +59,10 @@ impl Team {
     }
 
     //~ cairn_team_add
-    /// Adds a teammate. `start` is its pose before its first packet, and `covariance` (6x6; NULL: known exactly) the
-    /// covariance of the error of `start`. Both must be the values that the teammate itself starts with. `start` NULL:
-    /// the start is unknown. It is solved from the first mutual sighting, at one time, between the teammate and a
-    /// vehicle whose pose is known. Modes with extended observations need no start.
+    /// Adds a teammate. `start` is its pose before its first packet, and `covariance` (6x6; `None`: known exactly) the
+    /// covariance of the error of `start`. Both must be the values that the teammate itself starts with. `start`
+    /// `None`: the start is unknown. It is solved from the first mutual sighting, at one time, between the teammate and
+    /// a vehicle whose pose is known. Modes with extended observations need no start.
     ///
     /// Complexity: O(n).
     ///
@@ -137,8 +136,8 @@ impl Team {
     }
 
     //~ cairn_team_predict_twist
-    /// Moves this vehicle by its body velocity (m/s) and body rate (rad/s) over `dt` seconds (> 0). `noise` NULL: that
-    /// of [`TwistNoise::default`](crate::TwistNoise::default).
+    /// Moves this vehicle by its body velocity (m/s) and body rate (rad/s) over `dt` seconds (> 0). `noise` `None`:
+    /// that of [`TwistNoise::default`](crate::TwistNoise::default).
     ///
     /// Complexity: O(1).
     ///
@@ -229,7 +228,7 @@ impl Team {
 
     //~ cairn_team_take_packet
     /// Takes the next packet that is to be sent to all teammates: a step of this vehicle, a repetition that a teammate
-    /// asked for, or a request for missing packets. `*needed` gets its size in bytes, 0 if there is no packet. The
+    /// asked for, or a request for missing packets. `needed` gets its size in bytes, 0 if there is no packet. The
     /// packet leaves the queue when it was copied. Own steps wait until they are taken. A packet that was asked for
     /// waits once, however often it was asked for, and so does the request to each teammate: beside own steps the queue
     /// holds at most `history` repetitions and `max_vehicles` requests.
@@ -278,9 +277,8 @@ impl Team {
     }
 
     //~ cairn_team_receive
-    /// Receives a packet of a teammate. Packets may come late, repeatedly and in any order. `result` (or NULL) gets one
-    /// of the `CAIRN_PACKET_` constants. A refused packet is counted and changes nothing; the call succeeds all the
-    /// same.
+    /// Receives a packet of a teammate. Packets may come late, repeatedly and in any order. `result` gets one of the
+    /// `CAIRN_PACKET_` constants. A refused packet is counted and changes nothing; the call succeeds all the same.
     ///
     /// Complexity: O(n^2 m) for n states and m rows of each packet that has its turn.
     ///
@@ -298,9 +296,9 @@ impl Team {
     }
 
     //~ cairn_team_pose
-    /// Pose of a vehicle of the team, and the covariance of its error \[dp; dtheta\] (6x6 row-major); each may be NULL.
-    /// The own pose is the present one: it includes the motions of own steps that still wait for teammates, but not
-    /// their scans. The pose of a teammate is that of its last packet that is part of the estimate; only the modes
+    /// Pose of a vehicle of the team, and the covariance of its error \[dp; dtheta\] (6x6 row-major). The own pose is
+    /// the present one: it includes the motions of own steps that still wait for teammates, but not their scans. The
+    /// pose of a teammate is that of its last packet that is part of the estimate; only the modes
     /// [`TeamMode::JOINT`](crate::TeamMode::JOINT) and [`TeamMode::SUBMAPS`](crate::TeamMode::SUBMAPS) have it.
     ///
     /// Complexity: O(own motions that wait for teammates).
@@ -317,7 +315,7 @@ impl Team {
     //~ cairn_team_pose_nees
     /// Normalised estimation error squared (NEES) of this vehicle's pose against the true pose, in the error
     /// coordinates of the filter. The pose is the one that [`Team::pose`](crate::Team::pose) returns. A consistent
-    /// filter has 3 on average. On an error `*nees` is not written.
+    /// filter has 3 on average.
     ///
     /// Complexity: O(own motions that wait for teammates).
     ///
@@ -332,8 +330,7 @@ impl Team {
     }
 
     //~ cairn_team_map
-    /// The team's map. The team owns this map; it lives as long as the team and follows it. Fails only for NULL, and
-    /// then returns NULL.
+    /// The team's map. The team owns this map; it lives as long as the team and follows it.
     ///
     /// Complexity: O(1).
     pub fn map(&self) -> &Map {

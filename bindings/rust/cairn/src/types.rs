@@ -22,9 +22,9 @@ pub struct Status(
 impl Status {
     /// success
     pub const OK: Status = Status(0);
-    /// an argument is NULL, not finite, out of range or not a covariance
+    /// an argument is `None`, not finite, out of range or not a covariance
     pub const ERROR_ARGUMENT: Status = Status(-1);
-    /// the caller's buffer is too short; `*needed` holds the size that is necessary
+    /// the caller's buffer is too short; `needed` holds the size that is necessary
     pub const ERROR_BUFFER: Status = Status(-2);
     /// a capacity set at creation is exhausted (landmarks, observations, sensors)
     pub const ERROR_CAPACITY: Status = Status(-3);
@@ -775,9 +775,10 @@ impl fmt::Debug for FleetLayout {
     }
 }
 
-/// Pose of a frame b in a frame a: `p_a = R(quaternion) p_b + position`. SI units, Hamilton quaternion, w first. The
-/// error of a pose is `[dp; dtheta]` (m, rad), both in the axes of the parent frame a: `position_true = position + dp`,
-/// `R_true = Exp(dtheta) R`. Every 6x6 covariance of a pose in this interface is the covariance of this error,
+/// Pose of a frame b in a frame a: `p_a = R(quaternion) p_b + position`. SI units, Hamilton quaternion, w first.
+///
+/// The error of a pose is `[dp; dtheta]` (m, rad), both in the axes of the parent frame a: `position_true = position +
+/// dp`, `R_true = Exp(dtheta) R`. Every 6x6 covariance of a pose in this interface is the covariance of this error,
 /// row-major. Layout frozen.
 #[derive(Clone, Debug, PartialEq, Copy)]
 #[repr(C)]
@@ -1108,6 +1109,7 @@ impl Default for TwistNoise {
 }
 
 /// Stereo head on a pan and tilt mount (Mars paper, Figures 2 and 3, eq. 4). It observes range, azimuth and elevation.
+///
 /// A point `m_c` of the camera frame (x out of the lens, y left, z up) lies in the body frame at `m_b = d + Rz(pan)
 /// Ry(stick) (s + R(q) m_c)`. The platform stands at `d`. It turns by `pan` about its z axis, and by `stick` about the
 /// bolt, which is its y axis. The stick carries the camera at `s`, turned by `q`. The observation is `z = (range,
@@ -2907,7 +2909,8 @@ fn debug_value<T: PartialEq + fmt::Display>(
 }
 
 fn debug_bits(f: &mut fmt::Formatter<'_>, name: &str, value: u32, constants: &[(u32, &str)]) -> fmt::Result {
-    let set: Vec<&str> = constants.iter().filter(|constant| value & constant.0 != 0).map(|constant| constant.1).collect();
+    let set = constants.iter().filter(|constant| value & constant.0 != 0).map(|constant| constant.1);
+    let set: Vec<&str> = set.collect();
     write!(f, "{name}({})", set.join(" | "))
 }
 
@@ -2924,10 +2927,14 @@ mod layout {
         let (memory, c) = (MaybeUninit::<Pose>::uninit(), MaybeUninit::<sys::cairn_pose>::uninit());
         let (start, c) = (memory.as_ptr(), c.as_ptr());
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).position) as usize, addr_of!((*c).position) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).position) as usize, addr_of!((*c).position) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).quaternion) as usize, addr_of!((*c).quaternion) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).quaternion) as usize, addr_of!((*c).quaternion) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
     }
 
@@ -2938,16 +2945,24 @@ mod layout {
         let (memory, c) = (MaybeUninit::<Landmark>::uninit(), MaybeUninit::<sys::cairn_landmark>::uninit());
         let (start, c) = (memory.as_ptr(), c.as_ptr());
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).id) as usize, addr_of!((*c).id) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).id) as usize, addr_of!((*c).id) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).observations) as usize, addr_of!((*c).observations) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).observations) as usize, addr_of!((*c).observations) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).position) as usize, addr_of!((*c).position) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).position) as usize, addr_of!((*c).position) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).covariance) as usize, addr_of!((*c).covariance) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).covariance) as usize, addr_of!((*c).covariance) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
     }
 
@@ -2958,13 +2973,19 @@ mod layout {
         let (memory, c) = (MaybeUninit::<Observation>::uninit(), MaybeUninit::<sys::cairn_observation>::uninit());
         let (start, c) = (memory.as_ptr(), c.as_ptr());
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).id) as usize, addr_of!((*c).id) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).id) as usize, addr_of!((*c).id) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).z) as usize, addr_of!((*c).z) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).z) as usize, addr_of!((*c).z) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).covariance) as usize, addr_of!((*c).covariance) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).covariance) as usize, addr_of!((*c).covariance) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
     }
 
@@ -2975,19 +2996,29 @@ mod layout {
         let (memory, c) = (MaybeUninit::<Match>::uninit(), MaybeUninit::<sys::cairn_match>::uninit());
         let (start, c) = (memory.as_ptr(), c.as_ptr());
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).landmark) as usize, addr_of!((*c).landmark) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).landmark) as usize, addr_of!((*c).landmark) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).result) as usize, addr_of!((*c).result) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).result) as usize, addr_of!((*c).result) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).reason) as usize, addr_of!((*c).reason) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).reason) as usize, addr_of!((*c).reason) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).distance) as usize, addr_of!((*c).distance) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).distance) as usize, addr_of!((*c).distance) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).threshold) as usize, addr_of!((*c).threshold) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).threshold) as usize, addr_of!((*c).threshold) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
     }
 
@@ -2999,25 +3030,39 @@ mod layout {
         let (memory, c) = (MaybeUninit::<WorldMotion>::uninit(), MaybeUninit::<sys::cairn_world_motion>::uninit());
         let (start, c) = (memory.as_ptr(), c.as_ptr());
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).dt) as usize, addr_of!((*c).dt) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).dt) as usize, addr_of!((*c).dt) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).velocity) as usize, addr_of!((*c).velocity) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).velocity) as usize, addr_of!((*c).velocity) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).rate) as usize, addr_of!((*c).rate) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).rate) as usize, addr_of!((*c).rate) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).wheels) as usize, addr_of!((*c).wheels) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).wheels) as usize, addr_of!((*c).wheels) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).true_velocity) as usize, addr_of!((*c).true_velocity) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).true_velocity) as usize, addr_of!((*c).true_velocity) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).true_rate) as usize, addr_of!((*c).true_rate) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).true_rate) as usize, addr_of!((*c).true_rate) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).true_wheels) as usize, addr_of!((*c).true_wheels) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).true_wheels) as usize, addr_of!((*c).true_wheels) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
     }
 
@@ -3029,13 +3074,19 @@ mod layout {
         let (memory, c) = (MaybeUninit::<FleetSighting>::uninit(), MaybeUninit::<sys::cairn_fleet_sighting>::uninit());
         let (start, c) = (memory.as_ptr(), c.as_ptr());
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).id) as usize, addr_of!((*c).id) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).id) as usize, addr_of!((*c).id) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).range) as usize, addr_of!((*c).range) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).range) as usize, addr_of!((*c).range) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).bearing) as usize, addr_of!((*c).bearing) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).bearing) as usize, addr_of!((*c).bearing) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
     }
 
@@ -3047,25 +3098,39 @@ mod layout {
         let (memory, c) = (MaybeUninit::<FleetVehicle>::uninit(), MaybeUninit::<sys::cairn_fleet_vehicle>::uninit());
         let (start, c) = (memory.as_ptr(), c.as_ptr());
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).speed) as usize, addr_of!((*c).speed) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).speed) as usize, addr_of!((*c).speed) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).rate) as usize, addr_of!((*c).rate) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).rate) as usize, addr_of!((*c).rate) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).x) as usize, addr_of!((*c).x) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).x) as usize, addr_of!((*c).x) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).y) as usize, addr_of!((*c).y) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).y) as usize, addr_of!((*c).y) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).heading) as usize, addr_of!((*c).heading) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).heading) as usize, addr_of!((*c).heading) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).feature_count) as usize, addr_of!((*c).feature_count) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).feature_count) as usize, addr_of!((*c).feature_count) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
         // SAFETY: only addresses are computed.
-        let (rust, other) = unsafe { (addr_of!((*start).vehicle_count) as usize, addr_of!((*c).vehicle_count) as usize) };
+        let (rust, other) = unsafe {
+            (addr_of!((*start).vehicle_count) as usize, addr_of!((*c).vehicle_count) as usize)
+        };
         assert_eq!(rust - start as usize, other - c as usize);
     }
 }

@@ -22,8 +22,8 @@ impl Observation {
 impl Filter {
     //~ cairn_filter_update
     /// Updates the filter by one frame of one sensor. The observations of known landmarks update the state together. An
-    /// observation with an unknown id places a new landmark, with all its correlations. `matches` (room for `count`, or
-    /// NULL) gets the match of each observation. `count` may be 0. Allocates nothing.
+    /// observation with an unknown id places a new landmark, with all its correlations. `matches` (room for `count`)
+    /// gets the match of each observation. `count` may be 0. Allocates nothing.
     ///
     /// Complexity: O(n^2 m) for n states and m rows.
     ///
@@ -67,12 +67,11 @@ impl Filter {
 
     //~ cairn_filter_update_linear
     /// Updates the filter by an observation that the caller has linearised: `residual = z - h` (rows values),
-    /// `covariance` of the noise (rows x rows), `jacobian_pose` = dh/\[dp; dtheta\] (rows x 6, NULL for zero) and
+    /// `covariance` of the noise (rows x rows), `jacobian_pose` = dh/\[dp; dtheta\] (rows x 6, `None` for zero) and
     /// `jacobian_landmarks` = dh/d positions (rows x 3 count, columns in the order of `landmarks`); all row-major. With
     /// submaps, pose and landmarks are those of the open submap, in its frame. The observation is gated as one of that
-    /// many rows (gate_probability) and is not iterated. `match` (or NULL) gets the match; its landmark is the first
-    /// one, or [`ID_NONE`](crate::ID_NONE). rows is 1 to 3 max_observations (planar: 2), count at most
-    /// max_observations.
+    /// many rows (gate_probability) and is not iterated. `match` gets the match; its landmark is the first one, or
+    /// [`ID_NONE`](crate::ID_NONE). rows is 1 to 3 max_observations (planar: 2), count at most max_observations.
     ///
     /// Complexity: O(n^2 rows).
     ///
@@ -122,7 +121,7 @@ impl Filter {
 
     //~ cairn_filter_update_position
     /// Updates the filter by an absolute position (GNSS): `z = p + R lever_arm` in the map frame, m; 3x3 `covariance`,
-    /// positive definite. `lever_arm` (body frame, m) may be NULL: zero. `match` (or NULL) gets the match.
+    /// positive definite. `lever_arm` (body frame, m) may be `None`: zero. `match` gets the match.
     ///
     /// Complexity: O(n^2).
     ///
@@ -145,7 +144,7 @@ impl Filter {
 
     //~ cairn_filter_update_attitude
     /// Updates the filter by an absolute attitude (star tracker): quaternion w x y z from body to map; 3x3 `covariance`
-    /// (rad^2, positive definite) of its error dtheta in the map's axes. `match` (or NULL) gets the match.
+    /// (rad^2, positive definite) of its error dtheta in the map's axes. `match` gets the match.
     ///
     /// Complexity: O(n^2).
     ///
@@ -164,7 +163,7 @@ impl Filter {
     /// Updates the filter by an absolute heading (sun sensor, compass): the yaw of the body's x axis in the map, rad,
     /// with its standard deviation (> 0). A tilted body adds noise of second order (docs/sensors.md). The heading is
     /// refused ([`Reason::NO_IMAGE`](crate::Reason::NO_IMAGE)) if the x axis is within three standard deviations of the
-    /// tilt of the vertical. `match` (or NULL) gets the match.
+    /// tilt of the vertical. `match` gets the match.
     ///
     /// Complexity: O(n^2).
     ///
@@ -196,7 +195,7 @@ impl Filter {
     //~ cairn_filter_merge_landmarks
     /// Merges two landmarks of the open submap, or of the single map, that are in truth one. The filter observes that
     /// their difference is zero; this observation is gated like any other (gate_probability). If it passes, `other` is
-    /// removed, and `id` stays with the observations of both. `match` (or NULL) gets the match.
+    /// removed, and `id` stays with the observations of both. `match` gets the match.
     ///
     /// Complexity: O(n^2).
     ///

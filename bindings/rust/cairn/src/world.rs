@@ -19,7 +19,7 @@ unsafe impl Sync for World {}
 
 impl WorldOptions {
     //~ cairn_world_options_preset
-    /// `submap_landmarks` (or NULL) gets the size of submaps that belongs to the preset: 40, or 20 for rows 3 and 4.
+    /// `submap_landmarks` gets the size of submaps that belongs to the preset: 40, or 20 for rows 3 and 4.
     ///
     /// Complexity: O(1).
     ///
@@ -39,8 +39,7 @@ impl WorldOptions {
 
 impl World {
     //~ cairn_world_create
-    /// Creates a world before its first step. The caller destroys it with [`World::drop`](crate::World::drop). Options
-    /// of an older or a newer header are used as far as both sides know them. On an error `*world` is not written.
+    /// Creates a world before its first step.
     ///
     /// Complexity: O(n log n) for n landmarks; memory: 40 bytes for each landmark.
     ///
