@@ -513,6 +513,10 @@ def main():
     differing = [path for path, text in files.items() if not path.exists() or path.read_text() != text]
     have = implemented(api, methods)
     missing = bindings_check.missing(api.json, have) + bindings_check.unknown(api.json, have)
+    for crate in ("cairn-sys", "cairn"):
+        manifest = HERE / crate / "Cargo.toml"
+        if f'\nversion = "{api.json["version"]}"\n' not in manifest.read_text():
+            sys.exit(f"{manifest}: the version of the package is not {api.json['version']}, that of the interface")
     if arguments.check:
         for path in differing:
             print(f"{path.relative_to(HERE)} is not what generate.py writes", file=sys.stderr)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Tests the crates: test.sh [BUILD_DIR]. BUILD_DIR (build/check of the project by default) holds the built library in lib
-# and the C replayer bin/cairn_conformance. Installs Debian's Rust if there is none. Everything that is built goes to
+# Tests the crates: test.sh [BUILD_DIR]. BUILD_DIR (build/check of the project by default) holds the built library in
+# lib and the C replayer bin/cairn_conformance. Installs Debian's Rust if there is none. Everything that is built goes to
 # BUILD_DIR/bindings/rust; the crates need no network.
 set -euo pipefail
 here=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
@@ -10,7 +10,7 @@ build=$(CDPATH='' cd -- "${1:-$root/build/check}" && pwd -P)
 work=$build/bindings/rust
 mkdir -p "$work"
 
-need_packages cargo=cargo rustc=rustc rust-clippy=cargo-clippy rustfmt=cargo-fmt gcc=cc python3=python3
+need_packages pkgconf=pkg-config cargo=cargo rustc=rustc rust-clippy=cargo-clippy rustfmt=cargo-fmt gcc=cc python3=python3
 
 export CAIRN_LIBRARY_DIR=$build/lib LD_LIBRARY_PATH=$build/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 export CARGO_TARGET_DIR=$work/target CARGO_NET_OFFLINE=true CARGO_INCREMENTAL=0
@@ -41,7 +41,8 @@ cargo clippy --locked --package cairn --no-default-features --quiet -- -D warnin
 RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps --package cairn-sys --package cairn --quiet
 
 say "Tests, with the conformance scenarios to the last bit"
-[[ -x $build/bin/cairn_conformance ]] || fail "$build/bin/cairn_conformance is missing: build the target cairn_conformance"
+[[ -x $build/bin/cairn_conformance ]] ||
+  fail "$build/bin/cairn_conformance is missing: build the target cairn_conformance"
 mkdir -p "$work/conformance"
 "$build/bin/cairn_conformance" "$root/tests/conformance" "$work/conformance" >"$work/conformance.log" 2>&1 ||
   fail "the C replayer failed: see $work/conformance.log"
@@ -81,14 +82,14 @@ rover=$work/fresh-target/debug/rover
 mkdir -p "$work/none" "$work/old"
 touch "$work/old/libcairn.so" "$work/old/libcairn.so.0.1" "$work/old/libcairn_sim.so"
 sys=(cargo check --locked --package cairn-sys --quiet)
-refuses "cairn-sys 0.2.0 needs libcairn 0.2, but $work/none holds no libcairn" \
-  env CAIRN_LIBRARY_DIR="$work/none" "${sys[@]}"
-refuses "cairn-sys 0.2.0 needs libcairn 0.2, but $work/old holds libcairn 0.1" env CAIRN_LIBRARY_DIR="$work/old" "${sys[@]}"
-refuses 'cairn-sys 0.2.0 needs libcairn 0.2, but pkg-config finds no cairn' \
+needs="$version needs libcairn ${version%.*}"
+refuses "cairn-sys $needs, but $work/none holds no libcairn" env CAIRN_LIBRARY_DIR="$work/none" "${sys[@]}"
+refuses "cairn-sys $needs, but $work/old holds libcairn 0.1" env CAIRN_LIBRARY_DIR="$work/old" "${sys[@]}"
+refuses "cairn-sys $needs, but pkg-config finds no cairn" \
   env -u CAIRN_LIBRARY_DIR PKG_CONFIG_LIBDIR="$work/none" "${sys[@]}"
-refuses 'libcairn.so.0.2' env LD_LIBRARY_PATH="$work/none" "$rover"
+refuses "libcairn.so.${version%.*}" env LD_LIBRARY_PATH="$work/none" "$rover"
 echo 'unsigned cairn_version_number(void) { return 100; }' | cc -shared -fPIC -x c - -o "$work/old/version.so"
-refuses 'the crate cairn 0.2.0 needs libcairn 0.2, but libcairn 0.1.0 is loaded' \
+refuses "the crate cairn $needs, but libcairn 0.1.0 is loaded" \
   env LD_PRELOAD="$work/old/version.so" "$rover"
 
 [[ $(sources) == "$before" ]] || fail "the tests changed the sources: $(sources)"

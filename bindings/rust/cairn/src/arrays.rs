@@ -5,8 +5,8 @@ use crate::{Error, Status};
 use cairn_sys as sys;
 use std::mem::MaybeUninit;
 
-/// Fills a `Vec` by a query, in the memory that the `Vec` has. Only if that is too short, more is taken and the query is
-/// made again. `T` has the layout of the library's element.
+/// Fills a `Vec` by a query, in the memory that the `Vec` has. Only if that is too short, more is taken and the query
+/// is made again. `T` has the layout of the library's element.
 pub(crate) fn fill<T>(
     buffer: &mut Vec<T>,
     query: impl Fn(*mut T, usize, *mut usize, *mut sys::cairn_error) -> sys::cairn_status,

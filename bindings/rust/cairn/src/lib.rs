@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! Landmark SLAM. A vehicle tells a [`Filter`] how it moved and where it saw landmarks. The filter returns the vehicle's
-//! pose, a [`Map`] of the landmarks, and covariances that say how far to trust both.
+//! Landmark SLAM. A vehicle tells a [`Filter`] how it moved and where it saw landmarks. The filter returns the
+//! vehicle's pose, a [`Map`] of the landmarks, and covariances that say how far to trust both.
 //!
 //! ```
 //! # #[cfg(feature = "sim")]
@@ -32,15 +32,16 @@
 //! # fn main() {}
 //! ```
 //!
-//! - **Errors**: every call that can fail returns a [`Result`]. An [`Error`] has a [`Status`] and the library's message.
-//!   A call that fails changes nothing. A refused observation is not an error: its [`Match`] reports the refusal.
-//! - **Threads**: handles are `Send` and `Sync`. Changes take `&mut self`, queries `&self`, so the compiler refuses what
-//!   the library does not allow.
-//! - **Memory**: a handle is freed when it is dropped; `close` does the same by name. A map of a filter is borrowed from
-//!   the filter; [`Map::copy`] makes one that stays.
+//! - **Errors**: every call that can fail returns a [`Result`]. An [`Error`] has a [`Status`] and the library's
+//!   message. A call that fails changes nothing. A refused observation is not an error: its [`Match`] reports the
+//!   refusal.
+//! - **Threads**: handles are `Send` and `Sync`. Changes take `&mut self`, queries `&self`, so the compiler refuses
+//!   what the library does not allow.
+//! - **Memory**: a handle is freed when it is dropped; `close` does the same by name. A map of a filter is borrowed
+//!   from the filter; [`Map::copy`] makes one that stays.
 //! - **Ids** of landmarks are `u64`. Every value except [`ID_NONE`] is allowed.
-//! - **Arrays**: slices go in. Queries return a `Vec`, or fill a `Vec` of the caller (`..._into`), whose memory they use
-//!   again. Matrices are row-major.
+//! - **Arrays**: slices go in. Queries return a `Vec`, or fill a `Vec` of the caller (`..._into`), whose memory they
+//!   use again. Matrices are row-major.
 //! - **Constants** are values of small types ([`Join::SPARSE`]). A newer library may return a value that has no name
 //!   here, so a `match` needs a last arm `_`.
 //! - **Callbacks** are closures. An error that a closure returns aborts the call and becomes the

@@ -85,8 +85,8 @@ impl Filter {
     /// Complexity: O(1).
     ///
     //~
-    /// In Rust the functions are closures, which run inside [`Filter::update`]. A sensor of fewer than 3 values (planar:
-    /// 2) cannot place a landmark: add it by [`Filter::add_custom_observer`]. [`Custom::check`] tests the Jacobians.
+    /// In Rust the functions are closures, which run inside [`Filter::update`]. A sensor of fewer than 3 values
+    /// (planar: 2) cannot place a landmark: add it by [`Filter::add_custom_observer`]. [`Custom::check`] tests the Jacobians.
     //~ errors
     ///
     /// # Errors

@@ -99,7 +99,7 @@ fn main() -> Result<()> {
     let microseconds = [0, 1].map(|i| 1e6 * median(&mut medians.iter().map(|frame| frame[i]).collect::<Vec<_>>()));
     let ratio = median(&mut medians.iter().map(|frame| frame[1] / frame[0]).collect::<Vec<_>>());
     println!(
-        "one update: C {:.2} us, Rust {:.2} us; Rust over C {:+.2} % (median of {} frames, each the median of {ROUNDS} rounds)",
+        "one update: C {:.2} us, Rust {:.2} us; Rust over C {:+.2} %; median of {} frames, each of {ROUNDS} rounds",
         microseconds[0],
         microseconds[1],
         100.0 * (ratio - 1.0),
