@@ -8,7 +8,7 @@ static void options_defaults(void** state) {
   memset(&o, 0x5a, sizeof o);
   assert_ok(cairn_filter_options_init(&o, sizeof o, NULL));
   assert_int_equal(o.struct_size, sizeof o);
-  assert_int_equal(o.error, CAIRN_STATE_ERROR_INVARIANT);
+  assert_int_equal(o.state_error, CAIRN_STATE_ERROR_INVARIANT);
   assert_int_equal(o.max_landmarks, 1000);
   assert_int_equal(o.max_observations, 64);
   assert_int_equal(o.max_sensors, 8);
@@ -80,7 +80,7 @@ static void options_out_of_range_are_refused_one_by_one(void** state) {
   static const int32_t errors[] = {-1, 2, INT32_MIN, INT32_MAX};
   for (size_t n = 0; n < LENGTH(errors); ++n) {
     cairn_filter_options o = good;
-    o.error = errors[n];
+    o.state_error = errors[n];
     refuse_options(&o, "error");
   }
   const double bad[] = {NAN, INFINITY, -INFINITY, 0, -0.5, 1.0000001};
@@ -179,7 +179,7 @@ static void options_of_other_versions_work(void** state) {
   assert_ok(cairn_filter_options_init(&old, known, NULL));
   exact.max_landmarks = old.max_landmarks = WORLD_LANDMARKS;
   exact.max_sensors = old.max_sensors = SENSORS;
-  memset(&future, 0xff, sizeof future);
+  memset(&future, 0, sizeof future); /* what this library does not know must be zero */
   future.now = exact;
   future.now.struct_size = sizeof future;
   const cairn_filter_options* all[] = {&exact, &old, &future.now};
