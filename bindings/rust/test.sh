@@ -69,8 +69,14 @@ for crate in cairn-sys cairn; do
   printf '[source.crates-io]\nreplace-with = "packages"\n[source.packages]\ndirectory = "%s"\n' \
     "$work/packages" >"$work/home/config.toml"
 done
+# The library is found as an installed one is: by pkg-config, whose files name the folder of the library here.
+mkdir -p "$work/pkgconfig"
+for module in cairn cairn-sim; do
+  sed "s|^libdir=.*|libdir=$build/lib|" "$build/$module.pc" >"$work/pkgconfig/$module.pc"
+done
 (
-  export CARGO_HOME=$work/home CARGO_TARGET_DIR=$work/fresh-target
+  export CARGO_HOME=$work/home CARGO_TARGET_DIR=$work/fresh-target PKG_CONFIG_PATH=$work/pkgconfig
+  unset CAIRN_LIBRARY_DIR
   cargo new --quiet --vcs none --name rover "$work/fresh"
   cd "$work/fresh"
   cargo add --quiet cairn
