@@ -10,10 +10,16 @@ install(FILES ${PROJECT_SOURCE_DIR}/src/api/api.json DESTINATION ${CMAKE_INSTALL
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 
-# The loader looks here first if the machine supports it. Nobody links against this library, so it has no libcairn.so.
+if(CAIRN_STATIC)
+  install(TARGETS cairn_static cairn_sim_static EXPORT cairnTargets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+endif()
+
+# The loader looks here first if the machine supports it. The linker never does, but a program may open libcairn.so by
+# that name at run time: without a link of this name here it would get the slower build.
 if(TARGET cairn_v3)
   install(TARGETS cairn_v3 LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/x86-64-v3 COMPONENT runtime
-          NAMELINK_SKIP)
+          NAMELINK_COMPONENT development)
 endif()
 
 # The relative path from a directory under the prefix back to the prefix, so that the installed tree can be moved as a
@@ -28,9 +34,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cairn)
 install(EXPORT cairnTargets NAMESPACE cairn:: DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/cairnConfig.cmake.in ${PROJECT_BINARY_DIR}/cairnConfig.cmake
                               INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
-# Before 1.0 a minor version may break compatibility: 0.1 does not satisfy a request for 0.2, and 0.2 does not satisfy
-# one for 0.1.
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/cairnConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/cairnConfigVersion.cmake.in ${PROJECT_BINARY_DIR}/cairnConfigVersion.cmake @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/cairnConfig.cmake ${PROJECT_BINARY_DIR}/cairnConfigVersion.cmake
         DESTINATION ${package_dir} COMPONENT development)
 
@@ -38,6 +42,9 @@ set(pkgconfig_dir ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
 cairn_path_between(${pkgconfig_dir} ${CMAKE_INSTALL_PREFIX} CAIRN_PC_PREFIX)
 cairn_path_between(${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR} CAIRN_PC_INCLUDEDIR)
 cairn_path_between(${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR} CAIRN_PC_LIBDIR)
+set(CAIRN_PC_LIBS_PRIVATE ${CAIRN_RUNTIME_LIBRARIES})
+list(TRANSFORM CAIRN_PC_LIBS_PRIVATE PREPEND -l)
+list(JOIN CAIRN_PC_LIBS_PRIVATE " " CAIRN_PC_LIBS_PRIVATE)
 foreach(name IN ITEMS cairn cairn-sim)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
