@@ -2116,7 +2116,8 @@ pub struct TeamOptions {
     /// a step that follows the one before it by more than this, s, > 0, is refused until the next one confirms it;
     /// default 60
     pub max_jump: f64,
-    /// packets of one teammate that can wait for their turn, 1 to 1000000; default 4096
+    /// packets of one teammate that can wait for their turn, 1 to 1000000; default 4096. The one that the others wait
+    /// for has room beside them
     pub max_waiting: u32,
     /// own packets that are kept for teammates that miss them, 1 to 1000000; default 1024
     pub history: u32,
