@@ -14,6 +14,7 @@
  *  - **Threads**: "one a handle" means that one thread at a time may use the handle. "any" means that any number of
  *    threads may call the function at the same time. "as any const query of the handle" means that several threads may
  *    call such functions on one handle at the same time, as long as no call changes this handle meanwhile.
+ *  - **Complexity** is O(1) where a function does not say otherwise.
  *  - **Matrices** are row-major arrays of `double`.
  *  - **The same inputs and the same build give the same bits.** No estimate and no decision depends on a clock, the
  *    environment or global state. A clock is read only to report durations: fields named `seconds` or `..._seconds`
@@ -28,8 +29,8 @@
  *  - **Types**: each set of constants has a type of its own (\ref cairn_join and its CAIRN_JOIN_ constants), which
  *    fields and parameters use. A \ref cairn_bool is 0 or 1. No public struct holds a pointer or hidden padding; sizes
  *    and offsets are the same on all supported machines.
- *  - **Arrays**: the caller gives a buffer and its capacity, and `*needed` gets the number of elements. A buffer that is
- *    too short gives CAIRN_ERROR_BUFFER. Capacity 0 asks for the number, with any pointer.
+ *  - **Arrays**: the caller gives a buffer and its capacity, and `*needed` gets the number of elements. A buffer that
+ *    is too short gives CAIRN_ERROR_BUFFER. Capacity 0 asks for the number, with any pointer.
  *  - **Callbacks** return 1 for an answer, 0 for none, and a negative value to abort the whole call, which then changes
  *    nothing. The library calls \ref cairn_release_fn when it does not use the caller's pointer any more. */
 #ifndef CAIRN_CAIRN_H

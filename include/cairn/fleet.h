@@ -30,7 +30,7 @@ typedef struct cairn_fleet cairn_fleet;
 
 /** Where the features are. Both layouts have the coast line, but the radars see only features. */
 typedef int32_t cairn_fleet_layout;
-enum {
+enum CAIRN_VALUES(cairn_fleet_layout) {
   CAIRN_FLEET_UNIFORM = 0, /**< uniform in the square, on both sides of the coast line; the default */
   CAIRN_FLEET_COAST = 1    /**< along the coast line, in a strip of width `coast_strip` south of it. The coast line
                                 runs north of the boats, from the western side of the square to the eastern side */
@@ -56,17 +56,21 @@ typedef struct cairn_fleet_options {
   double speed_sigma;    /**< difference between executed and commanded speed: white noise, one draw a period, m/s,
                               >= 0; default 0.2 (not in the paper) */
   double rate_sigma;     /**< the same for the rate of turn, rad/s, >= 0; default 0.1 degrees/s (not in the paper) */
+  CAIRN_UNIT(1)
   double coast_distance; /**< distance of the mean coast line north of the origin, as a share of `area`, (0, 0.5];
                               default 0.35 (not in the paper) */
+  CAIRN_UNIT(1)
   double coast_relief;   /**< largest deviation of the coast line from its mean, as a share of `area`, [0, 0.5 -
                               coast_distance]; default 0.05 (not in the paper) */
+  CAIRN_UNIT(1)
   double coast_strip;    /**< width of the strip of water that holds the features, as a share of `area`, [0, 0.5];
                               default 0.03 (not in the paper). Only CAIRN_FLEET_COAST uses it */
 } cairn_fleet_options;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_fleet_options_init(cairn_fleet_options *options, size_t struct_size, cairn_error *error);
+CAIRN_API cairn_status cairn_fleet_options_init(CAIRN_OUT cairn_fleet_options *options, size_t struct_size,
+                                                cairn_error *error);
 
 /** Creates a fleet before its first step. The caller destroys it with \ref cairn_fleet_destroy. Options of an older
  *  or a newer header are used as far as both sides know them. On an error `*fleet` is not written.
@@ -81,7 +85,7 @@ CAIRN_API cairn_status cairn_fleet_options_init(cairn_fleet_options *options, si
  *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY. Complexity: O(features). \since 0.1.0 */
 CAIRN_API cairn_status cairn_fleet_create(const cairn_fleet_options *options, cairn_fleet **fleet, cairn_error *error);
 
-/** Destroys a fleet. NULL is allowed. Threads: one a handle. \since 0.1.0 */
+/** Destroys a fleet. NULL is allowed. Threads: one a handle. Complexity: O(memory). \since 0.1.0 */
 CAIRN_API void cairn_fleet_destroy(cairn_fleet *fleet);
 
 /** Radar measurement of a feature or of a boat. Layout frozen. */
@@ -119,27 +123,28 @@ typedef struct cairn_fleet_step {
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (there are no more steps),
  *  CAIRN_ERROR_MEMORY (the next call returns the same step). Complexity: O(vehicles (features + vehicles)).
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_fleet_next(cairn_fleet *fleet, cairn_fleet_step *step, cairn_error *error);
+CAIRN_API cairn_status cairn_fleet_next(cairn_fleet *fleet, CAIRN_OUT cairn_fleet_step *step, cairn_error *error);
 
 /** The boats at the end of the last step, boat 1 first; none before the first step. Capacity 0 asks for their number.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. Complexity: O(n).
  *  \since 0.2.0 */
-CAIRN_API cairn_status cairn_fleet_vehicles(const cairn_fleet *fleet, cairn_fleet_vehicle *vehicles, size_t capacity,
+CAIRN_API cairn_status cairn_fleet_vehicles(const cairn_fleet *fleet,
+                                            CAIRN_OUT_ARRAY(capacity) cairn_fleet_vehicle *vehicles, size_t capacity,
                                             size_t *needed, cairn_error *error);
 
 /** The features that boat `vehicle` (counted from 1) measured in the last step, by ascending id; none before the first
  *  step. Capacity 0 asks for their number. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT,
  *  CAIRN_ERROR_NOT_FOUND (boat), CAIRN_ERROR_BUFFER. Complexity: O(n). \since 0.2.0 */
 CAIRN_API cairn_status cairn_fleet_seen_features(const cairn_fleet *fleet, uint64_t vehicle,
-                                                 cairn_fleet_sighting *features, size_t capacity, size_t *needed,
-                                                 cairn_error *error);
+                                                 CAIRN_OUT_ARRAY(capacity) cairn_fleet_sighting *features,
+                                                 size_t capacity, size_t *needed, cairn_error *error);
 
 /** The other boats that boat `vehicle` (counted from 1) measured in the last step, by ascending id; none before the
  *  first step. Capacity 0 asks for their number. Threads: as any const query of the handle. Errors:
  *  CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND (boat), CAIRN_ERROR_BUFFER. Complexity: O(n). \since 0.2.0 */
 CAIRN_API cairn_status cairn_fleet_seen_vehicles(const cairn_fleet *fleet, uint64_t vehicle,
-                                                 cairn_fleet_sighting *vehicles, size_t capacity, size_t *needed,
-                                                 cairn_error *error);
+                                                 CAIRN_OUT_ARRAY(capacity) cairn_fleet_sighting *vehicles,
+                                                 size_t capacity, size_t *needed, cairn_error *error);
 
 /** Goes back to before the first step. The same steps follow, bit for bit. Threads: one a handle. Errors:
  *  CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
@@ -147,19 +152,21 @@ CAIRN_API cairn_status cairn_fleet_rewind(cairn_fleet *fleet, cairn_error *error
 
 /** Number of steps: 1 plus the number of whole periods in the duration. Threads: as any const query of the
  *  handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_fleet_steps(const cairn_fleet *fleet, size_t *steps, cairn_error *error);
+CAIRN_API cairn_status cairn_fleet_steps(const cairn_fleet *fleet, CAIRN_OUT size_t *steps, cairn_error *error);
 
 /** True positions of all features, x y each, m; the feature with id 1 is the first. `capacity` and `*needed` count
  *  features; capacity 0 asks for their number. Threads: as any const query of the handle. Errors:
  *  CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. Complexity: O(n). \since 0.1.0 */
-CAIRN_API cairn_status cairn_fleet_features(const cairn_fleet *fleet, double *positions, size_t capacity,
-                                            size_t *needed, cairn_error *error);
+CAIRN_API cairn_status cairn_fleet_features(const cairn_fleet *fleet,
+                                            CAIRN_OUT_ARRAY(2 * capacity) CAIRN_UNIT(m) double *positions,
+                                            size_t capacity, size_t *needed, cairn_error *error);
 
 /** The coast line from west to east: a polyline, x y each, m. The land is north of it. `capacity` and `*needed` count
  *  points; capacity 0 asks for their number. Threads: as any const query of the handle.
  *  Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. Complexity: O(n). \since 0.1.0 */
-CAIRN_API cairn_status cairn_fleet_coast(const cairn_fleet *fleet, double *points, size_t capacity, size_t *needed,
-                                         cairn_error *error);
+CAIRN_API cairn_status cairn_fleet_coast(const cairn_fleet *fleet,
+                                         CAIRN_OUT_ARRAY(2 * capacity) CAIRN_UNIT(m) double *points, size_t capacity,
+                                         size_t *needed, cairn_error *error);
 
 #ifdef __cplusplus
 }

@@ -12,7 +12,7 @@ extern "C" {
 
 /** The verdict on a filter. */
 typedef int32_t cairn_verdict;
-enum {
+enum CAIRN_VALUES(cairn_verdict) {
   CAIRN_VERDICT_GOOD = 0,     /**< what is seen agrees with the estimate and with the stated noise */
   CAIRN_VERDICT_DOUBTFUL = 1, /**< something does not agree; the reasons say what */
   CAIRN_VERDICT_LOST = 2      /**< most of what is seen contradicts the estimate */
@@ -20,7 +20,7 @@ enum {
 
 /** The reasons of a verdict, one bit each. */
 typedef uint32_t cairn_doubts;
-enum {
+enum CAIRN_BITS(cairn_doubts) {
   CAIRN_DOUBT_NIS = 1,           /**< the normalised innovations of the window lie above their band */
   CAIRN_DOUBT_REFUSALS = 2,      /**< the gates refuse more than they refuse of honest observations */
   CAIRN_DOUBT_WIDENED = 4,       /**< the motion was widened, because most of what was seen contradicted it */
@@ -44,20 +44,33 @@ typedef struct cairn_health {
   uint32_t contradicting;    /**< landmarks of the last frame whose observations contradict the rest */
   uint32_t reserved;         /**< 0 */
   uint64_t updates;          /**< updates so far */
+  CAIRN_UNIT(1)
   double good_share;         /**< share of them with this verdict */
+  CAIRN_UNIT(1)
   double doubtful_share;     /**< the same */
+  CAIRN_UNIT(1)
   double lost_share;         /**< the same */
+  CAIRN_UNIT(1)
   double nis_per_row;        /**< normalised innovation squared of the window, for each row; 1 is expected */
+  CAIRN_UNIT(1)
   double nis_lower;          /**< its 95 % band: lower bound; 0 before the first row */
+  CAIRN_UNIT(1)
   double nis_upper;          /**< its 95 % band: upper bound; 0 before the first row */
+  CAIRN_UNIT(1)
   double refused_share;      /**< of the window's observations that were compared with known landmarks */
   uint64_t widenings;        /**< how often the motion was widened */
+  CAIRN_UNIT(1)
   double last_widening;      /**< amount of the last one; 0: none */
+  CAIRN_UNIT(1)
   double motion_scale;       /**< factor of the motion's stated standard deviations that explains what is seen */
+  CAIRN_UNIT(1)
   double motion_scale_sigma; /**< its standard deviation */
+  CAIRN_UNIT(1)
   double bias_sigmas;        /**< mean of the pose's corrections in the window, worst axis, over its standard
                                   deviation */
+  CAIRN_UNIT(1)
   double jump_sigmas;        /**< how far the last frame contradicts the motion since the frame before */
+  CAIRN_UNIT(1)
   double pose_pivot;         /**< smallest pivot of the pose's correlation matrix */
 } cairn_health;
 
@@ -67,29 +80,36 @@ typedef struct cairn_sensor_health {
   uint32_t reserved;     /**< 0 */
   uint64_t compared;     /**< observations that were compared with known landmarks, so far */
   uint64_t refused;      /**< of these: refused */
+  CAIRN_UNIT(1)
   double nis_per_row;    /**< normalised innovation squared of the window, for each row; 1 is expected */
+  CAIRN_UNIT(1)
   double nis_lower;      /**< its 95 % band: lower bound; 0 before the first row */
+  CAIRN_UNIT(1)
   double nis_upper;      /**< its 95 % band: upper bound; 0 before the first row */
+  CAIRN_UNIT(1)
   double scale;          /**< factor of the sensor's stated standard deviations that explains what is seen */
+  CAIRN_UNIT(1)
   double scale_sigma;    /**< its standard deviation */
+  CAIRN_UNIT(1)
   double persistence[4]; /**< correlation of a landmark's innovations with those of 1, 2, 3 and 4 sightings before */
 } cairn_sensor_health;
 
 /** The verdict on a filter. Set `health->struct_size` first. All of it is what the last update left: the call computes
  *  nothing. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.2.0 */
-CAIRN_API cairn_status cairn_filter_health(const cairn_filter *filter, cairn_health *health, cairn_error *error);
+CAIRN_API cairn_status cairn_filter_health(const cairn_filter *filter, CAIRN_OUT cairn_health *health,
+                                           cairn_error *error);
 
 /** What the observations of one sensor show. Set `health->struct_size` first. Threads: as any const query of the
  * handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND (sensor). Complexity: O(1). \since 0.2.0 */
 CAIRN_API cairn_status cairn_filter_sensor_health(const cairn_filter *filter, int32_t sensor,
-                                                  cairn_sensor_health *health, cairn_error *error);
+                                                  CAIRN_OUT cairn_sensor_health *health, cairn_error *error);
 
 /** A verdict in one word: "good", "doubtful" or "lost"; "unknown" for any other value. Threads: any. \since 0.2.0 */
-CAIRN_API const char *cairn_verdict_text(cairn_verdict verdict);
+CAIRN_API CAIRN_BORROWED(library) const char *cairn_verdict_text(cairn_verdict verdict);
 
 /** A reason in words, for example "single landmarks contradict the rest". `reason` is one bit; anything else gives
  *  "unknown". Threads: any. \since 0.2.0 */
-CAIRN_API const char *cairn_doubt_text(cairn_doubts reason);
+CAIRN_API CAIRN_BORROWED(library) const char *cairn_doubt_text(cairn_doubts reason);
 
 #ifdef __cplusplus
 }

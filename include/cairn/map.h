@@ -26,14 +26,14 @@ typedef struct cairn_landmark {
 
 /** How a map holds the joint uncertainty of its landmarks. Only maps of the same kind can be merged. */
 typedef int32_t cairn_map_form;
-enum {
+enum CAIRN_VALUES(cairn_map_form) {
   CAIRN_MAP_DENSE = 0, /**< positions and their joint covariance: a single map, or densely joined submaps */
   CAIRN_MAP_SPARSE = 1 /**< submaps and the factor of their information: sparsely joined submaps */
 };
 
 /** How \ref cairn_map_merge finds the landmarks that both maps hold, the common landmarks. */
 typedef int32_t cairn_merge_by;
-enum {
+enum CAIRN_VALUES(cairn_merge_by) {
   CAIRN_MERGE_BY_ID = 0,      /**< landmarks with the same id */
   CAIRN_MERGE_BY_GEOMETRY = 1 /**< landmarks that lie in the same way relative to each other; ids are ignored */
 };
@@ -42,8 +42,10 @@ enum {
 typedef struct cairn_merge_options {
   uint32_t struct_size;          /**< sizeof(cairn_merge_options) of the caller */
   cairn_merge_by association;    /**< CAIRN_MERGE_BY_ID or CAIRN_MERGE_BY_GEOMETRY; default CAIRN_MERGE_BY_ID */
+  CAIRN_UNIT(1)
   double gate_probability;       /**< probability that all common landmarks of a correct merge pass their own gates,
                                       in (0, 1]; default 0.9999 */
+  CAIRN_UNIT(1)
   double joint_gate_probability; /**< probability that they pass the joint gate, in (0, 1]; default 0.9999 */
   uint64_t max_landmarks;        /**< capacity of the merged map; 0, the default: no limit */
   double max_tilt;               /**< by geometry, without has_transform: largest angle between the z axes of both
@@ -52,6 +54,7 @@ typedef struct cairn_merge_options {
   uint32_t reserved;             /**< 0 */
   cairn_pose T_map_other;        /**< with has_transform: from the other's frame into the map's frame; default
                                       identity */
+  CAIRN_UNIT(pose^2)
   double covariance[36];         /**< covariance of its error [dp; dtheta], 6x6 row-major, positive semidefinite;
                                       default 0: known exactly */
 } cairn_merge_options;
@@ -64,9 +67,12 @@ typedef struct cairn_merge_report {
   uint64_t added;             /**< landmarks that only the other holds */
   uint64_t rows;              /**< degrees of freedom of `distance`: three for each common landmark; without
                                    has_transform six less */
+  CAIRN_UNIT(1)
   double distance;            /**< joint squared Mahalanobis distance of the common landmarks */
+  CAIRN_UNIT(1)
   double threshold;           /**< its chi-square bound */
   cairn_pose T_map_other;     /**< transforms points from the other's frame into the map's frame */
+  CAIRN_UNIT(pose^2)
   double covariance[36];      /**< covariance of its error [dp; dtheta], 6x6 row-major */
   uint64_t broken_id;         /**< id in the map of a common landmark that failed a test; CAIRN_ID_NONE: none */
   uint64_t broken_other_id;   /**< id of the same landmark in the other map; CAIRN_ID_NONE: none */
@@ -86,48 +92,54 @@ typedef struct cairn_merged_id {
 
 /** Number of landmarks. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT (NULL).
  *  Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_map_size(const cairn_map *map, size_t *count, cairn_error *error);
+CAIRN_API cairn_status cairn_map_size(const cairn_map *map, CAIRN_OUT size_t *count, cairn_error *error);
 
 /** A landmark by its id. Threads: as any const query of the handle.
  *  Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_map_landmark(const cairn_map *map, uint64_t id, cairn_landmark *landmark,
+CAIRN_API cairn_status cairn_map_landmark(const cairn_map *map, uint64_t id, CAIRN_OUT cairn_landmark *landmark,
                                           cairn_error *error);
 
 /** All landmarks, by ascending id. Threads: as any const query of the handle.
  *  Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. Complexity: O(n log n). \since 0.1.0 */
-CAIRN_API cairn_status cairn_map_landmarks(const cairn_map *map, cairn_landmark *landmarks, size_t capacity,
-                                           size_t *needed, cairn_error *error);
+CAIRN_API cairn_status cairn_map_landmarks(const cairn_map *map, CAIRN_OUT_ARRAY(capacity) cairn_landmark *landmarks,
+                                           size_t capacity, size_t *needed, cairn_error *error);
 
 /** Landmarks whose estimate lies within `radius` (m, >= 0) of `centre` (map frame, m): nearest first, ties by id.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER.
  *  Complexity: O(n + k log k) for k found.
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_map_within(const cairn_map *map, const double centre[3], double radius,
-                                        cairn_landmark *landmarks, size_t capacity, size_t *needed, cairn_error *error);
+CAIRN_API cairn_status cairn_map_within(const cairn_map *map, CAIRN_UNIT(m) const double centre[3],
+                                        CAIRN_UNIT(m) CAIRN_RANGE(>= 0) double radius,
+                                        CAIRN_OUT_ARRAY(capacity) cairn_landmark *landmarks, size_t capacity,
+                                        size_t *needed, cairn_error *error);
 
 /** The `count` landmarks nearest to `point` (map frame, m): nearest first, ties by id. Fewer if the map holds fewer.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER.
  *  Complexity: O(n + k log k). \since 0.1.0 */
-CAIRN_API cairn_status cairn_map_nearest(const cairn_map *map, const double point[3], size_t count,
-                                         cairn_landmark *landmarks, size_t capacity, size_t *needed,
-                                         cairn_error *error);
+CAIRN_API cairn_status cairn_map_nearest(const cairn_map *map, CAIRN_UNIT(m) const double point[3], size_t count,
+                                         CAIRN_OUT_ARRAY(capacity) cairn_landmark *landmarks, size_t capacity,
+                                         size_t *needed, cairn_error *error);
 
 /** Landmarks whose estimate lies in the closed box between `lower` and `upper` (map frame, m), by ascending id.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT (also lower > upper), CAIRN_ERROR_BUFFER.
  *  Complexity: O(n + k log k). \since 0.1.0 */
-CAIRN_API cairn_status cairn_map_in_box(const cairn_map *map, const double lower[3], const double upper[3],
-                                        cairn_landmark *landmarks, size_t capacity, size_t *needed, cairn_error *error);
+CAIRN_API cairn_status cairn_map_in_box(const cairn_map *map, CAIRN_UNIT(m) const double lower[3],
+                                        CAIRN_UNIT(m) const double upper[3],
+                                        CAIRN_OUT_ARRAY(capacity) cairn_landmark *landmarks, size_t capacity,
+                                        size_t *needed, cairn_error *error);
 
 /** Joint covariance of the positions of chosen landmarks: `matrix` is 3 count x 3 count, row-major, blocks in the order
  *  of `ids`. `capacity` and `*needed` count doubles. No id may appear twice.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_BUFFER.
  *  Complexity: O(count^2). \since 0.1.0 */
-CAIRN_API cairn_status cairn_map_joint_covariance(const cairn_map *map, const uint64_t *ids, size_t count,
-                                                  double *matrix, size_t capacity, size_t *needed, cairn_error *error);
+CAIRN_API cairn_status cairn_map_joint_covariance(const cairn_map *map, CAIRN_IN_ARRAY(count) const uint64_t *ids,
+                                                  size_t count,
+                                                  CAIRN_OUT_ARRAY(capacity) CAIRN_UNIT(m^2) double *matrix,
+                                                  size_t capacity, size_t *needed, cairn_error *error);
 
 /** Kind of a map: CAIRN_MAP_DENSE or CAIRN_MAP_SPARSE. Threads: as any const query of the handle.
  *  Errors: CAIRN_ERROR_ARGUMENT (NULL). Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_map_kind(const cairn_map *map, cairn_map_form *kind, cairn_error *error);
+CAIRN_API cairn_status cairn_map_kind(const cairn_map *map, CAIRN_OUT cairn_map_form *kind, cairn_error *error);
 
 /** Makes a copy of the same kind. The copy stays as it is when the filter goes on or is destroyed. All queries work
  *  on it. The caller owns the copy and frees it with \ref cairn_map_destroy. A copy of a filter's open submap
@@ -137,12 +149,13 @@ CAIRN_API cairn_status cairn_map_kind(const cairn_map *map, cairn_map_form *kind
 CAIRN_API cairn_status cairn_map_copy(const cairn_map *map, cairn_map **copy, cairn_error *error);
 
 /** Frees a copy. NULL is allowed. A map that a filter owns is not freed: it is destroyed with its filter.
- *  Threads: one a handle. \since 0.1.0 */
+ *  Threads: one a handle. Complexity: O(n). \since 0.1.0 */
 CAIRN_API void cairn_map_destroy(cairn_map *map);
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_merge_options_init(cairn_merge_options *options, size_t struct_size, cairn_error *error);
+CAIRN_API cairn_status cairn_merge_options_init(CAIRN_OUT cairn_merge_options *options, size_t struct_size,
+                                                cairn_error *error);
 
 /** Merges the landmarks of `other` into `map`. `map` stays in its own frame. The merge finds the transform between
  *  both frames from the common landmarks (with has_transform also from the transform that the caller knows).
@@ -161,23 +174,24 @@ CAIRN_API cairn_status cairn_merge_options_init(cairn_merge_options *options, si
  *  may be NULL; set its struct_size first. It is also filled in if the merge is refused because of the contents of
  *  the maps.
  *
- *  Threads: `map` one a handle; `other` as any const query. Errors: CAIRN_ERROR_ARGUMENT (also map == other),
- *  CAIRN_ERROR_STATE (`map` belongs to a filter: copy it; the kinds differ; both hold landmarks of the same filter; a
- *  sparse `other` was itself merged with has_transform: merge the other way round), CAIRN_ERROR_NOT_FOUND (a map is
- *  empty, or there are too few common landmarks: with has_transform one is necessary, without it three),
+ *  Threads: `map` one a handle; `other` as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT (also map ==
+ *  other), CAIRN_ERROR_STATE (`map` belongs to a filter: copy it; the kinds differ; both hold landmarks of the same
+ *  filter; a sparse `other` was itself merged with has_transform: merge the other way round), CAIRN_ERROR_NOT_FOUND (a
+ *  map is empty, or there are too few common landmarks: with has_transform one is necessary, without it three),
  *  CAIRN_ERROR_NUMERICAL (the common landmarks lie on a line; they contradict each other, and message and report name
  *  the worst pair; by geometry: more than one transform fits), CAIRN_ERROR_CAPACITY (max_landmarks),
  *  CAIRN_ERROR_MEMORY. Complexity, for n landmarks in both maps and k common ones: dense O(n^2 k + k^3); sparse: that
  *  of closing all submaps of `other` at once, plus the joint test of at most 300 common landmarks. By geometry
  *  additionally O(n log n) and the search among triangles, which has a budget. \since 0.1.0 */
-CAIRN_API cairn_status cairn_map_merge(cairn_map *map, const cairn_map *other, const cairn_merge_options *options,
-                                       cairn_merge_report *report, cairn_error *error);
+CAIRN_API cairn_status cairn_map_merge(cairn_map *map, const cairn_map *other,
+                                       CAIRN_OPTIONAL const cairn_merge_options *options,
+                                       CAIRN_OUT CAIRN_OPTIONAL cairn_merge_report *report, cairn_error *error);
 
 /** Where the landmarks of the other map are after the last merge into this map, by ascending other_id; none before a
  *  merge. A copy returns the same. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT,
  *  CAIRN_ERROR_BUFFER. Complexity: O(n). \since 0.1.0 */
-CAIRN_API cairn_status cairn_map_merged_ids(const cairn_map *map, cairn_merged_id *merged, size_t capacity,
-                                            size_t *needed, cairn_error *error);
+CAIRN_API cairn_status cairn_map_merged_ids(const cairn_map *map, CAIRN_OUT_ARRAY(capacity) cairn_merged_id *merged,
+                                            size_t capacity, size_t *needed, cairn_error *error);
 
 #ifdef __cplusplus
 }

@@ -28,7 +28,7 @@ typedef struct cairn_world cairn_world;
 
 /** Courses. On each the rover has a constant speed over the xy plane of the map. */
 typedef int32_t cairn_course;
-enum {
+enum CAIRN_VALUES(cairn_course) {
   CAIRN_COURSE_CIRCLE = 0,  /**< the course of the paper: a circle, driven anticlockwise; the default */
   CAIRN_COURSE_LAPS = 1,    /**< a wandering closed curve, driven several times */
   CAIRN_COURSE_TRAVERSE = 2 /**< a long drive: a chain of circles, alternately left and right. Each circle is driven
@@ -38,7 +38,7 @@ enum {
 
 /** Ground. */
 typedef int32_t cairn_terrain;
-enum {
+enum CAIRN_VALUES(cairn_terrain) {
   CAIRN_TERRAIN_ROLLING = 0, /**< seeded smooth hills, shifted to `start_height` at (100, 20); the default */
   CAIRN_TERRAIN_WAVES = 1,   /**< z = sin(x / 15) + 0.8 cos(y / 12); the same for every seed; not shifted */
   CAIRN_TERRAIN_FLAT = 2     /**< z = 0 */
@@ -46,7 +46,7 @@ enum {
 
 /** How the rover stands on the ground. Seen from above, its x axis points along the course. */
 typedef int32_t cairn_contact;
-enum {
+enum CAIRN_VALUES(cairn_contact) {
   CAIRN_CONTACT_WHEELS = 0, /**< on four wheels; a differential averages the left and the right rocker. All four
                                  wheels touch the ground, and height and attitude are those of the chassis between
                                  them; the default */
@@ -55,7 +55,7 @@ enum {
 
 /** Measurements that the motion samples of a step hold as `velocity` and `rate`. */
 typedef int32_t cairn_drive;
-enum {
+enum CAIRN_VALUES(cairn_drive) {
   CAIRN_DRIVE_TWIST = 0,      /**< body velocity and body rate from the IMU; the default */
   CAIRN_DRIVE_WHEELS_GYRO = 1 /**< forward velocity from the wheels (Mars paper, eq. 1), zero along y and z; body
                                    rate from the gyro */
@@ -63,7 +63,7 @@ enum {
 
 /** Noise of the accelerometer. Table 1 of the paper gives it in m/s. */
 typedef int32_t cairn_accelerometer;
-enum {
+enum CAIRN_VALUES(cairn_accelerometer) {
   CAIRN_ACCELEROMETER_VELOCITY = 0,    /**< white noise of the body velocity, m/s a sample; the default */
   CAIRN_ACCELEROMETER_ACCELERATION = 1 /**< white noise of the acceleration, m/s^2 a sample: the velocity comes from
                                             dead reckoning of specific force and rate from a known start, and drifts */
@@ -71,7 +71,7 @@ enum {
 
 /** How the noise of the stick angle enters. */
 typedef int32_t cairn_stick;
-enum {
+enum CAIRN_VALUES(cairn_stick) {
   CAIRN_STICK_PER_OBSERVATION = 0, /**< independent in each observation's elevation; the default */
   CAIRN_STICK_PER_FRAME = 1        /**< all observations of a frame share one encoder error; the image adds noise of
                                         `image_sigma` to each elevation */
@@ -97,6 +97,7 @@ typedef struct cairn_world_options {
                                           default strip and area; default 0 */
   double speed;                      /**< speed over the xy plane, m/s, > 0; default 2 pi hypot(100, 20) / 400: the
                                           default circle in 400 s (Table 1) */
+  CAIRN_UNIT(1)
   double laps;                       /**< rounds of circle and laps, > 0; 0, the default: 1 round of a circle, 2
                                           rounds of laps. Not used by a traverse */
   double centre[2];                  /**< centre of the circle, x and y, m; default the origin (not in the paper) */
@@ -107,6 +108,7 @@ typedef struct cairn_world_options {
                                           atan2(20, 100) */
   double round_length;               /**< circumference of the circles of the traverse, m, > 0; default 1500. They
                                           are scaled so that all landmarks are used */
+  CAIRN_UNIT(1)
   double round_variation;            /**< share by which the seed varies this length, [0, 0.3]; default 0.1 */
   double strip;                      /**< landmarks lie within this distance of the course, m, > 0; default 25 */
   double landmark_area;              /**< area of ground for each landmark of laps and traverse, m^2, > 0; default
@@ -122,12 +124,14 @@ typedef struct cairn_world_options {
                                           paper) */
   double wheelbase;                  /**< distance between front and rear wheels, m, > 0; default 1.2 (not in the
                                           paper) */
+  CAIRN_UNIT(m/s or m/s^2)
   double velocity_sigma;             /**< white noise per sample and axis, m/s or m/s^2 (`accelerometer`), >= 0;
                                           default 2e-3 (Table 1) */
   double rate_sigma;                 /**< white noise of the gyro per sample and axis, rad/s, >= 0; default 0.02
                                           degrees/s (Table 1) */
   double gravity;                    /**< m/s^2, >= 0; default 3.71. Only CAIRN_ACCELEROMETER_ACCELERATION uses it */
   double wheel_rate_sigma;           /**< white noise of each side's wheel rate per sample, rad/s, >= 0; default 0.01 */
+  CAIRN_UNIT(1)
   double wheel_slip_sigma;           /**< white noise of each side's wheel rate in proportion to this rate, >= 0;
                                           default 0.02 */
   double lateral_sigma;              /**< noise that a step states for the velocity along y, which wheels do not
@@ -157,25 +161,29 @@ typedef struct cairn_world_options {
   double platform[3];                /**< d of \ref cairn_stereo_head, m; default 0 (not in the paper) */
   double stick[3];                   /**< s of \ref cairn_stereo_head, m; default 0 (not in the paper) */
   double velocity_bias[3];           /**< systematic errors of the rover, which \ref cairn_world_head and \ref
-                                          cairn_world_wheels do not tell (docs/systematic_errors.md); all 0 by
-                                          default. Added to the measured body velocity, m/s; the wheels turn faster
-                                          by the first component */
-  double rate_bias[3];               /**< added to the rate of the gyro, rad/s */
-  double wheel_scale[2];             /**< left and right: a wheel turns at its measured rate times 1 + this, > -1 */
+                                          cairn_world_wheels do not tell (docs/systematic_errors.md). Added to the
+                                          measured body velocity, m/s; default 0; the wheels turn faster by the first
+                                          component */
+  double rate_bias[3];               /**< added to the rate of the gyro, rad/s; default 0 */
+  CAIRN_UNIT(1)
+  double wheel_scale[2];             /**< left and right: a wheel turns at its measured rate times 1 + this, > -1;
+                                          default 0 */
   double mount_turn[3];              /**< rotation vector by which the head is turned about the origin of the body,
-                                          rad */
-  double mount_shift[3];             /**< by which the head is shifted after that, m */
-  double value_offset[3];            /**< added to the observed range (m), azimuth and elevation (rad) */
+                                          rad; default 0 */
+  double mount_shift[3];             /**< by which the head is shifted after that, m; default 0 */
+  CAIRN_UNIT(m, rad, rad)
+  double value_offset[3];            /**< added to the observed range (m), azimuth and elevation (rad); default 0 */
 } cairn_world_options;
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_options_init(cairn_world_options *options, size_t struct_size, cairn_error *error);
+CAIRN_API cairn_status cairn_world_options_init(CAIRN_OUT cairn_world_options *options, size_t struct_size,
+                                                cairn_error *error);
 
 /** Worlds for measurements. In the rows, velocity and rate noise are those of a sample of 0.2 s. The rows use
  *  CAIRN_TERRAIN_WAVES, CAIRN_CONTACT_POINT and a radius of 101.98 m. */
 typedef int32_t cairn_preset;
-enum {
+enum CAIRN_VALUES(cairn_preset) {
   CAIRN_PRESET_PAPER = 0, /**< the defaults: Table 1 as printed */
   CAIRN_PRESET_ROW1 = 1,  /**< 0.002 m/s, 0.02 degrees/s, 1 lap in 400 s */
   CAIRN_PRESET_ROW2 = 2,  /**< 0.05 m/s, 0.2 degrees/s, 1 lap in 400 s */
@@ -186,8 +194,9 @@ enum {
 /** Sets all options except `struct_size` and `seed` to those of a preset. `submap_landmarks` (or NULL) gets the size of
  *  submaps that belongs to the preset: 40, or 20 for rows 3 and 4. Set `options->struct_size` first.
  *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_options_preset(cairn_world_options *options, cairn_preset preset,
-                                                  uint32_t *submap_landmarks, cairn_error *error);
+CAIRN_API cairn_status cairn_world_options_preset(CAIRN_INOUT cairn_world_options *options, cairn_preset preset,
+                                                  CAIRN_OUT CAIRN_OPTIONAL uint32_t *submap_landmarks,
+                                                  cairn_error *error);
 
 /** Creates a world before its first step. The caller destroys it with \ref cairn_world_destroy. Options of an older or
  *  a newer header are used as far as both sides know them. On an error `*world` is not written.
@@ -195,12 +204,13 @@ CAIRN_API cairn_status cairn_world_options_preset(cairn_world_options *options, 
  *  four wheels). Complexity: O(n log n) for n landmarks; memory: 40 bytes for each landmark. \since 0.1.0 */
 CAIRN_API cairn_status cairn_world_create(const cairn_world_options *options, cairn_world **world, cairn_error *error);
 
-/** Destroys a world. NULL is allowed. Threads: one a handle. \since 0.1.0 */
+/** Destroys a world. NULL is allowed. Threads: one a handle. Complexity: O(memory). \since 0.1.0 */
 CAIRN_API void cairn_world_destroy(cairn_world *world);
 
 /** A motion sample: measured and true motion of the rover during `dt` seconds. Layout frozen. */
 typedef struct cairn_world_motion {
   double dt;               /**< s */
+  CAIRN_UNIT(m/s)
   double velocity[3];      /**< measured velocity, body axes, m/s (`drive`) */
   double rate[3];          /**< measured rate, body axes, rad/s */
   double wheels[2];        /**< measured turning rates of the left and the right wheels, rad/s: means over dt */
@@ -218,9 +228,11 @@ typedef struct cairn_world_step {
   uint64_t number;            /**< counted from 0; step 0 is the start */
   double time;                /**< s, from 0 */
   cairn_pose truth;           /**< true pose of the body in the map at the end of the step */
+  CAIRN_UNIT(m/s)
   double velocity_sigma[3];   /**< noise of the `velocity` of each motion sample, for \ref cairn_twist_noise. The
                                    drift of an accelerometer is stated by its size at this time, as if it were white
                                    noise */
+  CAIRN_UNIT(rad/s)
   double rate_sigma[3];       /**< noise of the `rate` of each motion sample */
   double pan;                 /**< pan angle of the head, from its encoder, rad */
   double stick;               /**< stick angle of the head, from its encoder, rad */
@@ -232,18 +244,20 @@ typedef struct cairn_world_step {
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (there are no more steps),
  *  CAIRN_ERROR_NUMERICAL (the ground is too rough for four wheels).
  *  Complexity: O(motions + landmarks in range). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_next(cairn_world *world, cairn_world_step *step, cairn_error *error);
+CAIRN_API cairn_status cairn_world_next(cairn_world *world, CAIRN_OUT cairn_world_step *step, cairn_error *error);
 
 /** The motion samples of the last step, in order; none before the first step. Capacity 0 asks for their number.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. Complexity: O(n).
  *  \since 0.2.0 */
-CAIRN_API cairn_status cairn_world_motions(const cairn_world *world, cairn_world_motion *motions, size_t capacity,
+CAIRN_API cairn_status cairn_world_motions(const cairn_world *world,
+                                           CAIRN_OUT_ARRAY(capacity) cairn_world_motion *motions, size_t capacity,
                                            size_t *needed, cairn_error *error);
 
 /** The observations of the last step's frame, by ascending id, z as \ref cairn_stereo_head defines it, covariance zero;
  *  none before the first step. Capacity 0 asks for their number. Threads: as any const query of the handle. Errors:
  *  CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. Complexity: O(n). \since 0.2.0 */
-CAIRN_API cairn_status cairn_world_observations(const cairn_world *world, cairn_observation *observations,
+CAIRN_API cairn_status cairn_world_observations(const cairn_world *world,
+                                                CAIRN_OUT_ARRAY(capacity) cairn_observation *observations,
                                                 size_t capacity, size_t *needed, cairn_error *error);
 
 /** Goes back to before the first step. The same drive follows, bit for bit. Threads: one a handle. Errors:
@@ -252,58 +266,62 @@ CAIRN_API cairn_status cairn_world_rewind(cairn_world *world, cairn_error *error
 
 /** Number of steps, including the start. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT.
  *  Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_steps(const cairn_world *world, size_t *steps, cairn_error *error);
+CAIRN_API cairn_status cairn_world_steps(const cairn_world *world, CAIRN_OUT size_t *steps, cairn_error *error);
 
 /** Upper bound of the number of observations in a frame, for \ref cairn_filter_options. Threads: as any const query
  *  of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(n). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_most_observations(const cairn_world *world, size_t *count, cairn_error *error);
+CAIRN_API cairn_status cairn_world_most_observations(const cairn_world *world, CAIRN_OUT size_t *count,
+                                                     cairn_error *error);
 
 /** The stereo head of the world, to be added to a filter: mount, noise, encoder mode. Set `head->struct_size` first.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_head(const cairn_world *world, cairn_stereo_head *head, cairn_error *error);
+CAIRN_API cairn_status cairn_world_head(const cairn_world *world, CAIRN_OUT cairn_stereo_head *head,
+                                        cairn_error *error);
 
 /** The wheels of the rover, for \ref cairn_filter_set_wheels, with the noise of the wheel rates of one motion sample.
  *  Set `wheels->struct_size` first. The noise of rates that wheels do not measure is that of \ref cairn_wheels_init.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_wheels(const cairn_world *world, cairn_wheels *wheels, cairn_error *error);
+CAIRN_API cairn_status cairn_world_wheels(const cairn_world *world, CAIRN_OUT cairn_wheels *wheels, cairn_error *error);
 
 /** True pose of the body in the map at `time` (s, 0 to the end of the drive). The origin of the body lies on the
  *  ground in the middle between the wheels. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT.
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_pose(const cairn_world *world, double time, cairn_pose *pose, cairn_error *error);
+CAIRN_API cairn_status cairn_world_pose(const cairn_world *world, CAIRN_UNIT(s) CAIRN_RANGE(>= 0) double time,
+                                        CAIRN_OUT cairn_pose *pose, cairn_error *error);
 
 /** Points at which the wheels touch the ground at `time`: front left, front right, rear left, rear right, x y z each,
  *  in the map, m. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE
  *  (CAIRN_CONTACT_POINT).
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_contacts(const cairn_world *world, double time, double points[12],
-                                            cairn_error *error);
+CAIRN_API cairn_status cairn_world_contacts(const cairn_world *world, CAIRN_UNIT(s) CAIRN_RANGE(>= 0) double time,
+                                            CAIRN_OUT CAIRN_UNIT(m) double points[12], cairn_error *error);
 
 /** Height of the ground at x, y (m), m. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT.
  *  Complexity: O(1).
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_height(const cairn_world *world, double x, double y, double *height,
-                                          cairn_error *error);
+CAIRN_API cairn_status cairn_world_height(const cairn_world *world, CAIRN_UNIT(m) double x, CAIRN_UNIT(m) double y,
+                                          CAIRN_OUT CAIRN_UNIT(m) double *height, cairn_error *error);
 
 /** The rectangle in the xy plane that contains the course and all landmarks, m. Threads: as any const query of the
  *  handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_extent(const cairn_world *world, double lower[2], double upper[2],
-                                          cairn_error *error);
+CAIRN_API cairn_status cairn_world_extent(const cairn_world *world, CAIRN_OUT CAIRN_UNIT(m) double lower[2],
+                                          CAIRN_OUT CAIRN_UNIT(m) double upper[2], cairn_error *error);
 
 /** True position (m) of the landmark `id`, 0 to the number of landmarks minus 1. Threads: as any const query of the
  *  handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_landmark(const cairn_world *world, uint64_t id, double position[3],
-                                            cairn_error *error);
+CAIRN_API cairn_status cairn_world_landmark(const cairn_world *world, uint64_t id,
+                                            CAIRN_OUT CAIRN_UNIT(m) double position[3], cairn_error *error);
 
-/** True positions of all landmarks, x y z each, m, by ascending id. `capacity` and `*needed` count landmarks; capacity 0
- *  asks for their number. Threads: as any const query of the handle.
+/** True positions of all landmarks, x y z each, m, by ascending id. `capacity` and `*needed` count landmarks; capacity
+ *  0 asks for their number. Threads: as any const query of the handle.
  *  Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. Complexity: O(n). \since 0.1.0 */
-CAIRN_API cairn_status cairn_world_landmarks(const cairn_world *world, double *positions, size_t capacity,
-                                             size_t *needed, cairn_error *error);
+CAIRN_API cairn_status cairn_world_landmarks(const cairn_world *world,
+                                             CAIRN_OUT_ARRAY(3 * capacity) CAIRN_UNIT(m) double *positions,
+                                             size_t capacity, size_t *needed, cairn_error *error);
 
 /** One line about the last call of this library that failed in this thread, like \ref cairn_last_message for libcairn.
  *  Threads: any. \since 0.1.0 */
-CAIRN_API const char *cairn_sim_last_message(void);
+CAIRN_API CAIRN_BORROWED(thread) const char *cairn_sim_last_message(void);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 #ifndef CAIRN_STATUS_H
 #define CAIRN_STATUS_H
 
+#include <cairn/describe.h>
 #include <cairn/export.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -15,7 +16,7 @@ extern "C" {
 /** Status of every fallible call: 0 is success, a negative value an error. A value never changes its meaning. A refused
  *  observation is not an error: its \ref cairn_match reports the refusal. */
 typedef int32_t cairn_status;
-enum {
+enum CAIRN_VALUES(cairn_status) {
   CAIRN_OK = 0,               /**< success */
   CAIRN_ERROR_ARGUMENT = -1,  /**< an argument is NULL, not finite, out of range or not a covariance */
   CAIRN_ERROR_BUFFER = -2,    /**< the caller's buffer is too short; `*needed` holds the size that is necessary */
@@ -46,16 +47,16 @@ typedef void (*cairn_release_fn)(void *user);
 
 /** Name of a status, for example "CAIRN_ERROR_ARGUMENT"; "unknown status" for any other value. Never NULL.
  *  Threads: any. \since 0.1.0 */
-CAIRN_API const char *cairn_status_name(cairn_status status);
+CAIRN_API CAIRN_BORROWED(library) const char *cairn_status_name(cairn_status status);
 
 /** The message of the last call of this thread that failed, for programs in C: the line that \ref cairn_error would
  *  have got, in UTF-8. It is empty before the first failure and stays until the next failure. Never NULL. The library
  *  owns the buffer; each thread has its own. A language whose runtime moves calls between threads passes a cairn_error
  *  instead. Threads: any. \since 0.1.0 */
-CAIRN_API const char *cairn_last_message(void);
+CAIRN_API CAIRN_BORROWED(thread) const char *cairn_last_message(void);
 
 /** Version of the loaded library, for example "0.2.0". Threads: any. \since 0.1.0 */
-CAIRN_API const char *cairn_version(void);
+CAIRN_API CAIRN_BORROWED(library) const char *cairn_version(void);
 
 /** Version of the loaded library as a number, as CAIRN_VERSION is that of the header: 10000 major + 100 minor + patch.
  *  Threads: any. \since 0.2.0 */
@@ -65,11 +66,11 @@ CAIRN_API uint32_t cairn_version_number(void);
  *  (sparse joining), "teams", "trajectory", "systematic" (estimated systematic errors), "robust" (robust losses),
  *  "health" (verdicts), "errors" (messages in a \ref cairn_error). NULL and any other name: 0. Threads: any.
  *  \since 0.2.0 */
-CAIRN_API cairn_bool cairn_has(const char *feature);
+CAIRN_API cairn_bool cairn_has(CAIRN_OPTIONAL const char *feature);
 
 /** Instruction set that the loaded library was compiled for: "x86-64" or "x86-64-v3" (on other machines: "generic").
  *  Threads: any. \since 0.1.0 */
-CAIRN_API const char *cairn_build(void);
+CAIRN_API CAIRN_BORROWED(library) const char *cairn_build(void);
 
 #ifdef __cplusplus
 }

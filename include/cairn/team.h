@@ -21,7 +21,7 @@ typedef struct cairn_team cairn_team;
 
 /** Mode: how a vehicle uses the packets of its teammates. */
 typedef int32_t cairn_team_mode;
-enum {
+enum CAIRN_VALUES(cairn_team_mode) {
   CAIRN_TEAM_MONO = 0,        /**< it ignores them; for comparison */
   CAIRN_TEAM_EO_DIAGONAL = 1, /**< extended observations with independent noise, as printed in the cooperative paper:
                                    overconfident, and more so with more landmarks */
@@ -52,18 +52,20 @@ typedef struct cairn_team_options {
 
 /** Fills in the defaults and writes at most `struct_size` bytes. Threads: any. Errors: CAIRN_ERROR_ARGUMENT.
  *  \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_options_init(cairn_team_options *options, size_t struct_size, cairn_error *error);
+CAIRN_API cairn_status cairn_team_options_init(CAIRN_OUT cairn_team_options *options, size_t struct_size,
+                                               cairn_error *error);
 
 /** Creates a vehicle's view of its team. The caller destroys it with \ref cairn_team_destroy. `filter` holds the
  *  options of the filter that the team runs: `vehicle` must be CAIRN_VEHICLE_PLANAR, `initial_pose` is the start of
  *  this vehicle in the frame of the team, and `submap_landmarks` must be greater than 0 in mode CAIRN_TEAM_SUBMAPS
  *  and 0 in all other modes. `radar` is the sensor of all vehicles. With extended observations it must be mounted at
  *  the body's origin. On an error `*team` is not written.
- *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY. \since 0.1.0 */
+ *  Threads: any. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY. Complexity: O(memory). \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_create(const cairn_team_options *options, const cairn_filter_options *filter,
                                          const cairn_range_bearing *radar, cairn_team **team, cairn_error *error);
 
-/** Destroys a team and the map that it owns. NULL is allowed. Threads: one a handle. \since 0.1.0 */
+/** Destroys a team and the map that it owns. NULL is allowed. Threads: one a handle.
+ *  Complexity: O(memory). \since 0.1.0 */
 CAIRN_API void cairn_team_destroy(cairn_team *team);
 
 /** Adds a teammate. `start` is its pose before its first packet, and `covariance` (6x6; NULL: known exactly) the
@@ -72,34 +74,38 @@ CAIRN_API void cairn_team_destroy(cairn_team *team);
  *  whose pose is known. Modes with extended observations need no start.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also a teammate that exists, and in mode CAIRN_TEAM_SUBMAPS one
  *  that was removed, for its submaps are in the map), CAIRN_ERROR_CAPACITY, CAIRN_ERROR_STATE (mode CAIRN_TEAM_SUBMAPS
- *  and no start), CAIRN_ERROR_MEMORY. \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_add(cairn_team *team, uint64_t vehicle, const cairn_pose *start,
-                                      const double covariance[36], cairn_error *error);
+ *  and no start), CAIRN_ERROR_MEMORY. Complexity: O(n). \since 0.1.0 */
+CAIRN_API cairn_status cairn_team_add(cairn_team *team, uint64_t vehicle,
+                                      CAIRN_IN CAIRN_OPTIONAL const cairn_pose *start,
+                                      CAIRN_OPTIONAL CAIRN_UNIT(pose^2) const double covariance[36],
+                                      cairn_error *error);
 
 /** Removes a teammate: the team neither waits for it nor uses its packets any more. The information from its earlier
  *  packets stays. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (this vehicle), CAIRN_ERROR_NOT_FOUND,
- *  CAIRN_ERROR_MEMORY. \since 0.1.0 */
+ *  CAIRN_ERROR_MEMORY. Complexity: O(waiting packets). \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_remove(cairn_team *team, uint64_t vehicle, cairn_error *error);
 
 /** Numbers of the vehicles of the team, this vehicle's number first. Capacity 0 asks for how many there are.
- *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_members(const cairn_team *team, uint64_t *vehicles, size_t capacity, size_t *needed,
-                                          cairn_error *error);
+ *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER.
+ *  Complexity: O(vehicles). \since 0.1.0 */
+CAIRN_API cairn_status cairn_team_members(const cairn_team *team, CAIRN_OUT_ARRAY(capacity) uint64_t *vehicles,
+                                          size_t capacity, size_t *needed, cairn_error *error);
 
 /** Moves this vehicle by a relative pose, like \ref cairn_filter_predict_increment. The teammates learn of this
  *  motion by the packet of the next \ref cairn_team_observe. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT,
  *  CAIRN_ERROR_NUMERICAL (more than 1e9 m, or noise of more than 1e9 m or a whole turn), CAIRN_ERROR_CAPACITY (65535
  *  motions without an observation), CAIRN_ERROR_MEMORY. \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_predict_increment(cairn_team *team, const cairn_pose *T_before_after,
-                                                    const double covariance[36], cairn_error *error);
+CAIRN_API cairn_status cairn_team_predict_increment(cairn_team *team, CAIRN_IN const cairn_pose *T_before_after,
+                                                    CAIRN_UNIT(pose^2) const double covariance[36], cairn_error *error);
 
 /** Moves this vehicle by its body velocity (m/s) and body rate (rad/s) over `dt` seconds (> 0). `noise` NULL: that
  *  of
  *  \ref cairn_twist_noise_init. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NUMERICAL,
  *  CAIRN_ERROR_CAPACITY, CAIRN_ERROR_MEMORY. \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_predict_twist(cairn_team *team, double dt, const double velocity[3],
-                                                const double rate[3], const cairn_twist_noise *noise,
-                                                cairn_error *error);
+CAIRN_API cairn_status cairn_team_predict_twist(cairn_team *team, CAIRN_UNIT(s) CAIRN_RANGE(> 0) double dt,
+                                                CAIRN_UNIT(m/s) const double velocity[3],
+                                                CAIRN_UNIT(rad/s) const double rate[3],
+                                                CAIRN_OPTIONAL const cairn_twist_noise *noise, cairn_error *error);
 
 /** Ends a step of this vehicle at `time` with its scan. `time` is in s, by a clock that all vehicles share, and must
  *  be later than the last one. The scan is ranges and bearings of `landmarks`, by their ids, and of `vehicles`, by
@@ -111,15 +117,18 @@ CAIRN_API cairn_status cairn_team_predict_twist(cairn_team *team, double dt, con
  *  Errors: CAIRN_ERROR_ARGUMENT (also a time in the past, an id or a number twice, CAIRN_ID_NONE, this vehicle's
  *  number), CAIRN_ERROR_CAPACITY, CAIRN_ERROR_NUMERICAL, CAIRN_ERROR_STATE (the vehicle has left the team),
  *  CAIRN_ERROR_MEMORY. Complexity: O(n^2 m) for n states and m rows of each vehicle. \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_observe(cairn_team *team, double time, const cairn_observation *landmarks,
-                                          size_t landmark_count, const cairn_observation *vehicles,
+CAIRN_API cairn_status cairn_team_observe(cairn_team *team, CAIRN_UNIT(s) double time,
+                                          CAIRN_IN_ARRAY(landmark_count) const cairn_observation *landmarks,
+                                          size_t landmark_count,
+                                          CAIRN_IN_ARRAY(vehicle_count) const cairn_observation *vehicles,
                                           size_t vehicle_count, cairn_error *error);
 
 /** Matches of the last scan of this vehicle that updated the filter: those of landmarks, then those of vehicles, by
  *  their ids, in the order in which they were processed. Capacity 0 asks for how many there are. Threads: as
- *  any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_decisions(const cairn_team *team, cairn_match *matches, size_t capacity,
-                                            size_t *needed, cairn_error *error);
+ *  any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER.
+ *  Complexity: O(matches). \since 0.1.0 */
+CAIRN_API cairn_status cairn_team_decisions(const cairn_team *team, CAIRN_OUT_ARRAY(capacity) cairn_match *matches,
+                                            size_t capacity, size_t *needed, cairn_error *error);
 
 /** Leaves the team: makes a last packet, the farewell, after which the teammates do not wait for this vehicle any
  *  more. Own steps are then refused. Packets of teammates are still used.
@@ -133,18 +142,18 @@ CAIRN_API cairn_status cairn_team_leave(cairn_team *team, cairn_error *error);
  *  leaves the queue when it was copied. Own steps wait until they are taken. A packet that was asked for waits once,
  *  however often it was asked for, and so does the request to each teammate: beside own steps the queue holds at most
  *  `history` repetitions and `max_vehicles` requests. Capacity 0 asks for its size. Threads: one a handle.
- *  Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_take_packet(cairn_team *team, uint8_t *packet, size_t capacity, size_t *needed,
-                                              cairn_error *error);
+ *  Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_BUFFER. Complexity: O(size of the packet). \since 0.1.0 */
+CAIRN_API cairn_status cairn_team_take_packet(cairn_team *team, CAIRN_OUT_ARRAY(capacity) uint8_t *packet,
+                                              size_t capacity, size_t *needed, cairn_error *error);
 
 /** Asks the teammates for all missing packets. The team does so itself when it finds a gap at a step of this vehicle;
  *  call this function at the end of a mission or after a long silence. Threads: one a handle. Errors:
- *  CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY (mode CAIRN_TEAM_SUBMAPS). \since 0.1.0 */
+ *  CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY (mode CAIRN_TEAM_SUBMAPS). Complexity: O(missing packets). \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_ask(cairn_team *team, cairn_error *error);
 
 /** Result of a received packet. */
 typedef int32_t cairn_packet;
-enum {
+enum CAIRN_VALUES(cairn_packet) {
   CAIRN_PACKET_TAKEN = 1,     /**< it had its turn and is part of the estimate */
   CAIRN_PACKET_WAITING = 2,   /**< it waits for its turn */
   CAIRN_PACKET_REQUEST = 3,   /**< a teammate misses own packets; they are queued to be sent again */
@@ -170,9 +179,10 @@ enum {
 
 /** Receives a packet of a teammate. Packets may come late, repeatedly and in any order. `result` (or NULL) gets one
  *  of the CAIRN_PACKET_ constants. A refused packet is counted and changes nothing; the call succeeds all the same.
- *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY. \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_receive(cairn_team *team, const uint8_t *packet, size_t size, cairn_packet *result,
-                                          cairn_error *error);
+ *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_MEMORY.
+ *  Complexity: O(n^2 m) for n states and m rows of each packet that has its turn. \since 0.1.0 */
+CAIRN_API cairn_status cairn_team_receive(cairn_team *team, CAIRN_IN_ARRAY(size) const uint8_t *packet, size_t size,
+                                          CAIRN_OUT CAIRN_OPTIONAL cairn_packet *result, cairn_error *error);
 
 /** Pose of a vehicle of the team, and the covariance of its error [dp; dtheta] (6x6 row-major); each may be NULL. The
  *  own pose is the present one: it includes the motions of own steps that still wait for teammates, but not their
@@ -180,24 +190,26 @@ CAIRN_API cairn_status cairn_team_receive(cairn_team *team, const uint8_t *packe
  *  CAIRN_TEAM_JOINT and CAIRN_TEAM_SUBMAPS have it.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND (not in the team,
  *  or its pose is unknown). \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle, cairn_pose *pose,
-                                       double covariance[36], cairn_error *error);
+CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle,
+                                       CAIRN_OUT CAIRN_OPTIONAL cairn_pose *pose,
+                                       CAIRN_OUT CAIRN_OPTIONAL CAIRN_UNIT(pose^2) double covariance[36],
+                                       cairn_error *error);
 
 /** Normalised estimation error squared (NEES) of this vehicle's pose against the true pose, in the error coordinates of
  *  the filter. The pose is the one that \ref cairn_team_pose returns. A consistent filter has 3 on average. On an error
  *  `*nees` is not written. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT,
  *  CAIRN_ERROR_NUMERICAL (the covariance of this pose is singular, as it is at a known start). \since 0.1.1 */
-CAIRN_API cairn_status cairn_team_pose_nees(const cairn_team *team, const cairn_pose *truth, double *nees,
-                                            cairn_error *error);
+CAIRN_API cairn_status cairn_team_pose_nees(const cairn_team *team, CAIRN_IN const cairn_pose *truth,
+                                            CAIRN_OUT CAIRN_UNIT(1) double *nees, cairn_error *error);
 
 /** The team's map. The team owns this map; it lives as long as the team and follows it. Fails only for NULL, and then
  *  returns NULL. Threads: as any const query of the handle. Complexity: O(1). \since 0.1.0 */
-CAIRN_API const cairn_map *cairn_team_map(const cairn_team *team);
+CAIRN_API CAIRN_BORROWED(team) const cairn_map *cairn_team_map(const cairn_team *team);
 
 /** Compares the present pose of this vehicle with the true pose. With the option `baseline` it compares the pose of
  *  the second filter, too. \ref cairn_team_last_report returns the means. Threads: one a handle. Errors:
  *  CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_score(cairn_team *team, const cairn_pose *truth, cairn_error *error);
+CAIRN_API cairn_status cairn_team_score(cairn_team *team, CAIRN_IN const cairn_pose *truth, cairn_error *error);
 
 /** Report of a team. */
 typedef struct cairn_team_report {
@@ -238,15 +250,19 @@ typedef struct cairn_team_report {
   uint64_t scored_nees;       /**< scored steps with a covariance that is not singular (at a known start it is
                                    singular): the steps of `anees_per_dof` */
   double position_rmse;       /**< root mean square position error of this vehicle, m */
+  CAIRN_UNIT(1)
   double anees_per_dof;       /**< average NEES of its pose over the degrees of freedom: 1 for an honest covariance */
+  CAIRN_UNIT(1)
   double claimed_improvement; /**< (||C_mono|| - ||C||) / ||C_mono||: Frobenius norms of the position's covariance,
                                    summed over all scored steps (cooperative paper, section 3); 0 without `baseline` */
+  CAIRN_UNIT(1)
   double true_improvement;    /**< 1 - MSE / MSE_mono of the position; 0 without `baseline` */
 } cairn_team_report;
 
 /** Reports on the team so far. Set `report->struct_size` first. Threads: as any const query of the handle. Errors:
  *  CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
-CAIRN_API cairn_status cairn_team_last_report(const cairn_team *team, cairn_team_report *report, cairn_error *error);
+CAIRN_API cairn_status cairn_team_last_report(const cairn_team *team, CAIRN_OUT cairn_team_report *report,
+                                              cairn_error *error);
 
 #ifdef __cplusplus
 }

@@ -23,14 +23,16 @@ extern "C" {
  *  the number of the pose.
  *  Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (`trajectory_poses` is 0). Complexity: O(1);
  *  allocates nothing. \since 0.2.0 */
-CAIRN_API cairn_status cairn_filter_keep_pose(cairn_filter *filter, uint64_t *number, cairn_error *error);
+CAIRN_API cairn_status cairn_filter_keep_pose(cairn_filter *filter, CAIRN_OUT CAIRN_OPTIONAL uint64_t *number,
+                                              cairn_error *error);
 
 /** The numbers of the poses that are kept: from `*first` up to but not including `*end`. `*end` is the number of poses
  *  so far. Each may be NULL.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_STATE (`trajectory_poses` is
  *  0). Complexity: O(1). \since 0.2.0 */
-CAIRN_API cairn_status cairn_filter_trajectory_range(const cairn_filter *filter, uint64_t *first, uint64_t *end,
-                                                     cairn_error *error);
+CAIRN_API cairn_status cairn_filter_trajectory_range(const cairn_filter *filter,
+                                                     CAIRN_OUT CAIRN_OPTIONAL uint64_t *first,
+                                                     CAIRN_OUT CAIRN_OPTIONAL uint64_t *end, cairn_error *error);
 
 /** The poses of the body in the map, as they are known now, from the number `first` to the newest one. `capacity` and
  *  `*needed` count poses; capacity 0 asks for the number of poses. Close the open submap first to have its
@@ -39,8 +41,9 @@ CAIRN_API cairn_status cairn_filter_trajectory_range(const cairn_filter *filter,
  *  0), CAIRN_ERROR_CAPACITY (the trajectory has become longer than `trajectory_poses`, and the pose `first` was
  *  dropped), CAIRN_ERROR_NOT_FOUND (`first` is greater than the number of poses so far), CAIRN_ERROR_BUFFER.
  *  Complexity: O(poses); allocates nothing. \since 0.2.0 */
-CAIRN_API cairn_status cairn_filter_trajectory(const cairn_filter *filter, uint64_t first, cairn_pose *poses,
-                                               size_t capacity, size_t *needed, cairn_error *error);
+CAIRN_API cairn_status cairn_filter_trajectory(const cairn_filter *filter, uint64_t first,
+                                               CAIRN_OUT_ARRAY(capacity) cairn_pose *poses, size_t capacity,
+                                               size_t *needed, cairn_error *error);
 
 #ifdef __cplusplus
 }
