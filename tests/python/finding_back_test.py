@@ -68,8 +68,8 @@ class SlipTest(unittest.TestCase):
         for landmarks in (PLANAR, SPATIAL):
             for error in ("invariant", "standard"):
                 for turn in (0.0, 0.3):
-                    with self.subTest(size=landmarks.shape[1], error=error, turn=turn):
-                        drive = Among(landmarks, error=error)
+                    with self.subTest(size=landmarks.shape[1], state_error=error, turn=turn):
+                        drive = Among(landmarks, state_error=error)
                         self.lost_and_found(drive, turn=turn)
                         self.assertAlmostEqual(max(drive.widened), 1.0, delta=0.4)
 

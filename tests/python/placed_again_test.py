@@ -62,8 +62,8 @@ def all_kinds(test):
         for points in (PLANAR, SPATIAL):
             for error in ("invariant", "standard"):
                 for submap in (0, 30):
-                    with self.subTest(size=points.shape[1], error=error, submap=submap):
-                        test(self, lambda **more: Drive(points, error=error, submap_landmarks=submap, **more))
+                    with self.subTest(size=points.shape[1], state_error=error, submap=submap):
+                        test(self, lambda **more: Drive(points, state_error=error, submap_landmarks=submap, **more))
     return run
 
 
