@@ -21,7 +21,7 @@ import subprocess
 import sys
 import tempfile
 
-from setuptools import Distribution, setup
+from setuptools import Distribution, Extension, setup
 from setuptools.command.build_py import build_py
 
 try:
@@ -85,11 +85,14 @@ class Build(build_py):
             bundle(package / "lib")
 
 
+COMPILED = BUNDLE != "none" and sys.version_info >= (3, 11)  # the oldest Python whose limited interface has buffers
+
+
 class Wheel(bdist_wheel):
-    """A wheel with libraries inside is for this kind of machine, and for each version of Python."""
+    """A wheel with a library inside is for this kind of machine, and for each later version of Python."""
 
     def get_tag(self):
-        return "py3", "none", super().get_tag()[2]
+        return (*(("cp311", "abi3") if COMPILED else ("py3", "none")), super().get_tag()[2])
 
 
 class Package(Distribution):
@@ -97,6 +100,7 @@ class Package(Distribution):
         return BUNDLE != "none"
 
 
-setup(cmdclass={"build_py": Build, "bdist_wheel": Wheel}, distclass=Package,
+fast = Extension("cairn._fast", ["fast.c"], include_dirs=[str(ROOT / "include")], py_limited_api=True)
+setup(cmdclass={"build_py": Build, "bdist_wheel": Wheel}, distclass=Package, ext_modules=[fast] if COMPILED else [],
       options={"build": {"build_base": str(SCRATCH / "build")}, "egg_info": {"egg_base": str(SCRATCH)},
                "bdist_wheel": {"bdist_dir": str(SCRATCH / "wheel")}})

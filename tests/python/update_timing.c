@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One timed update in C, for timing.py: it alternates with the same update in Python on the same filter, so that both see
+/* One timed update in C, for timing.py: it takes turns with the same update in Python on the same filter, so that both see
  * the same machine in the same state. */
 #define _POSIX_C_SOURCE 199309L
 #include <cairn/filter.h>

@@ -60,8 +60,14 @@ class Handle:
             finally:
                 guard.blocked = False
             if status:
-                raised, guard.raised = guard.raised, None
-                raise failure(status, guard.error) if raised is None or status != Status.ERROR_CALLBACK else raised
+                self._fail(status)
+
+    def _fail(self, status: int) -> NoReturn:
+        """Raises the error of a call that returned `status`: that of the library, or what a callback raised."""
+        raised, self._guard.raised = self._guard.raised, None
+        if raised is not None and status == Status.ERROR_CALLBACK:
+            raise raised
+        raise failure(status, self._guard.error)
 
     def _refuse(self) -> NoReturn:
         """Raises the error of a call on a handle that is closed or in a call."""

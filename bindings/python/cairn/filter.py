@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, Literal, cast
 
@@ -11,13 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _custom, _structs
 from ._custom import Place, Predict
-from ._frames import Frames
+from ._frames import observations
 from ._handle import Guard, Handle
 from ._library import ffi, lib
 from ._pose_type import Pose, PoseLike
 from .constants import Loss
 from .error import call
-from .layouts import MATCH
+from .layouts import MATCH, OBSERVATION
 from .library import doubt_texts, verdict_text
 from .map import Map
 from .structs import Health
@@ -33,7 +34,12 @@ Array = NDArray[np.float64]
 Structs = NDArray[np.void]
 PoseEstimate = tuple[Array, Array, Array]
 
-_empty, _from_buffer, _MATCHES = np.empty, ffi.from_buffer, ffi.typeof("cairn_match *")
+try:
+    _fast_update: Any = importlib.import_module("cairn._fast").update
+except ImportError:  # it is not compiled: cffi does the same, more slowly
+    _fast_update = None
+_ndarray = np.ndarray
+_empty = np.empty
 
 
 class HealthReport(Health):
@@ -60,7 +66,8 @@ class Filter(Handle):
         created = ffi.new("cairn_filter **")
         call(lib.cairn_filter_create, _structs.new("cairn_filter_options", options), created)
         super().__init__(created[0], lib.cairn_filter_destroy)
-        self._frames = Frames()
+        self._addresses = tuple(int(ffi.cast("uintptr_t", of)) for of in (
+            lib.cairn_filter_update, self._pointer, self._guard.error))
 
     @staticmethod
     def required_bytes(**options: Unpack[FilterOptions]) -> int:
@@ -190,11 +197,37 @@ class Filter(Handle):
         library as it is, without a copy. Returns n matches: an array of cairn.MATCH with the fields landmark, result
         (cairn.Result), reason (cairn.Reason), distance and threshold (squared Mahalanobis distance and its bound).
         """
-        with self._guard.lock:  # of the memory of its frames, too
-            frame, count = self._frames.of(ids, z, covariance)
-            matches = _empty(count, MATCH)
-            self._call(lib.cairn_filter_update, sensor, frame, count, _from_buffer(_MATCHES, matches))
+        if _fast_update is not None and covariance is None:
+            matches = self._update_fast(sensor, ids, z)
+            if matches is not None:
+                return matches
+        frame = observations(ids, z, covariance)
+        count = len(frame)
+        matches = _empty(count, MATCH)
+        self._call(lib.cairn_filter_update, sensor, _structs.pointer("cairn_observation *", frame), count,
+                   _structs.pointer("cairn_match *", matches))
         return matches
+
+    def _update_fast(self, sensor: int, ids: Any, z: Any) -> Structs | None:
+        """The same by the compiled module. None: it does not take these arguments."""
+        if type(ids) is _ndarray:
+            if ids.ndim != 1 or (z is None and ids.dtype != OBSERVATION):
+                return None
+        elif type(ids) is not list or z is None:
+            return None
+        matches = _empty(len(ids), MATCH)
+        guard = self._guard
+        with guard.lock:
+            if guard.blocked:
+                self._refuse()
+            guard.blocked = True
+            try:
+                status = _fast_update(*self._addresses, sensor, ids, z, matches)
+            finally:
+                guard.blocked = False
+            if status:
+                self._fail(status)
+        return None if status is None else matches
 
     def _update_alone(self, function: Any, *arguments: Any) -> np.void:
         match = np.zeros(1, MATCH)
