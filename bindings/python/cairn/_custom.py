@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
+from types import TracebackType
 from typing import Any
 
 import numpy as np
@@ -113,8 +114,11 @@ class _Unraisable:
     """What sys.unraisablehook reads."""
 
     def __init__(self, error: BaseException, where: object) -> None:
-        self.exc_type, self.exc_value, self.exc_traceback = type(error), error, error.__traceback__
-        self.err_msg, self.object = "Exception ignored in the log of a cairn.Filter", where
+        self.exc_type: type[BaseException] = type(error)
+        self.exc_value: BaseException | None = error
+        self.exc_traceback: TracebackType | None = error.__traceback__
+        self.err_msg: str | None = "Exception ignored in the log of a cairn.Filter"
+        self.object = where
 
 
 @ffi.callback("cairn_log_fn")  # type: ignore[untyped-decorator]

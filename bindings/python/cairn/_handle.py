@@ -43,7 +43,7 @@ class Handle:
     def __init__(self, pointer: Any, destroy: Any, owner: Handle | None = None) -> None:
         self._pointer = pointer
         self._owner = owner
-        self._guard = Guard() if owner is None else owner._guard
+        self._guard: Guard = Guard() if owner is None else owner._guard
         self._finalizer = None if destroy is None else weakref.finalize(self, destroy, pointer)
 
     def _call(self, function: Any, *arguments: Any) -> None:

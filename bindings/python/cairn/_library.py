@@ -11,7 +11,7 @@ import importlib
 import os
 from typing import Any
 
-from . import _declarations
+from ._declarations import CDEF, FUNCTIONS, SONAMES, VERSION
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 INSIDE = os.path.join(HERE, "lib")  # the libraries of a wheel
@@ -23,7 +23,7 @@ def _make_ffi() -> Any:
         return importlib.import_module("cairn._abi").ffi
     except ImportError:  # run from the source tree
         made = importlib.import_module("cffi").FFI()
-        made.cdef(_declarations.CDEF)
+        made.cdef(CDEF)
         return made
 
 
@@ -31,7 +31,7 @@ ffi: Any = _make_ffi()
 """cffi's object: types, memory and casts."""
 
 # cffi raises one of these for a missing symbol; the second one if the declarations were made at installation.
-_MISSING: tuple[type[BaseException], ...] = (AttributeError, getattr(ffi, "error", AttributeError))
+_MISSING: tuple[type[Exception], ...] = (ImportError, AttributeError, getattr(ffi, "error", AttributeError))
 
 
 def _has_v3() -> bool:
@@ -63,14 +63,14 @@ def _paths(library: str, soname: str) -> list[str]:
 
 
 def _open(library: str) -> Any:
-    soname = _declarations.SONAMES[library]
+    soname = SONAMES[library]
     causes: list[str] = []
     for path in _paths(library, soname):
         try:
             return ffi.dlopen(path)
         except OSError as error:
             causes.append(str(error).split(".  Additionally")[0])
-    raise ImportError(f"this package is cairn {_declarations.VERSION} and needs {soname}, which can't be loaded "
+    raise ImportError(f"this package is cairn {VERSION} and needs {soname}, which can't be loaded "
                       f"({'; '.join(causes)}): install that version of the library, or set CAIRN_LIBRARY to its path")
 
 
@@ -80,7 +80,7 @@ def _numbers(version: str) -> list[int]:
 
 def _check_version(library: Any) -> None:
     """Refuses a library that may lack a function of this package, or may have changed one."""
-    wanted, loaded = _declarations.VERSION, ffi.string(library.cairn_version()).decode()
+    wanted, loaded = VERSION, ffi.string(library.cairn_version()).decode()
     if _numbers(loaded)[:2] != _numbers(wanted)[:2] or _numbers(loaded) < _numbers(wanted):
         raise ImportError(f"this package is cairn {wanted}, but the loaded library is cairn {loaded}: install the same "
                           "version of both")
@@ -94,7 +94,7 @@ class Library:
         _check_version(self._libraries["cairn"])
 
     def __getattr__(self, name: str) -> Any:
-        for library, functions in _declarations.FUNCTIONS.items():
+        for library, functions in FUNCTIONS.items():
             if name in functions:
                 break
         else:
@@ -103,13 +103,13 @@ class Library:
             if library not in self._libraries:
                 self._libraries[library] = _open(library)
             function = getattr(self._libraries[library], name)
-        except (ImportError, *_MISSING) as error:
+        except _MISSING as error:
             raise AttributeError(f"lib{library} has no {name}: {error}") from None
         setattr(self, name, function)
         return function
 
     def __dir__(self) -> list[str]:
-        return sorted(name for functions in _declarations.FUNCTIONS.values() for name in functions)
+        return sorted(name for functions in FUNCTIONS.values() for name in functions)
 
 
 lib: Any = Library()

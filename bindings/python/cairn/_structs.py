@@ -8,7 +8,7 @@ import enum
 import math
 import operator
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +25,8 @@ UINT64 = np.dtype(np.uint64)
 INT64 = np.dtype(np.int64)
 DOUBLES = ffi.typeof("double *")
 Array = NDArray[np.float64]
+Ids: TypeAlias = NDArray[Any] | Iterable[int]
+"""Landmark ids: whole numbers from 0 to 2^64 - 1."""
 
 _from_buffer = ffi.from_buffer
 
@@ -64,9 +66,10 @@ def array(name: str, value: ArrayLike, shape: tuple[int | None, ...] | None = No
 def vector(name: str, value: ArrayLike, length: int) -> list[float]:
     """`length` numbers for a parameter `const double *`: cffi passes a short list faster than an array."""
     if type(value) is np.ndarray and value.dtype is FLOAT64 and value.shape == (length,):
-        result: list[float] = value.tolist()
-        return result
-    return array(name, value, (length,)).tolist()
+        numbers: list[float] = value.tolist()
+    else:
+        numbers = array(name, value, (length,)).tolist()
+    return numbers
 
 
 def doubles(values: Array) -> Any:
@@ -95,9 +98,9 @@ def identifier(name: str, value: int) -> int:
     return number
 
 
-def identifiers(name: str, values: ArrayLike | Iterable[int]) -> NDArray[np.uint64]:
+def identifiers(name: str, values: Ids) -> NDArray[np.uint64]:
     """Landmark ids as an array of uint64: whole numbers from 0 to 2^64 - 1, one dimension."""
-    if isinstance(values, np.ndarray):
+    if type(values) is np.ndarray:
         if values.ndim != 1:
             raise ValueError(f"{name}: must have one dimension, and has {values.ndim}")
         if values.size == 0:
@@ -108,7 +111,7 @@ def identifiers(name: str, values: ArrayLike | Iterable[int]) -> NDArray[np.uint
             raise ValueError(f"{name}: an id is negative: {values.min()}")
         return np.ascontiguousarray(values, dtype=UINT64)
     try:
-        numbers = list(values)  # type: ignore[arg-type] # checked by this
+        numbers = list(values)
         if set(map(type, numbers)) != {int}:
             numbers = [operator.index(value) for value in numbers]
     except TypeError as error:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
@@ -16,6 +16,7 @@ from ._frames import observations
 from ._handle import Guard, Handle
 from ._library import ffi, lib
 from ._pose_type import Pose, PoseLike
+from ._structs import Ids
 from .constants import Loss
 from .error import call
 from .layouts import MATCH, OBSERVATION
@@ -187,7 +188,7 @@ class Filter(Handle):
 
     # Observations.
 
-    def update(self, sensor: int, ids: ArrayLike | Iterable[int], z: ArrayLike | None = None,
+    def update(self, sensor: int, ids: Ids, z: ArrayLike | None = None,
                covariance: ArrayLike | None = None) -> Structs:
         """Updates with one frame of one sensor. All observations of the frame are one batch.
 
@@ -215,7 +216,7 @@ class Filter(Handle):
                 return None
         elif type(ids) is not list or z is None:
             return None
-        matches = _empty(len(ids), MATCH)
+        matches: Structs = _empty(len(cast("list[int]", ids)), MATCH)
         guard = self._guard
         with guard.lock:
             if guard.blocked:
@@ -235,7 +236,7 @@ class Filter(Handle):
         return cast(np.void, match[0])
 
     def update_linear(self, residual: ArrayLike, covariance: ArrayLike, jacobian_pose: ArrayLike | None = None,
-                      landmarks: ArrayLike | Iterable[int] = (), jacobian_landmarks: ArrayLike | None = None) -> np.void:
+                      landmarks: Ids = (), jacobian_landmarks: ArrayLike | None = None) -> np.void:
         """Updates with a measurement that the caller linearised: residual z - h (m,), its noise (m x m),
         dh/d[dp; dtheta] (m x 6, None means zero) and dh/d positions of n landmarks (m x 3n). Returns the match."""
         residual = _structs.array("residual", residual, (None,))
@@ -316,7 +317,7 @@ class Filter(Handle):
         """The landmarks of the open submap, in the submap's frame. It changes with the filter."""
         return Map(self._lend(lib.cairn_filter_local_map), owner=self)
 
-    def joint_covariance(self, ids: ArrayLike | Iterable[int]) -> Array:
+    def joint_covariance(self, ids: Ids) -> Array:
         """Joint covariance of the pose and chosen landmarks, (6 + 3n) x (6 + 3n): [dp; dtheta; positions of `ids`]."""
         names = _structs.identifiers("ids", ids)
         side = 6 + 3 * len(names)

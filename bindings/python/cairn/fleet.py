@@ -67,7 +67,7 @@ class Fleet(Simulation[FleetStep]):
         struct = _structs.new("cairn_fleet_options", options)
         created = ffi.new("cairn_fleet **")
         call(lib.cairn_fleet_create, struct, created)
-        self.options = cast("FleetOptions", _structs.as_dict(struct[0]))
+        self._options = _structs.as_dict(struct[0])
         super().__init__(created[0], lib.cairn_fleet_destroy)
 
     def _step(self, fields: dict[str, Any]) -> FleetStep:
@@ -94,13 +94,18 @@ class Fleet(Simulation[FleetStep]):
         """The other boats that a boat measured in the last step: an array of cairn.FLEET_SIGHTING."""
         return self._filled("cairn_fleet_sighting", lib.cairn_fleet_seen_vehicles, _structs.identifier("vehicle", vehicle))
 
+    @property
+    def options(self) -> FleetOptions:
+        """All options of the fleet."""
+        return cast("FleetOptions", dict(self._options))
+
     def radar(self) -> RangeBearing:
         """The radar of all boats: Team(radar=fleet.radar()), or filter.add_range_bearing(**fleet.radar())."""
-        return {"range_sigma": self.options["range_sigma"], "bearing_sigma": self.options["bearing_sigma"]}
+        return {"range_sigma": self._options["range_sigma"], "bearing_sigma": self._options["bearing_sigma"]}
 
     def twist_noise(self) -> TwistNoise:
         """Noise of the commanded motion: team.predict_twist(..., **fleet.twist_noise())."""
-        return {"velocity_sigma": (self.options["speed_sigma"], 0, 0), "rate_sigma": (0, 0, self.options["rate_sigma"])}
+        return {"velocity_sigma": (self._options["speed_sigma"], 0, 0), "rate_sigma": (0, 0, self._options["rate_sigma"])}
 
     def features(self) -> Array:
         """True positions of all features (n x 2, m): row i is feature i + 1."""

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
@@ -14,6 +13,7 @@ from . import _structs
 from ._handle import Handle
 from ._library import ffi, lib
 from ._pose_type import PoseLike
+from ._structs import Ids
 from .constants import MapForm, MergeBy
 from .error import CairnError
 from .layouts import LANDMARK
@@ -71,7 +71,7 @@ class Map(Handle):
         return self._filled("cairn_landmark", lib.cairn_map_in_box, _structs.vector("lower", lower, 3),
                             _structs.vector("upper", upper, 3))
 
-    def joint_covariance(self, ids: ArrayLike | Iterable[int]) -> Array:
+    def joint_covariance(self, ids: Ids) -> Array:
         """Joint covariance of the positions of the landmarks `ids`: 3n x 3n, m^2, blocks in the order of `ids`."""
         names = _structs.identifiers("ids", ids)
         matrix = np.zeros((3 * len(names), 3 * len(names)))
@@ -121,7 +121,7 @@ class Map(Handle):
             for guard in guards:
                 stack.enter_context(guard.lock)
             try:
-                self._call(lib.cairn_map_merge, other._lend(lambda handle: handle), settings, report)
+                self._call(lib.cairn_map_merge, other._lend(_itself), settings, report)
             except CairnError as error:
                 error.report = cast("MergeReport", _structs.as_dict(report[0]))
                 raise
@@ -131,3 +131,7 @@ class Map(Handle):
         """The landmarks of the other map after the last merge, by ascending other_id: an array of cairn.MERGED_ID with
         the fields other_id, id (in this map) and common (whether this map held the landmark before)."""
         return self._filled("cairn_merged_id", lib.cairn_map_merged_ids)
+
+
+def _itself(handle: Any) -> Any:
+    return handle

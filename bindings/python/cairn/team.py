@@ -13,7 +13,7 @@ from . import _structs
 from ._frames import observations as observations_of
 from ._handle import Handle
 from ._library import ffi, lib
-from ._pose_type import Pose, PoseLike
+from ._pose_type import PoseLike
 from .constants import Packet
 from .error import call
 from .map import Map
