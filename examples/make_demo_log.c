@@ -41,7 +41,9 @@ static double normal(double sigma) {
   return sigma * radius * cos(2.0 * PI * uniform());
 }
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 static void cross(const double a[3], const double b[3], double c[3]) {
   c[0] = a[1] * b[2] - a[2] * b[1];
@@ -67,7 +69,7 @@ static void course(double angle, double offset, double xy[2]) {
 }
 
 /* The rover at a point of its course: it stands flat on the ground and points ahead. */
-static void stand(double angle, pose *rover) {
+static void stand(double angle, pose* rover) {
   const double eps = 1e-4;
   double here[2], ahead[2];
   course(angle, 0.0, here);
@@ -88,25 +90,25 @@ static void stand(double angle, pose *rover) {
 }
 
 /* Roll, pitch and yaw of a body: its axes are the columns of Rz(yaw) Ry(pitch) Rx(roll). */
-static void euler(const pose *body, double angles[3]) {
+static void euler(const pose* body, double angles[3]) {
   angles[0] = atan2(body->axes[1][2], body->axes[2][2]);
   angles[1] = -asin(fmax(-1.0, fmin(1.0, body->axes[0][2])));
   angles[2] = atan2(body->axes[0][1], body->axes[0][0]);
 }
 
 /* A direction of the world, in the body frame. */
-static void to_body(const pose *body, const double v[3], double v_body[3]) {
+static void to_body(const pose* body, const double v[3], double v_body[3]) {
   for (int i = 0; i < 3; ++i) v_body[i] = dot(body->axes[i], v);
 }
 
-static void print_truth(int step, const pose *truth) {
+static void print_truth(int step, const pose* truth) {
   double angles[3];
   euler(truth, angles);
   printf("T %d %.3f %.9f %.9f %.9f %.9f %.9f %.9f\n", step, 1.0 * step, truth->position[0], truth->position[1],
          truth->position[2], angles[0], angles[1], angles[2]);
 }
 
-static void print_motion(int step, const pose *before, const pose *after) {
+static void print_motion(int step, const pose* before, const pose* after) {
   double moved[3], moved_body[3], angles[3];
   pose turned;
   for (int i = 0; i < 3; ++i) moved[i] = after->position[i] - before->position[i];
@@ -119,13 +121,13 @@ static void print_motion(int step, const pose *before, const pose *after) {
   printf("\n");
 }
 
-static int nearer(const void *a, const void *b) {
-  const double range_a = ((const sighting *)a)->range, range_b = ((const sighting *)b)->range;
+static int nearer(const void* a, const void* b) {
+  const double range_a = ((const sighting*)a)->range, range_b = ((const sighting*)b)->range;
   return (range_a > range_b) - (range_a < range_b);
 }
 
 /* The nearest boulders within 25 m and 60 degrees to either side. */
-static void print_sightings(int step, const pose *truth, double boulders[][3]) {
+static void print_sightings(int step, const pose* truth, double boulders[][3]) {
   sighting seen[BOULDERS];
   size_t count = 0;
   for (int i = 0; i < BOULDERS; ++i) {

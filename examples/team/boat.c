@@ -46,7 +46,9 @@ typedef struct boat {
   cairn_fleet* fleet; /* the sea */
   cairn_fleet_options sea;
   cairn_fleet_step now;
-  cairn_team* team; /* this boat's view of the team */
+  cairn_fleet_vehicle* boats; /* all boats now */
+  cairn_fleet_sighting* seen; /* room for what this boat sees */
+  cairn_team* team;           /* this boat's view of the team */
   cairn_observation *landmarks, *vehicles;
   uint8_t* packet;
   size_t packet_capacity;
@@ -56,6 +58,8 @@ typedef struct boat {
 static void sail_on(boat* b) {
   b->now.struct_size = sizeof b->now;
   check(cairn_fleet_next(b->fleet, &b->now, NULL));
+  size_t needed = 0;
+  check(cairn_fleet_vehicles(b->fleet, b->boats, b->sea.vehicles, &needed, NULL));
 }
 
 static cairn_pose place(const cairn_fleet_vehicle* vehicle) {
@@ -71,7 +75,7 @@ static void join_team(boat* b, int32_t mode, uint32_t steps) {
   filter.vehicle = CAIRN_VEHICLE_PLANAR;
   filter.max_landmarks = b->sea.features;
   filter.max_observations = b->sea.features + b->sea.vehicles;
-  filter.initial_pose = place(&b->now.vehicles[me - 1]);
+  filter.initial_pose = place(&b->boats[me - 1]);
 
   cairn_range_bearing radar;
   check(cairn_range_bearing_init(&radar, sizeof radar, NULL));
@@ -88,7 +92,7 @@ static void join_team(boat* b, int32_t mode, uint32_t steps) {
   check(cairn_team_create(&options, &filter, &radar, &b->team, NULL));
   for (uint32_t other = 1; other <= b->sea.vehicles; ++other) {
     if (other == me) continue;
-    const cairn_pose start = place(&b->now.vehicles[other - 1]);
+    const cairn_pose start = place(&b->boats[other - 1]);
     check(cairn_team_add(b->team, other, &start, NULL, NULL));
   }
 }
@@ -104,7 +108,9 @@ static void convert(const cairn_fleet_sighting* sightings, size_t count, cairn_o
 
 /* This boat's part of a step: the commanded motion, then the scan of the radar. */
 static void tell_step(boat* b) {
-  const cairn_fleet_vehicle* own = &b->now.vehicles[me - 1];
+  const cairn_fleet_vehicle* own = &b->boats[me - 1];
+  const size_t most = (size_t)b->sea.features + b->sea.vehicles;
+  size_t features = 0, vehicles = 0;
   if (b->now.dt > 0.0) {
     const double velocity[3] = {own->speed, 0.0, 0.0}, rate[3] = {0.0, 0.0, own->rate};
     cairn_twist_noise noise;
@@ -114,10 +120,11 @@ static void tell_step(boat* b) {
     noise.rate_sigma[2] = b->sea.rate_sigma;
     check(cairn_team_predict_twist(b->team, b->now.dt, velocity, rate, &noise, NULL));
   }
-  convert(own->features, own->feature_count, b->landmarks);
-  convert(own->vehicles, own->vehicle_count, b->vehicles);
-  check(cairn_team_observe(b->team, b->now.time, b->landmarks, own->feature_count, b->vehicles, own->vehicle_count,
-                           NULL));
+  check(cairn_fleet_seen_features(b->fleet, me, b->seen, most, &features, NULL));
+  convert(b->seen, features, b->landmarks);
+  check(cairn_fleet_seen_vehicles(b->fleet, me, b->seen, most, &vehicles, NULL));
+  convert(b->seen, vehicles, b->vehicles);
+  check(cairn_team_observe(b->team, b->now.time, b->landmarks, features, b->vehicles, vehicles, NULL));
 }
 
 /* Own steps, repetitions and requests. The radio need not distinguish them. */
@@ -283,6 +290,8 @@ int main(int argc, char** argv) {
 
   b.landmarks = must_have(malloc(b.sea.features * sizeof *b.landmarks));
   b.vehicles = must_have(malloc(b.sea.vehicles * sizeof *b.vehicles));
+  b.boats = must_have(malloc(b.sea.vehicles * sizeof *b.boats));
+  b.seen = must_have(malloc(((size_t)b.sea.features + b.sea.vehicles) * sizeof *b.seen));
   sail_on(&b); /* the step at the start, before any motion */
   join_team(&b, mode, steps);
   b.radio = must_have(radio_open(me, b.sea.vehicles, port, loss, b.sea.seed, take_packet, &b));

@@ -13,24 +13,24 @@ enum { MOST_DELAY_MS = 20, KEEP_ALIVE_S = 30, RETRY_MS = 50 };
 
 /* A packet that is held back. */
 typedef struct held {
-  struct held *next;
+  struct held* next;
   double due;
   size_t size;
   uint8_t packet[];
 } held;
 
 struct radio {
-  struct mosquitto *mqtt;
+  struct mosquitto* mqtt;
   uint64_t vehicle, vehicles;
   double loss;
   uint64_t random;
   radio_handler handler;
-  void *user;
+  void* user;
   int connected;
   int done_mid; /* id of this boat's "done" message, once it was sent */
   int done_sent;
-  unsigned char *done; /* by vehicle - 1 */
-  held *waiting;
+  unsigned char* done; /* by vehicle - 1 */
+  held* waiting;
   radio_counts counts;
 };
 
@@ -46,15 +46,15 @@ static void nap(long milliseconds) {
 }
 
 /* In [0, 1), by SplitMix64. */
-static double draw(radio *r) {
+static double draw(radio* r) {
   uint64_t z = r->random += 0x9E3779B97F4A7C15u;
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
   return (double)((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
 }
 
-static void hold(radio *r, const uint8_t *packet, size_t size) {
-  held *h = malloc(sizeof *h + size);
+static void hold(radio* r, const uint8_t* packet, size_t size) {
+  held* h = malloc(sizeof *h + size);
   if (!h) return; /* the packet is lost */
   h->due = radio_now() + 1e-3 * MOST_DELAY_MS * draw(r);
   h->size = size;
@@ -63,9 +63,9 @@ static void hold(radio *r, const uint8_t *packet, size_t size) {
   r->waiting = h;
 }
 
-static void hand_on_held(radio *r, double now) {
-  for (held **at = &r->waiting; *at;) {
-    held *h = *at;
+static void hand_on_held(radio* r, double now) {
+  for (held** at = &r->waiting; *at;) {
+    held* h = *at;
     if (h->due > now) {
       at = &h->next;
       continue;
@@ -76,15 +76,15 @@ static void hand_on_held(radio *r, double now) {
   }
 }
 
-static void on_message(struct mosquitto *mqtt, void *object, const struct mosquitto_message *message) {
-  radio *r = object;
+static void on_message(struct mosquitto* mqtt, void* object, const struct mosquitto_message* message) {
+  radio* r = object;
   unsigned long long vehicle = 0;
   (void)mqtt;
   if (sscanf(message->topic, "cairn/done/%llu", &vehicle) == 1) {
     if (vehicle >= 1 && vehicle <= r->vehicles) r->done[vehicle - 1] = 1;
     return;
   }
-  const uint8_t *packet = message->payload;
+  const uint8_t* packet = message->payload;
   const size_t size = (size_t)message->payloadlen;
   /* Always three draws for each packet, so that a larger loss only adds faults. */
   const int dropped = draw(r) < r->loss, delayed = draw(r) < r->loss / 2, doubled = draw(r) < r->loss / 2;
@@ -105,8 +105,8 @@ static void on_message(struct mosquitto *mqtt, void *object, const struct mosqui
 }
 
 /* Subscribes again after every connection, because the broker forgets subscriptions. */
-static void on_connect(struct mosquitto *mqtt, void *object, int refused) {
-  radio *r = object;
+static void on_connect(struct mosquitto* mqtt, void* object, int refused) {
+  radio* r = object;
   if (refused) return;
   r->connected = 1;
   for (uint64_t other = 1; other <= r->vehicles; ++other) {
@@ -119,22 +119,22 @@ static void on_connect(struct mosquitto *mqtt, void *object, int refused) {
   }
 }
 
-static void on_disconnect(struct mosquitto *mqtt, void *object, int reason) {
-  radio *r = object;
+static void on_disconnect(struct mosquitto* mqtt, void* object, int reason) {
+  radio* r = object;
   (void)mqtt;
   (void)reason;
   r->connected = 0;
 }
 
-static void on_publish(struct mosquitto *mqtt, void *object, int mid) {
-  radio *r = object;
+static void on_publish(struct mosquitto* mqtt, void* object, int mid) {
+  radio* r = object;
   (void)mqtt;
   if (r->done_sent && mid == r->done_mid) r->done[r->vehicle - 1] = 1;
 }
 
-radio *radio_open(uint64_t vehicle, uint64_t vehicles, int port, double loss, uint64_t seed, radio_handler handler,
-                  void *user) {
-  radio *r = calloc(1, sizeof *r);
+radio* radio_open(uint64_t vehicle, uint64_t vehicles, int port, double loss, uint64_t seed, radio_handler handler,
+                  void* user) {
+  radio* r = calloc(1, sizeof *r);
   if (!r) return NULL;
   signal(SIGPIPE, SIG_IGN); /* the program must survive a broker that stops */
   mosquitto_lib_init();
@@ -159,7 +159,7 @@ radio *radio_open(uint64_t vehicle, uint64_t vehicles, int port, double loss, ui
   return r;
 }
 
-void radio_close(radio *r) {
+void radio_close(radio* r) {
   if (!r) return;
   if (r->mqtt) {
     mosquitto_disconnect(r->mqtt);
@@ -167,7 +167,7 @@ void radio_close(radio *r) {
     mosquitto_destroy(r->mqtt);
   }
   while (r->waiting) {
-    held *h = r->waiting;
+    held* h = r->waiting;
     r->waiting = h->next;
     free(h);
   }
@@ -176,13 +176,13 @@ void radio_close(radio *r) {
   mosquitto_lib_cleanup();
 }
 
-void radio_send(radio *r, const uint8_t *packet, size_t size) {
+void radio_send(radio* r, const uint8_t* packet, size_t size) {
   char topic[64];
   snprintf(topic, sizeof topic, "cairn/team/%llu", (unsigned long long)r->vehicle);
   if (mosquitto_publish(r->mqtt, NULL, topic, (int)size, packet, 0, false) == MOSQ_ERR_SUCCESS) ++r->counts.published;
 }
 
-void radio_listen(radio *r) {
+void radio_listen(radio* r) {
   if (mosquitto_loop(r->mqtt, 1, 1) != MOSQ_ERR_SUCCESS) {
     r->connected = 0;
     nap(RETRY_MS);
@@ -191,7 +191,7 @@ void radio_listen(radio *r) {
   hand_on_held(r, radio_now());
 }
 
-void radio_say_done(radio *r) {
+void radio_say_done(radio* r) {
   char topic[64];
   if (r->done_sent || !r->connected) return;
   snprintf(topic, sizeof topic, "cairn/done/%llu", (unsigned long long)r->vehicle);
@@ -199,20 +199,20 @@ void radio_say_done(radio *r) {
   r->done_sent = mosquitto_publish(r->mqtt, &r->done_mid, topic, 4, "done", 1, true) == MOSQ_ERR_SUCCESS;
 }
 
-uint64_t radio_busy(const radio *r) {
+uint64_t radio_busy(const radio* r) {
   uint64_t busy = 0;
   for (uint64_t i = 0; i < r->vehicles; ++i) busy += !r->done[i];
   return busy;
 }
 
-int radio_is_busy(const radio *r, uint64_t vehicle) {
+int radio_is_busy(const radio* r, uint64_t vehicle) {
   return !r->done[vehicle - 1];
 }
 
-int radio_is_connected(const radio *r) {
+int radio_is_connected(const radio* r) {
   return r->connected;
 }
 
-radio_counts radio_counted(const radio *r) {
+radio_counts radio_counted(const radio* r) {
   return r->counts;
 }

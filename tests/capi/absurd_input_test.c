@@ -25,17 +25,17 @@ static void absurd_descriptions_are_refused(void** state) {
     for (int i = 0; i < 3; ++i) {
       cairn_stereo_camera camera;
       cairn_cartesian cartesian;
-      cairn_custom custom = test_point();
+      own_sensor custom = test_point();
       cairn_twist_noise noise;
       assert_ok(cairn_stereo_camera_init(&camera, sizeof camera, NULL));
       assert_ok(cairn_cartesian_init(&cartesian, sizeof cartesian, NULL));
       assert_ok(cairn_twist_noise_init(&noise, sizeof noise, NULL));
-      camera.sigma[i] = cartesian.sigma[i] = custom.sigma[i] = sigmas[k];
+      camera.sigma[i] = cartesian.sigma[i] = custom.model.sigma[i] = sigmas[k];
       assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "camera.sigma",
                      cairn_filter_add_stereo_camera(f, &camera, &sensor, NULL));
       assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "cartesian.sigma",
                      cairn_filter_add_cartesian(f, &cartesian, &sensor, NULL));
-      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.sigma", cairn_filter_add_custom(f, &custom, &sensor, NULL));
+      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.sigma", add_own(f, &custom, &sensor));
       noise.velocity_sigma[i] = sigmas[k];
       assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "noise.velocity_sigma", cairn_filter_set_twist_noise(f, &noise, NULL));
       noise.velocity_sigma[i] = 0, noise.rate_sigma[i] = sigmas[k];

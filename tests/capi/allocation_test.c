@@ -62,7 +62,7 @@ static void live(const scale* s) {
   assert_true(o != NULL && m != NULL && residual != NULL && noise != NULL && jp != NULL && jl != NULL && ids != NULL);
   options.max_landmarks = s->association == CAIRN_ASSOCIATION_KNOWN ? s->landmarks : 25 * s->landmarks;
   options.max_observations = s->observations;
-  options.iterations = 5, options.iteration_tolerance = 1e-9, options.error = s->error,
+  options.iterations = 5, options.iteration_tolerance = 1e-9, options.state_error = s->error,
   options.association = s->association;
   options.trajectory_poses = 50; /* fewer than updates */
   world_init(&w, 31);
@@ -165,7 +165,7 @@ static void the_required_bytes_are_told_beforehand(void** state) {
     cairn_filter* f = NULL;
     size_t foretold = 0;
     const cairn_stereo_head head = test_head();
-    const cairn_custom point = test_point();
+    const own_sensor point = test_point();
     const cairn_stereo_camera camera = test_camera();
     options.max_landmarks = cases[k].landmarks, options.max_observations = cases[k].observations;
     options.trajectory_poses = 1000 * (uint32_t)k;
@@ -179,7 +179,7 @@ static void the_required_bytes_are_told_beforehand(void** state) {
     for (uint32_t i = 0; i < cases[k].sensors; ++i) {
       int32_t sensor;
       if (i % 3 == 0) failed += cairn_filter_add_stereo_head(f, &head, &sensor, NULL) != CAIRN_OK;
-      if (i % 3 == 1) failed += cairn_filter_add_custom(f, &point, &sensor, NULL) != CAIRN_OK;
+      if (i % 3 == 1) failed += add_own(f, &point, &sensor) != CAIRN_OK;
       if (i % 3 == 2) failed += cairn_filter_add_stereo_camera(f, &camera, &sensor, NULL) != CAIRN_OK;
     }
     const size_t peak = counter.peak;

@@ -29,7 +29,7 @@ static void a_negative_callback_aborts_the_whole_frame(void** state) {
     for (int at = 1;; ++at) {
       cairn_filter_options o = options_of(CAIRN_VEHICLE_SPATIAL, CAIRN_STATE_ERROR_INVARIANT);
       aborting a = {0, 0, at % 2 == 0 ? -1 : INT32_MIN};
-      cairn_custom custom = test_point();
+      own_sensor custom = test_point();
       const double lower[3] = {0, -50, -50}, upper[3] = {50, 50, 50};
       cairn_observation shot[NEAR];
       cairn_match m[NEAR], kept[NEAR];
@@ -39,7 +39,7 @@ static void a_negative_callback_aborts_the_whole_frame(void** state) {
       for (int i = 0; i < 6; ++i) o.initial_covariance[7 * i] = 1e-4;
       cairn_filter* f = create(&o);
       custom.predict = aborting_predict, custom.place = aborting_place, custom.user = &a;
-      assert_ok(cairn_filter_add_custom(f, &custom, &sensor, NULL));
+      assert_ok(add_own(f, &custom, &sensor));
       assert_ok(cairn_filter_set_view(f, sensor, lower, upper, NULL));
       for (uint64_t i = 0; i < NEAR; ++i) shot[i] = seen(CAIRN_VEHICLE_SPATIAL, 3 * i, 0);
       assert_ok(cairn_filter_update(f, sensor, shot, 6, m, NULL));
@@ -78,14 +78,13 @@ static void a_negative_callback_aborts_the_whole_frame(void** state) {
 
 static void a_check_of_a_sensor_that_aborts_fails(void** state) {
   aborting a = {0, 1, -5};
-  cairn_custom custom = test_point();
+  own_sensor custom = test_point();
   const cairn_pose pose = pose_at(0, 0, 0, 0, 0, 0);
   const double landmark[3] = {3, 1, 0};
   double worst = 0;
   (void)state;
   custom.predict = aborting_predict, custom.place = aborting_place, custom.user = &a;
-  assert_refused(NULL, CAIRN_ERROR_CALLBACK, "custom.predict returned -5",
-                 cairn_custom_check(&custom, &pose, landmark, &worst, NULL));
+  assert_refused(NULL, CAIRN_ERROR_CALLBACK, "custom.predict returned -5", check_own(&custom, &pose, landmark, &worst));
 }
 
 /* A custom sensor of the whole world agrees with the built-in one although it asks for places before the commit. */
@@ -98,9 +97,9 @@ static void a_custom_sensor_places_like_a_built_in_one(void** state) {
   for (int own = 0; own < 2; ++own) {
     cairn_filter* f = create(&o);
     int32_t sensor = add_sensor(f, CAIRN_VEHICLE_SPATIAL);
-    cairn_custom custom = test_point();
-    for (int i = 0; i < 3; ++i) custom.sigma[i] = 0.1;
-    if (own == 1) assert_ok(cairn_filter_add_custom(f, &custom, &sensor, NULL));
+    own_sensor custom = test_point();
+    for (int i = 0; i < 3; ++i) custom.model.sigma[i] = 0.1;
+    if (own == 1) assert_ok(add_own(f, &custom, &sensor));
     for (int n = 0; n < 6; ++n) {
       cairn_observation shot[3];
       for (uint64_t i = 0; i < 3; ++i) shot[i] = seen(CAIRN_VEHICLE_SPATIAL, (uint64_t)n + i, 0.1 * n + 0.05);

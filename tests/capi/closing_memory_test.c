@@ -28,7 +28,7 @@ static void stage_open(stage* s, const setting* how, uint32_t landmarks) {
   memset(s, 0, sizeof *s);
   ring_init(&s->course, 11);
   cairn_filter_options options = ring_options(&s->course, landmarks, how->join);
-  options.error = how->error;
+  options.state_error = how->error;
   s->filter = ring_filter(&options);
   s->twin = ring_filter(&options);
 }
@@ -50,13 +50,13 @@ static void assert_unchanged(stage* s, const char* what, size_t at) {
 
 /* Lets each request of a call fail in turn, or every request from one on with a stride, until the call succeeds.
  * Returns the number of refusals. */
-typedef cairn_status (*call)(cairn_filter* filter);
+typedef cairn_status (*call)(cairn_filter* filter, cairn_error* error);
 static size_t refuse_each(stage* s, const char* what, call make, bool for_good) {
   size_t refusals = 0;
   submaps_take(&s->before, s->filter);
   for (size_t at = 1;; at += for_good ? 5 : 1) {
     arm_to_fail(at, for_good);
-    const cairn_status status = make(s->filter);
+    const cairn_status status = make(s->filter, NULL);
     const bool failed = counter.failed;
     counter.armed = false;
     if (!failed) {
@@ -96,11 +96,11 @@ static void a_refused_closing_leaves_the_filter_as_it_was(void** state) {
   }
 }
 
-static cairn_status fix_position(cairn_filter* filter) {
+static cairn_status fix_position(cairn_filter* filter, cairn_error* error) {
   const double there[3] = {0.2, 9.8, 0.4};
   double covariance[9];
   diagonal(covariance, 3, 25);
-  return cairn_filter_update_position(filter, there, covariance, NULL, NULL, NULL);
+  return cairn_filter_update_position(filter, there, covariance, NULL, NULL, error);
 }
 
 /* A fix closes the open submap and then moves the base. Both must happen, or neither. */
@@ -114,13 +114,13 @@ static void a_refused_fix_leaves_the_filter_as_it_was(void** state) {
       for (int leg = 0; leg < 3; ++leg) {
         stage_drive(&s, 9);
         refusals += refuse_each(&s, "cairn_filter_update_position", fix_position, for_good != 0);
-        assert_ok(fix_position(s.twin));
+        assert_ok(fix_position(s.twin, NULL));
         assert_alike(&s, "cairn_filter_update_position");
         if (settings[k].join == CAIRN_JOIN_SPARSE) /* a second fix, with no submap to close */
           refusals += refuse_each(&s, "cairn_filter_update_position", fix_position, for_good != 0);
         else
-          assert_ok(fix_position(s.filter));
-        assert_ok(fix_position(s.twin));
+          assert_ok(fix_position(s.filter, NULL));
+        assert_ok(fix_position(s.twin, NULL));
         assert_alike(&s, "cairn_filter_update_position");
       }
       assert_true(refusals > 20);
@@ -178,7 +178,7 @@ static void a_failed_closing_of_an_update_is_postponed(void** state) {
         stage s;
         ring_frame f;
         stage_open(&s, &settings[k], 7);
-        assert_ok(cairn_filter_set_log(s.filter, count_lines, NULL, NULL));
+        assert_ok(cairn_filter_set_log(s.filter, count_lines, NULL, NULL, NULL));
         stage_drive(&s, late ? 60 : 1);
         size_t closed = 0, count = 0, left = 0;
         assert_ok(cairn_filter_submap_count(s.twin, &closed, NULL));

@@ -14,7 +14,7 @@ static void frames_of(uint64_t seed, frame frames[STEPS]) {
 
 static void open_as(rig* r, int32_t error) {
   cairn_filter_options options = test_options();
-  options.error = error;
+  options.state_error = error;
   rig_open(r, &options);
 }
 
@@ -180,7 +180,7 @@ static void the_log_reports_rejections_and_changes_nothing(void** state) {
   const double far[3] = {1000, 1000, 1000};
   cairn_match m;
   diagonal(covariance, 3, 1e-2);
-  assert_ok(cairn_filter_set_log(b->main.filter, write_down, &d, NULL));
+  assert_ok(cairn_filter_set_log(b->main.filter, write_down, &d, NULL, NULL));
   for (int k = 0; k < 2; ++k)
     assert_ok(
         cairn_filter_update_position(k == 0 ? b->main.filter : b->shadow.filter, far, covariance, NULL, &m, NULL));
@@ -196,11 +196,11 @@ static void the_log_reports_rejections_and_changes_nothing(void** state) {
   assert_ok(cairn_filter_update(b->shadow.filter, b->shadow.sensors[CARTESIAN], f.observations, f.count, NULL, NULL));
   assert_true(d.lines >= 2 && d.whole);
   bench_continue(b, 12);
-  assert_ok(cairn_filter_set_log(b->main.filter, NULL, NULL, NULL));
+  assert_ok(cairn_filter_set_log(b->main.filter, NULL, NULL, NULL, NULL));
   const int lines = d.lines;
   assert_ok(cairn_filter_update_position(b->main.filter, far, covariance, NULL, &m, NULL));
   assert_int_equal(d.lines, lines);
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_set_log(NULL, write_down, &d, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", cairn_filter_set_log(NULL, write_down, &d, NULL, NULL));
 }
 
 int main(void) {

@@ -5,7 +5,7 @@
 static cairn_filter* create(const cairn_pose* start, int32_t error, uint32_t iterations) {
   cairn_filter_options options = test_options();
   cairn_filter* filter = NULL;
-  options.error = error;
+  options.state_error = error;
   options.iterations = iterations;
   options.iteration_tolerance = 1e-6;
   options.initial_pose = *start;
@@ -103,7 +103,7 @@ static void linear_equals_a_frame_of_points(void** state) {
     cairn_match m;
     cairn_pose pose;
     double residual[6], covariance[36] = {0}, Jp[36] = {0}, Jl[36] = {0};
-    options.error = error, options.iterations = 1;
+    options.state_error = error, options.iterations = 1;
     rig_open(&a, &options);
     rig_open(&b, &options);
     memset(o, 0, sizeof o);
@@ -279,7 +279,7 @@ static void both_errors_agree_at_the_start(void** state) {
     world_frame(&w, &f);
     f.motion = motion;
     for (int k = 0; k < 2; ++k) {
-      options.error = k == 0 ? CAIRN_STATE_ERROR_INVARIANT : CAIRN_STATE_ERROR_STANDARD;
+      options.state_error = k == 0 ? CAIRN_STATE_ERROR_INVARIANT : CAIRN_STATE_ERROR_STANDARD;
       rig_open(&r[k], &options);
       assert_ok(rig_take(&r[k], &f, NULL));
       diagonal(small, 3, 1e-5);
@@ -305,7 +305,7 @@ static void both_errors_follow_the_truth(void** state) {
     rig r;
     double error[6], nees, pivot;
     cairn_filter_options options = test_options();
-    options.error = k == 0 ? CAIRN_STATE_ERROR_INVARIANT : CAIRN_STATE_ERROR_STANDARD;
+    options.state_error = k == 0 ? CAIRN_STATE_ERROR_INVARIANT : CAIRN_STATE_ERROR_STANDARD;
     world_init(&w, 8);
     rig_open(&r, &options);
     for (int n = 0; n < 120; ++n) {

@@ -21,7 +21,7 @@ static void the_position_of_the_origin_does_not_matter(void** state) {
       frame f;
       double a[36], b[36];
       cairn_pose pa, pb;
-      options.error = error;
+      options.state_error = error;
       options.initial_covariance[35] = 0.04; /* the heading is almost unknown */
       rig_open(&near, &options);
       for (int i = 0; i < 3; ++i) options.initial_pose.position[i] += offsets[k][i];
@@ -64,7 +64,7 @@ static void a_precise_fix_ends_an_uncertain_start(void** state) {
     cairn_pose pose;
     cairn_match m;
     rig r;
-    options.error = error;
+    options.state_error = error;
     for (int i = 0; i < 3; ++i) options.initial_covariance[7 * i] = 1e4;
     rig_open(&r, &options);
     diagonal(noise, 3, 1e-6);
@@ -91,7 +91,7 @@ static void a_long_run_stays_positive_definite_and_near_the_truth(void** state) 
     world w;
     frame f;
     rig r;
-    options.error = error;
+    options.state_error = error;
     rig_open(&r, &options);
     world_init(&w, 45);
     for (int n = 0; n < 3000; ++n) {
@@ -116,9 +116,9 @@ static int32_t moody_predict(void* user, const cairn_pose* pose, const double la
                              double* jacobian_pose, double* jacobian_landmark) {
   mood* m = user;
   (void)point_predict(NULL, pose, landmark, z, jacobian_pose, jacobian_landmark);
-  if (++m->calls != m->turn_at) return 0;
+  if (++m->calls != m->turn_at) return 1;
   if (!m->refuse) jacobian_pose[3] = NAN;
-  return m->refuse;
+  return !m->refuse;
 }
 
 static void a_sensor_that_changes_its_behaviour_harms_nothing(void** state) {
@@ -128,7 +128,7 @@ static void a_sensor_that_changes_its_behaviour_harms_nothing(void** state) {
     for (int turn_at = 1;; ++turn_at) {
       cairn_filter_options options = test_options();
       mood m = {0, 0, refuse != 0};
-      cairn_custom custom = test_point();
+      own_sensor custom = test_point();
       cairn_observation o[POINTS];
       cairn_match matches[POINTS];
       const cairn_pose stay = {{0, 0, 0}, {1, 0, 0, 0}};
@@ -138,7 +138,7 @@ static void a_sensor_that_changes_its_behaviour_harms_nothing(void** state) {
       options.initial_pose = stay, options.max_sensors = SENSORS + 1, options.iteration_tolerance = 1e-6;
       rig_open(&r, &options);
       custom.predict = moody_predict, custom.user = &m;
-      assert_ok(cairn_filter_add_custom(r.filter, &custom, &sensor, NULL));
+      assert_ok(add_own(r.filter, &custom, &sensor));
       memset(o, 0, sizeof o);
       for (int i = 0; i < POINTS; ++i)
         o[i].id = (uint64_t)i, o[i].z[0] = 5 + i, o[i].z[1] = i * i - 4, o[i].z[2] = i % 3;

@@ -8,7 +8,7 @@ static void options_defaults(void** state) {
   memset(&o, 0x5a, sizeof o);
   assert_ok(cairn_filter_options_init(&o, sizeof o, NULL));
   assert_int_equal(o.struct_size, sizeof o);
-  assert_int_equal(o.error, CAIRN_STATE_ERROR_INVARIANT);
+  assert_int_equal(o.state_error, CAIRN_STATE_ERROR_INVARIANT);
   assert_int_equal(o.max_landmarks, 1000);
   assert_int_equal(o.max_observations, 64);
   assert_int_equal(o.max_sensors, 8);
@@ -80,7 +80,7 @@ static void options_out_of_range_are_refused_one_by_one(void** state) {
   static const int32_t errors[] = {-1, 2, INT32_MIN, INT32_MAX};
   for (size_t n = 0; n < LENGTH(errors); ++n) {
     cairn_filter_options o = good;
-    o.error = errors[n];
+    o.state_error = errors[n];
     refuse_options(&o, "error");
   }
   const double bad[] = {NAN, INFINITY, -INFINITY, 0, -0.5, 1.0000001};

@@ -5,7 +5,7 @@
 static cairn_filter* create(const cairn_pose* start, const double* covariance, int32_t error) {
   cairn_filter_options options = test_options();
   cairn_filter* filter = NULL;
-  options.error = error;
+  options.state_error = error;
   options.initial_pose = *start;
   memset(options.initial_covariance, 0, sizeof options.initial_covariance);
   if (covariance != NULL) memcpy(options.initial_covariance, covariance, sizeof options.initial_covariance);

@@ -8,7 +8,7 @@ const double plane_points[POINTS][3] = {{4, 1, 0},  {8, -3, 0}, {12, 2, 0}, {14,
 cairn_filter_options plane_options(int32_t vehicle, int32_t error) {
   cairn_filter_options options;
   assert_ok(cairn_filter_options_init(&options, sizeof options, NULL));
-  options.vehicle = vehicle, options.error = error;
+  options.vehicle = vehicle, options.state_error = error;
   options.max_landmarks = options.max_observations = POINTS;
   options.gate_probability = options.batch_gate_probability = 1; /* bounds by rows, of which space has more */
   options.initial_pose = pose_at(0.3, -0.2, 0, 0, 0, 0.1);

@@ -61,7 +61,7 @@ static int32_t caller_predict(void* user, const cairn_pose* pose, const double l
   const double dx = landmark[0] - pose->position[0], dy = landmark[1] - pose->position[1];
   const double yaw = 2 * atan2(pose->quaternion[3], pose->quaternion[0]), r2 = dx * dx + dy * dy, r = sqrt(r2);
   if (user != NULL) ++*(int*)user;
-  if (landmark[2] != 0 || pose->position[2] != 0 || !(r > 0.01)) return 1;
+  if (landmark[2] != 0 || pose->position[2] != 0 || !(r > 0.01)) return 0;
   z[0] = r, z[1] = atan2(dy, dx) - yaw;
   const double l[6] = {dx / r, dy / r, 0, -dy / r2, dx / r2, 0};
   for (int i = 0; i < 2; ++i) {
@@ -73,7 +73,7 @@ static int32_t caller_predict(void* user, const cairn_pose* pose, const double l
     jacobian_landmark[3 * i + 2] = 9; /* out of the plane: ignored */
     jacobian_pose[6 * i + 3] = 9;
   }
-  return 0;
+  return 1;
 }
 
 static int32_t caller_place(void* user, const cairn_pose* pose, const double* z, double landmark[3],
@@ -86,14 +86,14 @@ static int32_t caller_place(void* user, const cairn_pose* pose, const double* z,
   jacobian_z[0] = cos(at), jacobian_z[1] = -y;
   jacobian_z[2] = sin(at), jacobian_z[3] = x;
   jacobian_z[4] = jacobian_z[5] = 0;
-  return 0;
+  return 1;
 }
 
 static void a_custom_sensor_equals_the_built_in_one(void** state) {
   const cairn_filter_options options = plane_options(CAIRN_VEHICLE_PLANAR, CAIRN_STATE_ERROR_INVARIANT);
   cairn_filter* filters[2] = {plane_filter(&options), plane_filter(&options)};
   cairn_range_bearing radar;
-  cairn_custom custom;
+  own_sensor custom = {{0}, NULL, NULL, NULL};
   cairn_pose truth = options.initial_pose, pa, pb;
   generator random = {8};
   double ca[36], cb[36], error[6];
@@ -101,12 +101,12 @@ static void a_custom_sensor_equals_the_built_in_one(void** state) {
   int calls = 0;
   (void)state;
   assert_ok(cairn_range_bearing_init(&radar, sizeof radar, NULL));
-  assert_ok(cairn_custom_init(&custom, sizeof custom, NULL));
-  custom.rows = 2, custom.predict = caller_predict, custom.place = caller_place, custom.user = &calls;
-  custom.angle_mask = 2, custom.sigma[0] = radar.range_sigma, custom.sigma[1] = radar.bearing_sigma;
-  custom.relative = 1;
+  assert_ok(cairn_custom_init(&custom.model, sizeof custom.model, NULL));
+  custom.model.rows = 2, custom.predict = caller_predict, custom.place = caller_place, custom.user = &calls;
+  custom.model.angle_mask = 2, custom.model.sigma[0] = radar.range_sigma, custom.model.sigma[1] = radar.bearing_sigma;
+  custom.model.relative = 1;
   assert_ok(cairn_filter_add_range_bearing(filters[0], &radar, &sensors[0], NULL));
-  assert_ok(cairn_filter_add_custom(filters[1], &custom, &sensors[1], NULL));
+  assert_ok(add_own(filters[1], &custom, &sensors[1]));
   for (int step = 0; step < 40; ++step) {
     const cairn_pose moved = pose_at(0.6, 0, 0, 0, 0, 0.12);
     cairn_observation o[POINTS];
@@ -133,17 +133,14 @@ static void a_custom_sensor_equals_the_built_in_one(void** state) {
   assert_true(calls > 100);
   /* In the plane a sensor has 1 or 2 rows. With 1 row it cannot place landmarks. */
   int32_t number = -1;
-  custom.rows = 3;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.rows",
-                 cairn_filter_add_custom(filters[0], &custom, &number, NULL));
-  custom.rows = 0;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.rows",
-                 cairn_filter_add_custom(filters[0], &custom, &number, NULL));
-  custom.rows = 1, custom.angle_mask = 0;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.place",
-                 cairn_filter_add_custom(filters[0], &custom, &number, NULL));
+  custom.model.rows = 3;
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.rows", add_own(filters[0], &custom, &number));
+  custom.model.rows = 0;
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom.rows", add_own(filters[0], &custom, &number));
+  custom.model.rows = 1, custom.model.angle_mask = 0;
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "place", add_own(filters[0], &custom, &number));
   custom.place = NULL;
-  assert_ok(cairn_filter_add_custom(filters[0], &custom, &number, NULL));
+  assert_ok(add_own(filters[0], &custom, &number));
   for (int k = 0; k < 2; ++k) cairn_filter_destroy(filters[k]);
 }
 

@@ -17,7 +17,7 @@ static inline cairn_filter* create(const cairn_filter_options* options) {
 static inline cairn_filter_options options_of(int32_t vehicle, int32_t error) {
   cairn_filter_options o;
   assert_ok(cairn_filter_options_init(&o, sizeof o, NULL));
-  o.vehicle = vehicle, o.error = error, o.max_landmarks = 60, o.max_observations = 20;
+  o.vehicle = vehicle, o.state_error = error, o.max_landmarks = 60, o.max_observations = 20;
   return o;
 }
 

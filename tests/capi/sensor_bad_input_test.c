@@ -21,7 +21,7 @@ static cairn_status add(cairn_filter* filter, int kind, const void* d, int32_t* 
   if (kind == HEAD) return cairn_filter_add_stereo_head(filter, d, sensor, NULL);
   if (kind == CAMERA) return cairn_filter_add_stereo_camera(filter, d, sensor, NULL);
   if (kind == CARTESIAN) return cairn_filter_add_cartesian(filter, d, sensor, NULL);
-  return cairn_filter_add_custom(filter, d, sensor, NULL);
+  return cairn_filter_add_custom(filter, d, point_predict, point_place, NULL, NULL, sensor, NULL);
 }
 
 enum { KINDS = POINT + 1 };
@@ -33,7 +33,6 @@ static description good(int kind) {
   description d;
   memset(&d, 0, sizeof d);
   assert_ok(init(kind, &d, sizes[kind]));
-  if (kind == POINT) d.custom.predict = point_predict, d.custom.place = point_place;
   return d;
 }
 
@@ -142,9 +141,13 @@ static void zero_quaternions_and_ranges_of_choices_are_refused(void** state) {
   d = good(POINT);
   d.custom.relative = 2;
   refuse(b, POINT, &d, "relative");
-  d = good(POINT);
-  d.custom.predict = NULL;
-  refuse(b, POINT, &d, "predict");
+  {
+    own_sensor own = test_point();
+    int32_t sensor = 4711;
+    own.predict = NULL;
+    assert_refused(b, CAIRN_ERROR_ARGUMENT, "predict", add_own(b->main.filter, &own, &sensor));
+    assert_int_equal(sensor, 4711);
+  }
 }
 
 static void nulls_are_refused_by_name(void** state) {
@@ -277,38 +280,39 @@ static void point_head_refuses(void** state) {
 static int32_t blind_predict(void* user, const cairn_pose* pose, const double landmark[3], double* z,
                              double* jacobian_pose, double* jacobian_landmark) {
   (void)user, (void)pose, (void)landmark, (void)z, (void)jacobian_pose, (void)jacobian_landmark;
-  return 1;
+  return 0;
 }
 
 static void custom_check_refuses(void** state) {
   const cairn_pose pose = pose_at(1, 2, 3, 0.1, 0.2, 0.3);
   const double landmark[3] = {5, 6, 7};
-  cairn_custom custom = test_point();
+  own_sensor custom = test_point();
   double worst = 4711;
   (void)state;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom", cairn_custom_check(NULL, &pose, landmark, &worst, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "pose", cairn_custom_check(&custom, NULL, landmark, &worst, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", cairn_custom_check(&custom, &pose, NULL, &worst, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "worst", cairn_custom_check(&custom, &pose, landmark, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "custom",
+                 cairn_custom_check(NULL, point_predict, point_place, NULL, &pose, landmark, &worst, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "pose", check_own(&custom, NULL, landmark, &worst));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", check_own(&custom, &pose, NULL, &worst));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "worst", check_own(&custom, &pose, landmark, NULL));
   for (int i = 0; i < 7; ++i)
     for (size_t n = 0; n < LENGTH(not_finite); ++n) {
       cairn_pose bad = pose;
       double where[3] = {5, 6, 7};
       *(i < 3 ? &bad.position[i] : &bad.quaternion[i - 3]) = not_finite[n];
       where[i % 3] = not_finite[n];
-      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "pose", cairn_custom_check(&custom, &bad, landmark, &worst, NULL));
-      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", cairn_custom_check(&custom, &pose, where, &worst, NULL));
+      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "pose", check_own(&custom, &bad, landmark, &worst));
+      assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", check_own(&custom, &pose, where, &worst));
     }
-  custom.rows = 4;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rows", cairn_custom_check(&custom, &pose, landmark, &worst, NULL));
+  custom.model.rows = 4;
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rows", check_own(&custom, &pose, landmark, &worst));
   custom = test_point();
-  custom.struct_size = 3;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "struct_size", cairn_custom_check(&custom, &pose, landmark, &worst, NULL));
+  custom.model.struct_size = 3;
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "struct_size", check_own(&custom, &pose, landmark, &worst));
   custom = test_point();
   custom.predict = NULL;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "predict", cairn_custom_check(&custom, &pose, landmark, &worst, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "predict", check_own(&custom, &pose, landmark, &worst));
   custom.predict = blind_predict;
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", cairn_custom_check(&custom, &pose, landmark, &worst, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "landmark", check_own(&custom, &pose, landmark, &worst));
   assert_true(worst == 4711);
 }
 

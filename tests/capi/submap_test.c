@@ -139,7 +139,7 @@ static void poses_compose(void** state) {
       ring course;
       ring_init(&course, 7);
       cairn_filter_options o = ring_options(&course, 9, joins[j]);
-      o.error = errors[e];
+      o.state_error = errors[e];
       cairn_filter* f = ring_filter(&o);
       for (int step = 0; step < 2 * RING_STEPS; ++step) {
         cairn_pose pose, base, local, expected;
@@ -393,7 +393,7 @@ static void the_same_bits_twice(void** state) {
       snapshot a = {0, NULL}, b = {0, NULL};
       ring_init(&course, 13);
       cairn_filter_options o = ring_options(&course, 8, joins[j]);
-      o.error = errors[e];
+      o.state_error = errors[e];
       cairn_filter* f[] = {ring_filter(&o), ring_filter(&o)};
       for (unsigned step = 0; step < 2 * RING_STEPS; ++step) {
         cairn_landmark l;
@@ -419,7 +419,7 @@ static void submaps_and_a_single_map_agree(void** state) {
     ring_init(&course, 14);
     for (int i = 0; i < 3; ++i) {
       cairn_filter_options o = ring_options(&course, i == 0 ? 0 : 8, i == 1 ? CAIRN_JOIN_DENSE : CAIRN_JOIN_SPARSE);
-      o.error = errors[e];
+      o.state_error = errors[e];
       f[i] = ring_filter(&o);
     }
     ring_drive(&course, f, 3, 3 * RING_STEPS);

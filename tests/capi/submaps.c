@@ -135,10 +135,10 @@ void submaps_take(snapshot* s, const cairn_filter* filter) {
   size_t count = 0;
   snapshot_free(s);
   append(s, &report, sizeof report);
-  cairn_status (*const poses[])(const cairn_filter*, cairn_pose*, double*) = {
+  cairn_status (*const poses[])(const cairn_filter*, cairn_pose*, double*, cairn_error*) = {
       cairn_filter_pose, cairn_filter_local_pose, cairn_filter_base_pose};
   for (size_t i = 0; i < LENGTH(poses); ++i) {
-    assert_ok(poses[i](filter, &pose, covariance));
+    assert_ok(poses[i](filter, &pose, covariance, NULL));
     append(s, &pose, sizeof pose);
     append(s, covariance, sizeof covariance);
   }

@@ -33,14 +33,14 @@ void rig_open(rig* r, const cairn_filter_options* options) {
   const cairn_stereo_head head = test_head();
   const cairn_stereo_camera camera = test_camera();
   const cairn_cartesian cartesian = test_cartesian();
-  const cairn_custom point = test_point(), range = test_range();
+  const own_sensor point = test_point(), range = test_range();
   r->filter = NULL;
   assert_ok(cairn_filter_create(options, &r->filter, NULL));
   assert_ok(cairn_filter_add_stereo_head(r->filter, &head, &r->sensors[HEAD], NULL));
   assert_ok(cairn_filter_add_stereo_camera(r->filter, &camera, &r->sensors[CAMERA], NULL));
   assert_ok(cairn_filter_add_cartesian(r->filter, &cartesian, &r->sensors[CARTESIAN], NULL));
-  assert_ok(cairn_filter_add_custom(r->filter, &point, &r->sensors[POINT], NULL));
-  assert_ok(cairn_filter_add_custom(r->filter, &range, &r->sensors[RANGE], NULL));
+  assert_ok(add_own(r->filter, &point, &r->sensors[POINT]));
+  assert_ok(add_own(r->filter, &range, &r->sensors[RANGE]));
 }
 
 void rig_close(rig* r) {

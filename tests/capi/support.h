@@ -64,8 +64,17 @@ int32_t range_predict(void* user, const cairn_pose* pose, const double landmark[
 cairn_stereo_head test_head(void);
 cairn_stereo_camera test_camera(void);
 cairn_cartesian test_cartesian(void);
-cairn_custom test_point(void);
-cairn_custom test_range(void);
+/* A sensor of the caller's own: its description, its functions and their pointer. */
+typedef struct own_sensor {
+  cairn_custom model;
+  cairn_custom_predict_fn predict;
+  cairn_custom_place_fn place;
+  void* user;
+} own_sensor;
+own_sensor test_point(void);
+own_sensor test_range(void);
+cairn_status add_own(cairn_filter* filter, const own_sensor* own, int32_t* sensor);
+cairn_status check_own(const own_sensor* own, const cairn_pose* pose, const double landmark[3], double* worst);
 
 /* The inputs of one step: plain data, so that several filters can use the same. */
 typedef struct frame {

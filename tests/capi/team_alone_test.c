@@ -79,7 +79,7 @@ static void one_vehicle_alone_is_the_ordinary_filter(void** state) {
       cairn_team* team = NULL;
       int32_t sensor;
       size_t rejected = 0, placed = 0, matched = 0;
-      options.error = error;
+      options.state_error = error;
       options.initial_covariance[0] = options.initial_covariance[7] = 0.01, options.initial_covariance[35] = 1e-3;
       assert_ok(cairn_range_bearing_init(&radar, sizeof radar, NULL));
       radar.range_sigma = 0.05;

@@ -146,7 +146,7 @@ static void the_normalised_error_is_that_of_the_own_pose(void** state) {
     const cairn_range_bearing radar = fleet_radar();
     cairn_team* team = NULL;
     double sum = 0, nees = -7;
-    filter.error = error;
+    filter.state_error = error;
     filter.initial_covariance[0] = 25, filter.initial_covariance[7] = 16, filter.initial_covariance[35] = 1e-4;
     filter.initial_covariance[1] = filter.initial_covariance[6] = 3;
     assert_ok(cairn_team_create(&options, &filter, &radar, &team, NULL));

@@ -45,14 +45,20 @@ static inline void voyage_record(voyage* v, uint32_t boats, uint64_t seed) {
     step.struct_size = sizeof step;
     assert_ok(cairn_fleet_next(fleet, &step, NULL));
     v->time[k] = step.time, v->dt[k] = step.dt;
+    cairn_fleet_vehicle vehicles[BOATS];
+    size_t needed = 0;
+    assert_ok(cairn_fleet_vehicles(fleet, vehicles, BOATS, &needed, NULL));
     for (size_t b = 0; b < boats; ++b) {
-      const cairn_fleet_vehicle* from = &step.vehicles[b];
+      const cairn_fleet_vehicle* from = &vehicles[b];
+      cairn_fleet_sighting seen[FEATURES + BOATS];
       log_entry* to = &v->boats[b][k];
       to->speed = from->speed, to->rate = from->rate;
       to->truth = pose_at(from->x, from->y, 0, 0, 0, from->heading);
       to->feature_count = from->feature_count, to->vehicle_count = from->vehicle_count;
-      read_sightings(from->features, from->feature_count, to->features);
-      read_sightings(from->vehicles, from->vehicle_count, to->vehicles);
+      assert_ok(cairn_fleet_seen_features(fleet, b + 1, seen, LENGTH(seen), &needed, NULL));
+      read_sightings(seen, needed, to->features);
+      assert_ok(cairn_fleet_seen_vehicles(fleet, b + 1, seen, LENGTH(seen), &needed, NULL));
+      read_sightings(seen, needed, to->vehicles);
     }
   }
   cairn_fleet_destroy(fleet);

@@ -87,7 +87,7 @@ int32_t point_predict(void* user, const cairn_pose* pose, const double landmark[
       jacobian_pose[6 * i + j] = -mt[3 * i + j];
       jacobian_pose[6 * i + 3 + j] = turn[3 * i + j];
     }
-  return 0;
+  return 1;
 }
 
 int32_t point_place(void* user, const cairn_pose* pose, const double* z, double landmark[3], double* jacobian_pose,
@@ -105,7 +105,7 @@ int32_t point_place(void* user, const cairn_pose* pose, const double* z, double 
       jacobian_pose[6 * i + 3 + j] = -cross[3 * i + j];
     }
   }
-  return 0;
+  return 1;
 }
 
 int32_t range_predict(void* user, const cairn_pose* pose, const double landmark[3], double* z, double* jacobian_pose,
@@ -114,13 +114,13 @@ int32_t range_predict(void* user, const cairn_pose* pose, const double landmark[
   (void)user;
   for (int i = 0; i < 3; ++i) d[i] = landmark[i] - pose->position[i], square += d[i] * d[i];
   z[0] = sqrt(square);
-  if (!(z[0] > 0.1)) return 1;
+  if (!(z[0] > 0.1)) return 0;
   for (int i = 0; i < 3; ++i) {
     jacobian_landmark[i] = d[i] / z[0];
     jacobian_pose[i] = -d[i] / z[0];
     jacobian_pose[3 + i] = 0;
   }
-  return 0;
+  return 1;
 }
 
 cairn_stereo_head test_head(void) {
@@ -149,21 +149,27 @@ cairn_cartesian test_cartesian(void) {
   return cartesian;
 }
 
-cairn_custom test_point(void) {
-  cairn_custom custom;
-  assert_ok(cairn_custom_init(&custom, sizeof custom, NULL));
-  custom.predict = point_predict, custom.place = point_place;
-  custom.sigma[0] = custom.sigma[1] = custom.sigma[2] = 0.1;
-  return custom;
+own_sensor test_point(void) {
+  own_sensor own = {{0}, point_predict, point_place, NULL};
+  assert_ok(cairn_custom_init(&own.model, sizeof own.model, NULL));
+  own.model.sigma[0] = own.model.sigma[1] = own.model.sigma[2] = 0.1;
+  return own;
 }
 
-cairn_custom test_range(void) {
-  cairn_custom custom;
-  assert_ok(cairn_custom_init(&custom, sizeof custom, NULL));
-  custom.predict = range_predict;
-  custom.rows = 1;
-  custom.sigma[0] = 0.1;
-  return custom;
+own_sensor test_range(void) {
+  own_sensor own = {{0}, range_predict, NULL, NULL};
+  assert_ok(cairn_custom_init(&own.model, sizeof own.model, NULL));
+  own.model.rows = 1;
+  own.model.sigma[0] = 0.1;
+  return own;
+}
+
+cairn_status add_own(cairn_filter* filter, const own_sensor* own, int32_t* sensor) {
+  return cairn_filter_add_custom(filter, &own->model, own->predict, own->place, own->user, NULL, sensor, NULL);
+}
+
+cairn_status check_own(const own_sensor* own, const cairn_pose* pose, const double landmark[3], double* worst) {
+  return cairn_custom_check(&own->model, own->predict, own->place, own->user, pose, landmark, worst, NULL);
 }
 
 void world_init(world* w, uint64_t seed) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "tracker.hpp"
 
@@ -120,9 +121,8 @@ double squared_distance(const cairn_pose& truth, const cairn_pose& pose) {
   return error[0] * error[0] + error[1] * error[1] + error[2] * error[2];
 }
 
-void predict(const Rover& rover, const cairn_world_step& step, cairn_filter* filter) {
-  for (std::size_t i = 0; i < step.motion_count; ++i) {
-    const cairn_world_motion& m = step.motions[i];
+void predict(const Rover& rover, const std::vector<cairn_world_motion>& motions, cairn_filter* filter) {
+  for (const cairn_world_motion& m : motions) {
     if (rover.wheels)
       CHECK(cairn_filter_predict_wheels_gyro(filter, m.dt, m.wheels[0], m.wheels[1], m.rate, nullptr));
     else
@@ -146,6 +146,20 @@ cairn_world_step next(cairn_world* world) {
   return step;
 }
 
+std::vector<cairn_world_motion> motions_of(const cairn_world* world, const cairn_world_step& step) {
+  std::vector<cairn_world_motion> motions(step.motion_count);
+  std::size_t needed = 0;
+  CHECK(cairn_world_motions(world, motions.data(), motions.size(), &needed, nullptr));
+  return motions;
+}
+
+std::vector<cairn_observation> observations_of(const cairn_world* world, const cairn_world_step& step) {
+  std::vector<cairn_observation> observations(step.observation_count);
+  std::size_t needed = 0;
+  CHECK(cairn_world_observations(world, observations.data(), observations.size(), &needed, nullptr));
+  return observations;
+}
+
 }  // namespace
 
 void drive(const Rover& rover, const Follower& follower, int seed, Score& score) {
@@ -165,9 +179,9 @@ void drive(const Rover& rover, const Follower& follower, int seed, Score& score)
   for (std::size_t k = 0; k < steps; ++k) {
     state_noise(next(stated.get()), filter.get());
     const cairn_world_step step = next(world.get());
-    predict(rover, step, filter.get());
-    if (step.observation_count > 0)
-      CHECK(cairn_filter_update(filter.get(), sensor, step.observations, step.observation_count, nullptr, nullptr));
+    predict(rover, motions_of(world.get(), step), filter.get());
+    const std::vector<cairn_observation> seen = observations_of(world.get(), step);
+    if (!seen.empty()) CHECK(cairn_filter_update(filter.get(), sensor, seen.data(), seen.size(), nullptr, nullptr));
     if (k == 0) continue;
     double nees = 0.0, covariance[36], turn[3];
     cairn_pose pose;

@@ -21,7 +21,7 @@ void check(cairn_status status, const char* what) {
 void Tracker::start(const Noise& noise, const cairn_pose& pose, const Setup& setup) {
   cairn_filter_options options;
   CHECK(cairn_filter_options_init(&options, sizeof options, nullptr));
-  options.error = kind_.error;
+  options.state_error = kind_.error;
   options.max_landmarks = options.max_observations = World::kLandmarks;
   options.submap_landmarks = kind_.submap_landmarks;
   options.join = kind_.join;

@@ -86,7 +86,7 @@ int32_t fuzz_custom_predict(void* user, const cairn_pose* T, const double l[3], 
   if (whim(T, l, 1, 200)) jp[fuzz_below(18)] = fuzz_garbage();
   if (whim(T, l, 2, 200)) jl[fuzz_below(9)] = fuzz_garbage();
   if (whim(T, l, 3, 200)) z[fuzz_below(3)] = fuzz_garbage();
-  return whim(T, l, 4, 50) ? fuzz_int() : 0;
+  return whim(T, l, 4, 50) ? fuzz_int() : 1;
 }
 int32_t fuzz_custom_place(void* user, const cairn_pose* T, const double* z, double l[3], double* jp, double* jz) {
   (void)user;
@@ -95,7 +95,7 @@ int32_t fuzz_custom_place(void* user, const cairn_pose* T, const double* z, doub
   for (int i = 0; i < 18; ++i) jp[i] = i % 7 == 0;
   if (whim(T, z, 5, 200)) jp[fuzz_below(18)] = fuzz_garbage();
   if (whim(T, z, 6, 200)) l[fuzz_below(3)] = fuzz_garbage();
-  return whim(T, z, 7, 50) ? fuzz_int() : 0;
+  return whim(T, z, 7, 50) ? fuzz_int() : 1;
 }
 /* One row: Jacobians of exactly one row, so that a sanitizer detects wrong buffer sizes of the sensor. */
 int32_t fuzz_range_predict(void* user, const cairn_pose* T, const double l[3], double* z, double* jp, double* jl) {
@@ -103,7 +103,7 @@ int32_t fuzz_range_predict(void* user, const cairn_pose* T, const double l[3], d
   (void)user;
   for (int i = 0; i < 3; ++i) d[i] = l[i] - T->position[i], square += d[i] * d[i];
   z[0] = sqrt(square);
-  if (!(z[0] > 0)) return 1;
+  if (!(z[0] > 0)) return 0;
   for (int i = 0; i < 3; ++i) jl[i] = d[i] / z[0], jp[i] = -d[i] / z[0], jp[3 + i] = 0;
-  return 0;
+  return 1;
 }

@@ -73,7 +73,7 @@ void create_filter(slot* s) {
                 0,
                 {0}};
   o.vehicle = fuzz_one_in(60) ? fuzz_int() : fresh.planar ? CAIRN_VEHICLE_PLANAR : CAIRN_VEHICLE_SPATIAL;
-  o.error = fuzz_one_in(3);
+  o.state_error = fuzz_one_in(3);
   o.max_landmarks = fresh.max_landmarks, o.max_observations = fresh.max_observations;
   o.max_sensors = 1 + (uint32_t)fuzz_below(10);
   o.iterations = 1 + (uint32_t)fuzz_below(6);
@@ -95,7 +95,7 @@ void create_filter(slot* s) {
   if (fuzz_one_in(6)) o.submap_distance = fuzz_positive(5);
   if (fuzz_one_in(6)) o.submap_extent = fuzz_positive(10);
   if (fuzz_one_in(6)) o.submap_sigma = fuzz_positive(0.1);
-  if (fuzz_one_in(12)) o.error = fuzz_int();
+  if (fuzz_one_in(12)) o.state_error = fuzz_int();
   now = &fresh;
   fuzz_wild = fresh.wild;
   if (fuzz_one_in(2)) fuzz_covariance(o.initial_covariance, 6, 0.01);
@@ -119,7 +119,7 @@ void create_filter(slot* s) {
   cairn_filter_destroy(s->filter);
   *s = fresh;
   s->filter = filter;
-  if (fuzz_one_in(2)) fuzz_check_status(cairn_filter_set_log(filter, hear, &heard, NULL));
+  if (fuzz_one_in(2)) fuzz_check_status(cairn_filter_set_log(filter, hear, &heard, NULL, NULL));
   now = s;
 }
 
@@ -174,18 +174,18 @@ void add_sensor(slot* s) {
     double worst, landmark[3];
     cairn_pose T;
     fuzz_check_status(cairn_custom_init(&c, sizeof c, NULL));
-    c.predict = kind == 3 ? fuzz_custom_predict : fuzz_range_predict;
-    c.place = kind == 3 && !fuzz_one_in(4) ? fuzz_custom_place : NULL;
+    cairn_custom_predict_fn predict = kind == 3 ? fuzz_custom_predict : fuzz_range_predict;
+    cairn_custom_place_fn place = kind == 3 && !fuzz_one_in(4) ? fuzz_custom_place : NULL;
     c.rows = rows = kind == 3 ? 3 : 1;
     if (fuzz_one_in(30)) c.rows = fuzz_one_in(2) ? 0 : 4 + (uint32_t)fuzz_below(5);
-    if (fuzz_one_in(30)) c.predict = NULL;
+    if (fuzz_one_in(30)) predict = NULL;
     c.angle_mask = (uint32_t)fuzz_below(8);
     c.sigma[0] = fuzz_positive(1);
     fuzz_pose(&T), fuzz_numbers(landmark, 3, 5);
-    fuzz_check_status(
-        cairn_custom_check(fuzz_maybe(&c), fuzz_maybe(&T), fuzz_maybe(landmark), fuzz_maybe_out(&worst), NULL));
+    fuzz_check_status(cairn_custom_check(fuzz_maybe(&c), predict, place, NULL, fuzz_maybe(&T), fuzz_maybe(landmark),
+                                         fuzz_maybe_out(&worst), NULL));
     given = memcpy(malloc(sizeof c), &c, sizeof c);
-    status = cairn_filter_add_custom(s->filter, fuzz_maybe(given), out, NULL);
+    status = cairn_filter_add_custom(s->filter, fuzz_maybe(given), predict, place, NULL, NULL, out, NULL);
   }
   free(given);
   fuzz_check_status(status);

@@ -101,7 +101,7 @@ static void create(size_t number) {
   f.vehicle = fuzz_one_in(30) ? fuzz_int() : CAIRN_VEHICLE_PLANAR;
   f.max_landmarks = LANDMARKS;
   f.max_observations = 1 + (uint32_t)fuzz_below(10);
-  f.error = fuzz_one_in(3);
+  f.state_error = fuzz_one_in(3);
   if (fuzz_one_in(4)) f.association = (int32_t)fuzz_below(3);
   if (fuzz_one_in(3)) f.initial_covariance[0] = f.initial_covariance[7] = fuzz_positive(1);
   if (o.mode == CAIRN_TEAM_SUBMAPS) f.submap_landmarks = 1 + (uint32_t)fuzz_below(8);

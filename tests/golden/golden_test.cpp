@@ -42,7 +42,7 @@ constexpr int kSteps = 3, kLandmarks = 3, kStateValues = 21, kJoint = 6 + 3 * kL
 cairn_filter* start_filter(int32_t error, int32_t* sensor) {
   cairn_filter_options options;
   ok(cairn_filter_options_init(&options, sizeof options, nullptr));
-  options.error = error;
+  options.state_error = error;
   options.gate_probability = options.batch_gate_probability = 1;
   options.iterations = 3;
   options.iteration_tolerance = 1e-12;  // always all three

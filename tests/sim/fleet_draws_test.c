@@ -5,13 +5,13 @@
 
 #define COAST 201
 
-static void assert_same_step(const cairn_fleet_step* a, const cairn_fleet_step* b) {
+static void assert_same_step(const fleet_step* a, const fleet_step* b) {
   size_t i;
   assert_int_equal(a->number, b->number);
   assert_int_equal(a->vehicle_count, b->vehicle_count);
   for (i = 0; i < a->vehicle_count; ++i) {
-    const cairn_fleet_vehicle *p = &a->vehicles[i], *q = &b->vehicles[i];
-    assert_memory_equal(p, q, offsetof(cairn_fleet_vehicle, features));
+    const boat *p = &a->vehicles[i], *q = &b->vehicles[i];
+    assert_memory_equal(p, q, offsetof(boat, features));
     assert_int_equal(p->feature_count, q->feature_count);
     assert_int_equal(p->vehicle_count, q->vehicle_count);
     if (p->feature_count > 0) assert_memory_equal(p->features, q->features, p->feature_count * sizeof *p->features);
@@ -28,7 +28,7 @@ static void read_features(const cairn_fleet* fleet, double* positions, size_t co
 static void assert_same_drive(cairn_fleet* one, cairn_fleet* two) {
   size_t k;
   for (k = 0; k < 301; ++k) {
-    const cairn_fleet_step a = next_fleet_step(one), b = next_fleet_step(two);
+    const fleet_step a = next_fleet_step(one), b = next_fleet_step(two);
     assert_same_step(&a, &b);
   }
 }
@@ -60,7 +60,7 @@ static void another_seed_is_another_fleet(void** state) {
   cairn_fleet_options o = default_fleet_options();
   cairn_fleet *one = open_fleet(&o), *two;
   double here[20], there[20];
-  cairn_fleet_step a, b;
+  fleet_step a, b;
   size_t i;
   (void)state;
   o.seed = 2;
@@ -88,9 +88,9 @@ static void check_unchanged(const cairn_fleet_options* changed) {
   read_features(two, there, changed->features);
   assert_memory_equal(here, there, sizeof here);
   for (k = 0; k < 100; ++k) {
-    const cairn_fleet_step a = next_fleet_step(one), b = next_fleet_step(two);
-    const cairn_fleet_vehicle *p = a.vehicles, *q = b.vehicles;
-    assert_memory_equal(p, q, offsetof(cairn_fleet_vehicle, features));
+    const fleet_step a = next_fleet_step(one), b = next_fleet_step(two);
+    const boat *p = a.vehicles, *q = b.vehicles;
+    assert_memory_equal(p, q, offsetof(boat, features));
     if (changed->range_sigma > 0) { /* additional features are at the end of the list */
       assert_true(p->feature_count > 0 && p->feature_count <= q->feature_count);
       assert_memory_equal(p->features, q->features, p->feature_count * sizeof *p->features);
@@ -123,7 +123,7 @@ static void more_boats_leave_the_first_ones_errors(void** state) {
   o.vehicles = 20;
   many = open_fleet(&o);
   for (k = 0; k < 301; ++k) {
-    const cairn_fleet_step a = next_fleet_step(two), b = next_fleet_step(many);
+    const fleet_step a = next_fleet_step(two), b = next_fleet_step(many);
     assert_near(a.vehicles[0].heading, b.vehicles[0].heading, 0);
     assert_near(a.vehicles[1].heading, b.vehicles[1].heading, 0);
     if (k > 0) assert_true(a.vehicles[0].heading != a.vehicles[1].heading);
@@ -144,7 +144,7 @@ static void larger_noise_scales_the_same_draws(void** state) {
   o.range_sigma = o.bearing_sigma = 0;
   none = open_fleet(&o);
   for (k = 0; k < 50; ++k) {
-    const cairn_fleet_step n = next_fleet_step(none), s = next_fleet_step(some), m = next_fleet_step(more);
+    const fleet_step n = next_fleet_step(none), s = next_fleet_step(some), m = next_fleet_step(more);
     assert_int_equal(n.vehicles[0].feature_count, 10);
     for (j = 0; j < 10; ++j) {
       const cairn_fleet_sighting *a = &n.vehicles[0].features[j], *b = &s.vehicles[0].features[j],

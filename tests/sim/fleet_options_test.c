@@ -177,32 +177,63 @@ static void missing_arguments(void** state) {
   fleet = open_fleet(&o);
   assert_refused(cairn_fleet_next(fleet, NULL, NULL), CAIRN_ERROR_ARGUMENT, "step");
   assert_refused(cairn_fleet_steps(fleet, NULL, NULL), CAIRN_ERROR_ARGUMENT, "steps");
+  assert_refused(cairn_fleet_vehicles(NULL, NULL, 0, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_vehicles(fleet, NULL, 0, NULL, NULL), CAIRN_ERROR_ARGUMENT, "needed");
+  assert_refused(cairn_fleet_seen_features(NULL, 1, NULL, 0, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
+  assert_refused(cairn_fleet_seen_vehicles(NULL, 1, NULL, 0, &count, NULL), CAIRN_ERROR_ARGUMENT, "fleet");
   cairn_fleet_destroy(fleet);
 }
 
-typedef cairn_status points_of(const cairn_fleet*, double*, size_t, size_t*);
+/* Before the first step nothing was seen. After it the fleet tells what each boat saw, and knows no other boats. */
+static void boats_of_a_step(void** state) {
+  const cairn_fleet_options o = default_fleet_options();
+  cairn_fleet* fleet = open_fleet(&o);
+  cairn_fleet_sighting one;
+  size_t count = 9;
+  (void)state;
+  assert_ok(cairn_fleet_vehicles(fleet, NULL, 0, &count, NULL));
+  assert_int_equal(count, 0);
+  assert_ok(cairn_fleet_seen_features(fleet, 1, NULL, 0, &count, NULL));
+  assert_int_equal(count, 0);
+  next_fleet_step(fleet);
+  assert_ok(cairn_fleet_vehicles(fleet, NULL, 0, &count, NULL));
+  assert_int_equal(count, 2);
+  assert_ok(cairn_fleet_seen_vehicles(fleet, 2, &one, 1, &count, NULL));
+  assert_int_equal(count, 1);
+  assert_int_equal(one.id, 1);
+  assert_refused(cairn_fleet_seen_features(fleet, 0, &one, 1, &count, NULL), CAIRN_ERROR_NOT_FOUND, "vehicle 0");
+  assert_refused(cairn_fleet_seen_vehicles(fleet, 3, &one, 1, &count, NULL), CAIRN_ERROR_NOT_FOUND, "1 to 2");
+  assert_ok(cairn_fleet_rewind(fleet, NULL));
+  assert_ok(cairn_fleet_vehicles(fleet, NULL, 0, &count, NULL));
+  assert_int_equal(count, 0);
+  cairn_fleet_destroy(fleet);
+}
+
+typedef cairn_status points_of(const cairn_fleet*, double*, size_t, size_t*, cairn_error*);
 
 static void check_buffers(points_of* query, const cairn_fleet* fleet, size_t expected, const char* name) {
   double *buffer = (double*)malloc((expected + 1) * 2 * sizeof(double)), first;
   size_t needed = 0, i;
   assert_non_null(buffer);
-  assert_ok(query(fleet, NULL, 0, &needed));
+  assert_ok(query(fleet, NULL, 0, &needed, NULL));
   assert_int_equal(needed, expected);
   for (i = 0; i < 2 * expected + 2; ++i) buffer[i] = -12345;
   needed = 0;
-  assert_refused(query(fleet, buffer, expected - 1, &needed), CAIRN_ERROR_BUFFER, name);
+  assert_refused(query(fleet, buffer, expected - 1, &needed, NULL), CAIRN_ERROR_BUFFER, name);
   assert_int_equal(needed, expected);
   for (i = 0; i < 2 * expected + 2; ++i) assert_near(buffer[i], -12345, 0);
-  assert_ok(query(fleet, buffer, expected, &needed));
+  assert_ok(query(fleet, buffer, 0, &needed, NULL)); /* capacity 0 asks, with any pointer */
+  assert_int_equal(needed, expected);
+  assert_ok(query(fleet, buffer, expected, &needed, NULL));
   for (i = 0; i < 2 * expected; ++i) assert_between(buffer[i], -5000, 5000);
   for (; i < 2 * expected + 2; ++i) assert_near(buffer[i], -12345, 0);
   first = buffer[0];
-  assert_ok(query(fleet, buffer, expected + 1, &needed));
+  assert_ok(query(fleet, buffer, expected + 1, &needed, NULL));
   assert_int_equal(needed, expected);
   assert_near(buffer[0], first, 0);
   assert_near(buffer[2 * expected], -12345, 0);
-  assert_refused(query(fleet, NULL, 1, &needed), CAIRN_ERROR_ARGUMENT, name);
-  assert_refused(query(fleet, buffer, expected, NULL), CAIRN_ERROR_ARGUMENT, "needed");
+  assert_refused(query(fleet, NULL, 1, &needed, NULL), CAIRN_ERROR_ARGUMENT, name);
+  assert_refused(query(fleet, buffer, expected, NULL, NULL), CAIRN_ERROR_ARGUMENT, "needed");
   free(buffer);
 }
 
@@ -220,7 +251,7 @@ static void buffers(void** state) {
 static void the_end(void** state) {
   cairn_fleet_options o = default_fleet_options();
   cairn_fleet* fleet;
-  cairn_fleet_step step;
+  cairn_fleet_step beyond = {0};
   size_t steps = 0, k;
   (void)state;
   o.duration = 0.7, o.period = 0.1; /* their quotient is not a whole number */
@@ -228,14 +259,14 @@ static void the_end(void** state) {
   assert_ok(cairn_fleet_steps(fleet, &steps, NULL));
   assert_int_equal(steps, 8);
   for (k = 0; k < steps; ++k) {
-    step = next_fleet_step(fleet);
+    const fleet_step step = next_fleet_step(fleet);
     assert_int_equal(step.number, k);
-    assert_int_equal(step.reserved, 0);
     assert_near(step.time, 0.1 * (double)k, 1e-12);
     assert_near(step.dt, k == 0 ? 0 : 0.1, 0);
   }
-  assert_refused(cairn_fleet_next(fleet, &step, NULL), CAIRN_ERROR_STATE, "rewind");
-  assert_refused(cairn_fleet_next(fleet, &step, NULL), CAIRN_ERROR_STATE, "8 steps");
+  beyond.struct_size = sizeof beyond;
+  assert_refused(cairn_fleet_next(fleet, &beyond, NULL), CAIRN_ERROR_STATE, "rewind");
+  assert_refused(cairn_fleet_next(fleet, &beyond, NULL), CAIRN_ERROR_STATE, "8 steps");
   assert_ok(cairn_fleet_rewind(fleet, NULL));
   assert_int_equal(next_fleet_step(fleet).number, 0);
   cairn_fleet_destroy(fleet);
@@ -255,6 +286,7 @@ int main(void) {
       cmocka_unit_test(contradictions),
       cmocka_unit_test(good_options),
       cmocka_unit_test(missing_arguments),
+      cmocka_unit_test(boats_of_a_step),
       cmocka_unit_test(buffers),
       cmocka_unit_test(the_end),
   };

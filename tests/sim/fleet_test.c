@@ -9,10 +9,10 @@ static double wrapped(double angle) {
 }
 
 /* Range and bearing of a feature or a boat at (x, y) from a boat. */
-static double range_of(const cairn_fleet_vehicle* from, double x, double y) {
+static double range_of(const boat* from, double x, double y) {
   return hypot(x - from->x, y - from->y);
 }
-static double bearing_of(const cairn_fleet_vehicle* from, double x, double y) {
+static double bearing_of(const boat* from, double x, double y) {
   return wrapped(atan2(y - from->y, x - from->x) - from->heading);
 }
 
@@ -23,8 +23,7 @@ static cairn_fleet_options quiet_options(void) {
 }
 
 /* The executed speed and rate between two poses: the chord of a circle and its angle. */
-static void executed(const cairn_fleet_vehicle* before, const cairn_fleet_vehicle* after, double dt, double* speed,
-                     double* rate) {
+static void executed(const boat* before, const boat* after, double dt, double* speed, double* rate) {
   const double turn = wrapped(after->heading - before->heading);
   const double chord = range_of(before, after->x, after->y);
   const double aside = bearing_of(before, after->x, after->y) - turn / 2;
@@ -38,7 +37,7 @@ static void one_round_without_noise(void** state) {
   const cairn_fleet_options o = quiet_options();
   const double radius = 1700 / (2 * PI), centre[] = {-750, 750};
   cairn_fleet* fleet = open_fleet(&o);
-  cairn_fleet_step step;
+  fleet_step step;
   size_t steps = 0, k, i;
   (void)state;
   assert_ok(cairn_fleet_steps(fleet, &steps, NULL));
@@ -50,7 +49,7 @@ static void one_round_without_noise(void** state) {
     assert_near(step.dt, k == 0 ? 0 : 5, 0);
     assert_int_equal(step.vehicle_count, 2);
     for (i = 0; i < 2; ++i) {
-      const cairn_fleet_vehicle* v = &step.vehicles[i];
+      const boat* v = &step.vehicles[i];
       assert_near(v->x, centre[i] + radius * sin(turned), 1e-8);
       assert_near(v->y, -radius * cos(turned), 1e-8);
       assert_near(wrapped(v->heading - turned), 0, 1e-11);
@@ -75,7 +74,7 @@ static void starts_of_any_fleet(void** state) {
   for (f = 0; f < LENGTH(fleets); ++f) {
     cairn_fleet_options o = quiet_options();
     cairn_fleet* fleet;
-    cairn_fleet_step step;
+    fleet_step step;
     double nearest = INFINITY;
     o.vehicles = fleets[f].boats;
     fleet = open_fleet(&o);
@@ -98,7 +97,7 @@ static void starts_of_any_fleet(void** state) {
 static void bearings_are_to_the_left_of_the_bow(void** state) {
   const cairn_fleet_options o = quiet_options();
   cairn_fleet* fleet = open_fleet(&o);
-  cairn_fleet_step step = next_fleet_step(fleet);
+  fleet_step step = next_fleet_step(fleet);
   double features[20];
   size_t needed = 0, i, seen = 0;
   (void)state;
@@ -130,9 +129,9 @@ static void sightings_are_the_geometry_cut_at_the_range(void** state) {
   fleet = open_fleet(&o);
   assert_ok(cairn_fleet_features(fleet, features, 300, &needed, NULL));
   for (k = 0; k < 301; ++k) {
-    const cairn_fleet_step step = next_fleet_step(fleet);
+    const fleet_step step = next_fleet_step(fleet);
     for (i = 0; i < step.vehicle_count; ++i) {
-      const cairn_fleet_vehicle* v = &step.vehicles[i];
+      const boat* v = &step.vehicles[i];
       const cairn_fleet_sighting *s = v->features, *end = s + v->feature_count;
       for (j = 0; j < 300; ++j) {
         const double x = features[2 * j], y = features[2 * j + 1];
@@ -150,7 +149,7 @@ static void sightings_are_the_geometry_cut_at_the_range(void** state) {
       assert_ptr_equal(s, end);
       s = v->vehicles, end = s + v->vehicle_count;
       for (j = 0; j < step.vehicle_count; ++j) {
-        const cairn_fleet_vehicle* other = &step.vehicles[j];
+        const boat* other = &step.vehicles[j];
         if (j == i) continue;
         if (range_of(v, other->x, other->y) > 1900) {
           ++hidden[1];
@@ -177,7 +176,7 @@ static double share_in_common(double product, const tally* a, const tally* b) {
 
 static void motion_noise(void** state) {
   cairn_fleet_options o = default_fleet_options();
-  cairn_fleet_vehicle before[MOST];
+  boat before[MOST];
   double last[MOST] = {0}, both = 0, in_turn = 0, beside = 0, n;
   tally speed = {0}, rate = {0};
   cairn_fleet* fleet;
@@ -186,7 +185,7 @@ static void motion_noise(void** state) {
   o.vehicles = MOST, o.features = 1;
   fleet = open_fleet(&o);
   for (k = 0; k < 301; ++k) {
-    const cairn_fleet_step step = next_fleet_step(fleet);
+    const fleet_step step = next_fleet_step(fleet);
     double neighbour = 0;
     for (i = 0; i < MOST && k > 0; ++i) {
       double v, w;
@@ -221,10 +220,10 @@ static void radar_noise(void** state) {
   fleet = open_fleet(&o);
   assert_ok(cairn_fleet_features(fleet, features, 100, &needed, NULL));
   for (k = 0; k < 3001; ++k) {
-    const cairn_fleet_step step = next_fleet_step(fleet);
+    const fleet_step step = next_fleet_step(fleet);
     double said[2][2];
     for (i = 0; i < 2; ++i) {
-      const cairn_fleet_vehicle *v = &step.vehicles[i], *other = &step.vehicles[1 - i];
+      const boat *v = &step.vehicles[i], *other = &step.vehicles[1 - i];
       for (j = 0; j < v->feature_count; ++j) {
         const cairn_fleet_sighting* s = &v->features[j];
         const double x = features[2 * s->id - 2], y = features[2 * s->id - 1];
@@ -264,7 +263,7 @@ static void measurements_keep_their_bounds(void** state) {
   o.range_sigma = 1e5, o.bearing_sigma = 3, o.features = 50;
   fleet = open_fleet(&o);
   for (k = 0; k < 301; ++k) {
-    const cairn_fleet_step step = next_fleet_step(fleet);
+    const fleet_step step = next_fleet_step(fleet);
     for (j = 0; j < step.vehicles[0].feature_count; ++j) {
       const cairn_fleet_sighting* s = &step.vehicles[0].features[j];
       assert_true(s->range > 0);

@@ -30,7 +30,7 @@ static void true_motion_connects_the_true_poses(void** state) {
   assert_near(wheels.radius, 0.3, 0);
   pose = next_step(w).truth;
   for (k = 1; k < 40; ++k) {
-    const cairn_world_step step = next_step(w);
+    const world_step step = next_step(w);
     double error[6], forward, turning;
     int axis;
     for (i = 0; i < step.motion_count; ++i) {
@@ -65,7 +65,7 @@ static void without_noise(void** state) {
     o.accelerometer = accelerometer;
     w = open_world(&o);
     for (k = 0; k < 60; ++k) {
-      const cairn_world_step step = next_step(w);
+      const world_step step = next_step(w);
       for (i = 0; i < step.motion_count; ++i)
         for (axis = 0; axis < 3; ++axis) {
           assert_near(step.motions[i].velocity[axis], step.motions[i].true_velocity[axis], 1e-9);
@@ -102,7 +102,7 @@ static void motion_noise(void** state) {
     o.laps = 3;
     w = open_world(&o);
     for (k = 0; k < steps_of(w); ++k) {
-      const cairn_world_step step = next_step(w);
+      const world_step step = next_step(w);
       memcpy(sigma, step.velocity_sigma, sizeof step.velocity_sigma);
       memcpy(sigma + 3, step.rate_sigma, sizeof step.rate_sigma);
       for (i = 0; i < step.motion_count; ++i)
@@ -134,7 +134,7 @@ static void wheel_noise(void** state) {
   o.motion_period = o.imu_period;
   w = open_world(&o);
   for (k = 0; k < steps_of(w); ++k) {
-    const cairn_world_step step = next_step(w);
+    const world_step step = next_step(w);
     for (i = 0; i < step.motion_count; ++i) {
       const cairn_world_motion* m = &step.motions[i];
       const double l = m->wheels[0] - m->true_wheels[0], r = m->wheels[1] - m->true_wheels[1];
@@ -169,7 +169,7 @@ static void accelerometer_drifts(void** state) {
     o.seed = seed;
     w = open_world(&o);
     for (k = 0; k <= 150; ++k) {
-      const cairn_world_step step = next_step(w);
+      const world_step step = next_step(w);
       for (axis = 0; axis < 2; ++axis) {
         if (k != 10 && k != 150) continue;
         tally_add(k == 10 ? &early : &late,
@@ -202,7 +202,7 @@ static void field_of_view_and_noise(void** state) {
   p = (double*)malloc(200 * 3 * sizeof(double));
   assert_ok(cairn_world_landmarks(w, p, 200, &count, NULL));
   for (k = 0; k < steps_of(w); ++k) {
-    const cairn_world_step step = next_step(w);
+    const world_step step = next_step(w);
     size_t at = 0;
     assert_near(step.pan, 0, 0);
     assert_near(step.stick, 0, 0);
@@ -249,7 +249,7 @@ static void scanning_head(void** state) {
   head.struct_size = sizeof head;
   assert_ok(cairn_world_head(w, &head, NULL));
   for (k = 0; k < 100; ++k) {
-    const cairn_world_step step = next_step(w);
+    const world_step step = next_step(w);
     assert_near(step.pan, 70 * DEGREE * sin(2 * PI * step.time / 20), 1e-12);
     assert_near(step.stick, 10 * DEGREE * sin(2 * PI * step.time / 26), 1e-12);
     if (fabs(step.stick) > most_stick) most_stick = fabs(step.stick);
@@ -289,7 +289,7 @@ static void stick_noise_of_a_frame(void** state) {
   assert_near(head.stick_sigma, 3 * DEGREE, 1e-15);
   assert_near(head.elevation_sigma, 0.5 * DEGREE, 1e-15);
   for (k = 0; k < steps_of(w); ++k) {
-    const cairn_world_step step = next_step(w);
+    const world_step step = next_step(w);
     double mean = 0, error[64];
     for (i = 0; i < step.observation_count && i < 64; ++i) {
       double p[3], m[3];
@@ -317,7 +317,7 @@ static void draws_are_independent(void** state) {
   o.velocity_sigma = 0;
   b = open_world(&o);
   for (k = 0; k < 50; ++k) {
-    const cairn_world_step x = next_step(a), y = next_step(b);
+    const world_step x = next_step(a), y = next_step(b);
     if (k == 0) assert_true(x.observation_count == 0 && y.observation_count > 0);
     if (k == 0) continue;
     assert_int_equal(x.observation_count, y.observation_count);

@@ -42,12 +42,36 @@ cairn_world_options default_options(void);
 cairn_world_options preset_options(int32_t preset);
 cairn_world* open_world(const cairn_world_options* options);
 size_t steps_of(const cairn_world* world);
-/* The next step, which must exist. */
-cairn_world_step next_step(cairn_world* world);
+/* The next step, which must exist, with its arrays. These are valid until the next step of this world. */
+typedef struct world_step {
+  uint64_t number;
+  double time;
+  cairn_pose truth;
+  double velocity_sigma[3], rate_sigma[3], pan, stick;
+  const cairn_world_motion* motions;
+  size_t motion_count;
+  const cairn_observation* observations;
+  size_t observation_count;
+} world_step;
+world_step next_step(cairn_world* world);
 
 cairn_fleet_options default_fleet_options(void);
 cairn_fleet* open_fleet(const cairn_fleet_options* options);
-cairn_fleet_step next_fleet_step(cairn_fleet* fleet);
+/* The same for a fleet. */
+typedef struct boat {
+  double speed, rate, x, y, heading;
+  const cairn_fleet_sighting* features;
+  size_t feature_count;
+  const cairn_fleet_sighting* vehicles;
+  size_t vehicle_count;
+} boat;
+typedef struct fleet_step {
+  uint64_t number;
+  double time, dt;
+  const boat* vehicles;
+  size_t vehicle_count;
+} fleet_step;
+fleet_step next_fleet_step(cairn_fleet* fleet);
 
 /* A point of the map in the body frame, and the z axis of the body in the map. */
 void to_body(const cairn_pose* T_map_body, const double point[3], double out[3]);

@@ -46,6 +46,11 @@ static void null_and_bad_values_are_refused(void** state) {
   assert_refused(cairn_world_landmark(w, CAIRN_ID_NONE, v, NULL), CAIRN_ERROR_NOT_FOUND, "id");
   assert_refused(cairn_world_landmarks(NULL, v, 4, &n, NULL), CAIRN_ERROR_ARGUMENT, "world");
   assert_refused(cairn_world_landmarks(w, v, 4, NULL, NULL), CAIRN_ERROR_ARGUMENT, "needed");
+  assert_refused(cairn_world_motions(NULL, NULL, 0, &n, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_motions(w, NULL, 1, &n, NULL), CAIRN_ERROR_ARGUMENT, "motions");
+  assert_refused(cairn_world_motions(w, NULL, 0, NULL, NULL), CAIRN_ERROR_ARGUMENT, "needed");
+  assert_refused(cairn_world_observations(NULL, NULL, 0, &n, NULL), CAIRN_ERROR_ARGUMENT, "world");
+  assert_refused(cairn_world_observations(w, NULL, 1, &n, NULL), CAIRN_ERROR_ARGUMENT, "observations");
   n = 0;
   assert_refused(cairn_world_landmarks(w, v, 4, &n, NULL), CAIRN_ERROR_BUFFER, "200");
   assert_int_equal(n, 200);
@@ -82,7 +87,8 @@ static void the_end_and_rewind(void** state) {
   const cairn_world_options o = default_options();
   cairn_world* w = open_world(&o);
   const size_t steps = steps_of(w);
-  cairn_world_step step;
+  world_step step;
+  cairn_world_step beyond = {0};
   cairn_observation first[3];
   double velocity[3];
   size_t k;
@@ -101,9 +107,16 @@ static void the_end_and_rewind(void** state) {
     assert_near(step.time, 2.0 * (double)k, 1e-12);
     assert_int_equal(step.motion_count, 10);
   }
-  assert_refused(cairn_world_next(w, &step, NULL), CAIRN_ERROR_STATE, "201 steps");
-  assert_refused(cairn_world_next(w, &step, NULL), CAIRN_ERROR_STATE, "201 steps");
+  beyond.struct_size = sizeof beyond;
+  assert_refused(cairn_world_next(w, &beyond, NULL), CAIRN_ERROR_STATE, "201 steps");
+  assert_refused(cairn_world_next(w, &beyond, NULL), CAIRN_ERROR_STATE, "201 steps");
+  assert_ok(cairn_world_motions(w, NULL, 0, &k, NULL)); /* the last step is still there */
+  assert_int_equal(k, 10);
   assert_ok(cairn_world_rewind(w, NULL));
+  assert_ok(cairn_world_motions(w, NULL, 0, &k, NULL));
+  assert_int_equal(k, 0);
+  assert_ok(cairn_world_observations(w, NULL, 0, &k, NULL));
+  assert_int_equal(k, 0);
   next_step(w);
   step = next_step(w);
   assert_memory_equal(step.observations, first, sizeof first);
@@ -125,7 +138,7 @@ static void deterministic(void** state) {
     o.seed = 6;
     other = open_world(&o);
     for (k = 0; k < steps_of(a); ++k) {
-      const cairn_world_step x = next_step(a), y = next_step(b);
+      const world_step x = next_step(a), y = next_step(b);
       assert_memory_equal(&x.truth, &y.truth, sizeof x.truth);
       assert_int_equal(x.motion_count, y.motion_count);
       for (i = 0; i < x.motion_count; ++i) assert_memory_equal(&x.motions[i], &y.motions[i], sizeof x.motions[i]);
@@ -133,7 +146,7 @@ static void deterministic(void** state) {
       for (i = 0; i < x.observation_count; ++i)
         assert_memory_equal(&x.observations[i], &y.observations[i], sizeof x.observations[i]);
       if (k < 50) {
-        const cairn_world_step z = next_step(other);
+        const world_step z = next_step(other);
         if (z.motion_count > 0 && z.motions[0].rate[0] != x.motions[0].rate[0]) differs = true;
       }
     }
@@ -147,7 +160,7 @@ static void deterministic(void** state) {
 static void draws_are_pinned(void** state) {
   cairn_world_options o = default_options();
   cairn_world* w;
-  cairn_world_step step;
+  world_step step;
   double position[3];
   (void)state;
   o.terrain = CAIRN_TERRAIN_FLAT;

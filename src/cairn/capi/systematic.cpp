@@ -51,6 +51,7 @@ cairn_calibration default_calibration() {
 template <class Pose>
 void read_calibration(const cairn_calibration* user, Calibration<Pose>& sigma, Calibration<Pose>& walk) {
   const cairn_calibration c = read_options(user, default_calibration(), "calibration");
+  check_reserved(c.reserved, "calibration.reserved");
   constexpr bool planar = Pose::kDim == 2;
   double sigmas[9], walks[9];
   read_errors(c.mount_shift_sigma, c.mount_shift_walk, 3, "calibration.mount_shift", planar ? Axes::xy : Axes::all,

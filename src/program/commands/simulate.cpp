@@ -26,7 +26,7 @@ std::vector<Way> ways_of(const SimulateOptions& options) {
   if (!options.compare) return {{"", options.filter, {}}};
   FilterChoices standard = options.filter;
   standard.submap_landmarks = 0;
-  standard.error = CAIRN_STATE_ERROR_STANDARD;
+  standard.state_error = CAIRN_STATE_ERROR_STANDARD;
   standard.iterations = options.filter.iterations.value_or(1);
   return {{"standard", standard, {}}, {"submaps", options.filter, {}}};
 }

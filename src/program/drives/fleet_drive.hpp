@@ -26,7 +26,10 @@ class FleetDrive : public TeamDrive {
   const cairn_fleet* fleet() const { return fleet_.get(); }
 
  private:
+  using Seen = cairn_status (*)(const cairn_fleet*, std::uint64_t, cairn_fleet_sighting*, std::size_t, std::size_t*,
+                                cairn_error*);
   bool take();
+  std::vector<cairn_observation> seen(Seen query, std::uint64_t vehicle) const;
 
   cairn_fleet_options options_;
   std::unique_ptr<cairn_fleet, void (*)(cairn_fleet*)> fleet_;
@@ -35,6 +38,7 @@ class FleetDrive : public TeamDrive {
   std::vector<double> features_;
   std::size_t steps_ = 0;
   cairn_fleet_step step_{};
+  std::vector<cairn_fleet_vehicle> boats_;  // of step_
   bool taken_ = false;  // step_ already holds the next step
 };
 

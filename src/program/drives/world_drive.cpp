@@ -55,8 +55,13 @@ bool WorldDrive::next(DriveStep& step) {
   step.time = simulated.time;
   step.twists.clear();
   step.wheel_turns.clear();
-  for (std::size_t i = 0; i < simulated.motion_count; ++i) {
-    const cairn_world_motion& motion = simulated.motions[i];
+  read_sim_array(motions_, [&](cairn_world_motion* motions, std::size_t capacity, std::size_t* needed) {
+    return cairn_world_motions(world_.get(), motions, capacity, needed, nullptr);
+  });
+  read_sim_array(observations_, [&](cairn_observation* observations, std::size_t capacity, std::size_t* needed) {
+    return cairn_world_observations(world_.get(), observations, capacity, needed, nullptr);
+  });
+  for (const cairn_world_motion& motion : motions_) {
     if (by_wheels_) {
       step.wheel_turns.push_back({motion.dt, motion.wheels[0], motion.wheels[1], std::nullopt});
     } else if (by_gyro_) {
@@ -76,8 +81,8 @@ bool WorldDrive::next(DriveStep& step) {
   step.noise = noise;
   step.pan = simulated.pan;
   step.stick = simulated.stick;
-  step.observations = simulated.observations;
-  step.count = simulated.observation_count;
+  step.observations = observations_.data();
+  step.count = observations_.size();
   step.truth = simulated.truth;
   return true;
 }

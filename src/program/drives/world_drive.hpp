@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "program/drives/drive.hpp"
 
@@ -31,6 +32,9 @@ class WorldDrive : public Drive {
   std::size_t steps_ = 0;
   std::size_t next_ = 0;
   bool by_wheels_, by_gyro_;
+  // Of the last step.
+  std::vector<cairn_world_motion> motions_;
+  std::vector<cairn_observation> observations_;
 };
 
 }  // namespace cairn::program

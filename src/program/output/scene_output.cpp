@@ -12,7 +12,7 @@ namespace cairn::program {
 namespace {
 
 using Fleet = std::unique_ptr<cairn_fleet, void (*)(cairn_fleet*)>;
-using Points = cairn_status (*)(const cairn_fleet*, double*, std::size_t, std::size_t*);
+using Points = cairn_status (*)(const cairn_fleet*, double*, std::size_t, std::size_t*, cairn_error*);
 
 class Scene {
  public:
@@ -30,9 +30,9 @@ class Scene {
   }
   void points(const char* kind, Points query, const cairn_fleet* fleet) {
     std::size_t count = 0;
-    check_sim(query(fleet, nullptr, 0, &count));
+    check_sim(query(fleet, nullptr, 0, &count, nullptr));
     std::vector<double> xy(2 * count);
-    check_sim(query(fleet, xy.data(), count, &count));
+    check_sim(query(fleet, xy.data(), count, &count, nullptr));
     for (std::size_t i = 0; i < count; ++i) point(kind, i + 1, xy[2 * i], xy[2 * i + 1]);
   }
   void close() { file_.close(); }
@@ -61,12 +61,16 @@ void write_scene(const cairn_fleet_options& options, const std::string& folder) 
   const double turn = options.course_length / (2 * std::acos(-1.0));  // radius of a course; boats turn to the left
   cairn_fleet_step step{};
   step.struct_size = sizeof step;
+  std::vector<cairn_fleet_vehicle> boats;
   std::size_t steps = 0;
   check_sim(cairn_fleet_steps(fleet.get(), &steps, nullptr));
   for (std::size_t k = 0; k < steps; ++k) {
     check_sim(cairn_fleet_next(fleet.get(), &step, nullptr));
-    for (std::size_t v = 0; v < step.vehicle_count; ++v) {
-      const cairn_fleet_vehicle& boat = step.vehicles[v];
+    read_sim_array(boats, [&](cairn_fleet_vehicle* vehicles, std::size_t capacity, std::size_t* needed) {
+      return cairn_fleet_vehicles(fleet.get(), vehicles, capacity, needed, nullptr);
+    });
+    for (std::size_t v = 0; v < boats.size(); ++v) {
+      const cairn_fleet_vehicle& boat = boats[v];
       if (k == 0) {
         scene.circle("course", v + 1, boat.x - turn * std::sin(boat.heading), boat.y + turn * std::cos(boat.heading),
                      turn);
