@@ -189,7 +189,7 @@ CAIRN_API cairn_status cairn_team_receive(cairn_team *team, CAIRN_IN_ARRAY(size)
  *  scans. The pose of a teammate is that of its last packet that is part of the estimate; only the modes
  *  CAIRN_TEAM_JOINT and CAIRN_TEAM_SUBMAPS have it.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND (not in the team,
- *  or its pose is unknown). \since 0.1.0 */
+ *  or its pose is unknown). Complexity: O(own motions that wait for teammates). \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle,
                                        CAIRN_OUT CAIRN_OPTIONAL cairn_pose *pose,
                                        CAIRN_OUT CAIRN_OPTIONAL CAIRN_UNIT(pose^2) double covariance[36],
@@ -198,7 +198,8 @@ CAIRN_API cairn_status cairn_team_pose(const cairn_team *team, uint64_t vehicle,
 /** Normalised estimation error squared (NEES) of this vehicle's pose against the true pose, in the error coordinates of
  *  the filter. The pose is the one that \ref cairn_team_pose returns. A consistent filter has 3 on average. On an error
  *  `*nees` is not written. Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT,
- *  CAIRN_ERROR_NUMERICAL (the covariance of this pose is singular, as it is at a known start). \since 0.1.1 */
+ *  CAIRN_ERROR_NUMERICAL (the covariance of this pose is singular, as it is at a known start).
+ *  Complexity: O(own motions that wait for teammates). \since 0.1.1 */
 CAIRN_API cairn_status cairn_team_pose_nees(const cairn_team *team, CAIRN_IN const cairn_pose *truth,
                                             CAIRN_OUT CAIRN_UNIT(1) double *nees, cairn_error *error);
 
@@ -208,7 +209,7 @@ CAIRN_API CAIRN_BORROWED(team) const cairn_map *cairn_team_map(const cairn_team 
 
 /** Compares the present pose of this vehicle with the true pose. With the option `baseline` it compares the pose of
  *  the second filter, too. \ref cairn_team_last_report returns the means. Threads: one a handle. Errors:
- *  CAIRN_ERROR_ARGUMENT. \since 0.1.0 */
+ *  CAIRN_ERROR_ARGUMENT. Complexity: O(own motions that wait for teammates). \since 0.1.0 */
 CAIRN_API cairn_status cairn_team_score(cairn_team *team, CAIRN_IN const cairn_pose *truth, cairn_error *error);
 
 /** Report of a team. */

@@ -23,7 +23,6 @@ except ImportError:
     sys.exit("describe.py: the Python module clang.cindex is missing (Debian: python3-clang-14, for /usr/bin/python3)")
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-INCLUDE = os.path.join(ROOT, "include")
 FORMAT = 1  # of api.json: a change that is more than an addition increases it
 
 # The libraries with their headers and the lists of what they export.
@@ -52,13 +51,13 @@ NOT_IN_WORDS = {"1", "kind", "sensor", "pose"}  # words that mean something else
 # --- problems ---
 
 class Problems:
-    def __init__(self):
-        self.lines = []
+    def __init__(self, root):
+        self.root, self.lines = root, []
 
     def add(self, cursor, text):
         where = "api"
         if cursor is not None and cursor.location.file:
-            where = f"{os.path.relpath(cursor.location.file.name, ROOT)}:{cursor.location.line}"
+            where = f"{os.path.relpath(cursor.location.file.name, self.root)}:{cursor.location.line}"
         self.lines.append(f"{where}: {text}")
 
 
@@ -243,10 +242,14 @@ def typedef_name(kind):
     return re.sub(r"^(const|struct|enum) ", "", re.sub(r"^(const|struct|enum) ", "", kind.spelling))
 
 
+class DescriptionError(Exception):
+    """The headers cannot be read."""
+
+
 class Api:
-    def __init__(self, arguments=()):
-        self.problems = Problems()
-        self.arguments = ["-x", "c", "-std=c99", "-ffreestanding", "-DCAIRN_DESCRIBE", f"-I{INCLUDE}", *arguments]
+    def __init__(self, arguments=(), root=ROOT):
+        self.root, self.include, self.problems = root, os.path.join(root, "include"), Problems(root)
+        self.arguments = ["-x", "c", "-std=c99", "-ffreestanding", "-DCAIRN_DESCRIBE", f"-I{self.include}", *arguments]
         self.handles, self.structs, self.enums, self.callbacks, self.functions = {}, {}, {}, {}, {}
         self.constants, self.headers, self.integers, self.aliases = [], [], {}, {}
         self.enum_bodies, self.struct_bodies = [], {}
@@ -261,7 +264,7 @@ class Api:
                                           options=clang.TranslationUnit.PARSE_DETAILED_PROCESSING_RECORD)
         errors = [str(d) for d in unit.diagnostics if d.severity >= clang.Diagnostic.Warning]
         if errors:
-            sys.exit("\n".join(["describe.py: the headers do not compile:"] + errors))
+            raise DescriptionError("\n".join(["the headers do not compile:"] + errors))
         self.owners = self.header_owners()
         cursors = [c for c in unit.cursor.get_children() if c.location.file and self.header(c) is not None]
         values = self.macro_values([c for c in cursors if c.kind == clang.CursorKind.MACRO_DEFINITION])
@@ -290,15 +293,15 @@ class Api:
                 if name in owners:
                     continue
                 owners[name] = library["name"]
-                with open(os.path.join(INCLUDE, name), encoding="utf-8") as file:
+                with open(os.path.join(self.include, name), encoding="utf-8") as file:
                     waiting += re.findall(r"#include <(cairn/\w+\.h)>", file.read())
-        for name in sorted(os.listdir(os.path.join(INCLUDE, "cairn"))):
+        for name in sorted(os.listdir(os.path.join(self.include, "cairn"))):
             if f"cairn/{name}" not in owners:
                 self.problems.add(None, f"include/cairn/{name} belongs to no library")
         return owners
 
     def header(self, cursor):
-        path = os.path.relpath(os.path.abspath(cursor.location.file.name), INCLUDE)
+        path = os.path.relpath(os.path.abspath(cursor.location.file.name), self.include)
         return path if path in self.owners else None
 
     def macro_values(self, cursors):
@@ -431,11 +434,11 @@ class Api:
                 "headers": [name for name, owner in self.owners.items() if owner == library["name"]]}
 
     def symbols(self, library):
-        with open(os.path.join(ROOT, library["symbols"]), encoding="utf-8") as file:
+        with open(os.path.join(self.root, library["symbols"]), encoding="utf-8") as file:
             return [tuple(line.split("@@")) for line in file.read().split("\n") if line and not line.startswith("#")]
 
     def finish_header(self, name):
-        with open(os.path.join(INCLUDE, name), encoding="utf-8") as file:
+        with open(os.path.join(self.include, name), encoding="utf-8") as file:
             match = re.search(r"/\*\* \\file\n(.*?)\*/", file.read(), re.DOTALL)
         if not match:
             self.problems.add(None, f"include/{name} has no \\file comment")
@@ -514,6 +517,10 @@ class Api:
             field["kind"] = "text"
         if what["kind"] == "number":
             field["unit"] = self.unit(cursor, f"{struct}.{name}", marks, doc)
+        field["repeatable"] = "differs from run to run" not in doc
+        if field["repeatable"] == bool(re.fullmatch(r"(.*_)?seconds", name)):
+            self.problems.add(cursor, f"{struct}.{name}: durations, and only they, are named `seconds` or `..._seconds` "
+                                      "and \"differ from run to run\"")
         field["range"] = self.range(cursor, marks) or (documented_range(doc) if role == "value" else None)
         field["default"] = documented_default(doc) if role == "value" else None
         if role == "value" and self.init_of(struct) and field["default"] is None:
@@ -598,6 +605,7 @@ class Api:
         threads, text = sentence(text, "Threads: ")
         errors, text = sentence(text, "Errors: ")
         complexity, text = take(text, r"(?:^|(?<=\s))Complexity(?:: |, )(.*?)\.?\s*(?:(?=\n\n)|\Z)")
+        statuses = {value.spelling for value in self.enums["cairn_status"][0].get_children()}
         result = self.describe_type(cursor.result_type)
         marks = Marks(cursor, self.problems)
         fallible = result["type"] == "cairn_status" and name != "cairn_status_name"
@@ -609,6 +617,9 @@ class Api:
         listed = parse_errors(errors) if errors else []
         if listed is None or bool(listed) != fallible:
             self.problems.add(cursor, f"{name}: \"Errors: ...\" must list statuses exactly if it can fail: {errors!r}")
+        for error in listed or []:
+            if error["status"] not in statuses:
+                self.problems.add(cursor, f"{name}: there is no status {error['status']}")
         parameters = self.finish_parameters(name, list(cursor.get_arguments()), {})
         if fallible and (not parameters or parameters[-1]["role"] != "error"):
             self.problems.add(cursor, f"{name}: its last parameter must be cairn_error *error")
@@ -634,6 +645,9 @@ class Api:
         if what["pointers"] and borrowed is None:
             self.problems.add(cursor, f"{cursor.spelling} returns a pointer: CAIRN_BORROWED(owner) must say whose it "
                                       "is")
+        owners = {"library", "thread", *(parameter.spelling for parameter in cursor.get_arguments())}
+        if borrowed is not None and borrowed not in owners:
+            self.problems.add(cursor, f"{cursor.spelling}: its result belongs to {borrowed}, which is no parameter")
         return {"type": what["type"], "base": self.base(what["type"]), "kind": kind, "c": cursor.result_type.spelling,
                 "borrowed_from": borrowed}
 
@@ -651,7 +665,7 @@ class Api:
             result.append(parameter)
             for word in re.findall(r"[A-Za-z_][\w.]*", marks["length"] or ""):
                 struct, _, field = word.partition(".")
-                if not (field and struct in self.structs or word in names):
+                if not (field in self.field_names(struct) if field else word in names):
                     self.problems.add(cursor, f"{function}: the length of {cursor.spelling} names {word}, which is "
                                               "neither a parameter nor a field of a struct")
         if "capacity" in names and not any("capacity" in length for length in lengths):
@@ -736,6 +750,9 @@ class Api:
             self.problems.add(cursor, f"{name}: an int32_t that is no enum, no cairn_bool and no sensor")
         return "value"
 
+    def field_names(self, struct):
+        return [c.spelling for c in self.structs[struct].get_children()] if struct in self.structs else []
+
     def is_versioned(self, name):
         first = next(iter(self.structs[name].get_children()))
         return first.spelling == "struct_size"
@@ -775,15 +792,18 @@ def layout(api):
             yield f"{struct['name']}.{field['name']} {field['offset']} {field['size']}"
 
 
-def main():
+def main(arguments=None):
     parser = argparse.ArgumentParser(description="Describes the C interface in JSON.")
     parser.add_argument("--output", metavar="FILE", help="write the description to this file")
     parser.add_argument("--check", metavar="FILE", help="compare the description with this file")
     parser.add_argument("--target", metavar="TRIPLE", help="describe the interface of this machine")
     parser.add_argument("--layout", action="store_true", help="print sizes and offsets of all structs")
-    options = parser.parse_args()
+    options = parser.parse_args(arguments)
 
-    api = Api([f"--target={options.target}"] if options.target else [])
+    try:
+        api = Api([f"--target={options.target}"] if options.target else [])
+    except DescriptionError as error:
+        sys.exit(f"describe.py: {error}")
     print("\n".join(api.problems.lines), end="\n" if api.problems.lines else "", file=sys.stderr)
     text = to_json(api.out) + "\n"
     if options.layout:

@@ -155,8 +155,8 @@ def build_names():
 
 @functools.lru_cache(None)
 def code_words():
-    paths = files_under("src/**/*.[ch]pp", "src/**/*.def", "include/cairn/*.h", "bindings/python/**/*.py",
-                        "tests/unit/**/*.[ch]pp")
+    paths = files_under("src/**/*.[ch]pp", "src/**/*.def", "src/api/*.py", "include/cairn/*.h",
+                        "bindings/python/**/*.py", "tests/unit/**/*.[ch]pp")
     words = set()
     for path in paths:
         text = read(path)

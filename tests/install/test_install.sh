@@ -35,7 +35,7 @@ soversion=${version%.*}
 for file in "$libdir/libcairn.so.$soversion" "$libdir/libcairn.so.$version" "$prefix/include/cairn/cairn.h" \
   "$libdir/libcairn_sim.so" "$libdir/libcairn_sim.so.$soversion" "$libdir/libcairn_sim.so.$version" \
   "$libdir/cmake/cairn/cairnConfig.cmake" "$libdir/cmake/cairn/cairnConfigVersion.cmake" \
-  "$prefix/share/doc/cairn/LICENSE" "$prefix/share/doc/cairn/README.md"; do
+  "$prefix/share/doc/cairn/LICENSE" "$prefix/share/doc/cairn/README.md" "$prefix/share/cairn/api.json"; do
   [[ -f $file ]] || fail "missing: ${file#"$prefix/"}"
 done
 libraries=("$libdir/libcairn.so.$version")

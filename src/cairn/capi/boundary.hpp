@@ -104,11 +104,11 @@ Options read_options(const Options* options, const Options& defaults, const char
 
 // Writes a report: the smaller of both struct sizes is copied. Bytes that only a newer caller has stay unchanged.
 template <class Report>
-void write_report(Report& from, Report* to) {
-  check_pointer(to, "report");
+void write_report(Report& from, Report* to, const char* name = "report") {
+  check_pointer(to, name);
   std::uint32_t size = 0;
   std::memcpy(&size, to, sizeof size);
-  check_struct_size(size, "report");
+  check_struct_size(size, name);
   from.struct_size = size;
   std::memcpy(static_cast<void*>(to), &from, std::min<std::size_t>(size, sizeof from));
 }

@@ -87,7 +87,7 @@ cairn_status cairn_filter_health(const cairn_filter* filter, cairn_health* healt
   return guard(error, [&] {
     cairn_health out = {};
     with_filter(filter, [&](const auto& f) { out = health_of(f.health()); });
-    write_report(out, health);
+    write_report(out, health, "health");
   });
 }
 
@@ -104,7 +104,7 @@ cairn_status cairn_filter_sensor_health(const cairn_filter* filter, int32_t sens
       write_scale(f.health().sensor_noise(sensor), out.scale, out.scale_sigma);
       for (Index lag = 1; lag <= kPersistenceLags; ++lag) out.persistence[lag - 1] = from.persistence.correlation(lag);
     });
-    write_report(out, health);
+    write_report(out, health, "health");
   });
 }
 

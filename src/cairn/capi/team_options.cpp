@@ -64,6 +64,7 @@ TeamOptions team_options(const cairn_team_options& o, const cairn_filter_options
   options.mail.max_waiting = o.max_waiting;
   options.mail.history = o.history;
   options.mail.max_jump = o.max_jump;
+  check_pointer(filter, "filter");  // read_filter_options calls it "options"
   const auto filter_options = read_filter_options(filter);
   const auto* planar = std::get_if<FilterOptions<SE2>>(&filter_options);
   if (planar == nullptr)
