@@ -100,7 +100,8 @@ class Package(Distribution):
         return BUNDLE != "none"
 
 
-fast = Extension("cairn._fast", ["fast.c"], include_dirs=[str(ROOT / "include")], py_limited_api=True)
+# Without Python's header files the package works all the same, only slower.
+fast = Extension("cairn._fast", ["fast.c"], include_dirs=[str(ROOT / "include")], py_limited_api=True, optional=True)
 setup(cmdclass={"build_py": Build, "bdist_wheel": Wheel}, distclass=Package, ext_modules=[fast] if COMPILED else [],
       options={"build": {"build_base": str(SCRATCH / "build")}, "egg_info": {"egg_base": str(SCRATCH)},
                "bdist_wheel": {"bdist_dir": str(SCRATCH / "wheel")}})

@@ -27,6 +27,10 @@ mkdir -p "$work"
 unset PYTHONPATH CAIRN_LIBRARY
 export CAIRN_BUNDLE=$build/lib PYTHONDONTWRITEBYTECODE=1 CFLAGS="-Wall -Wextra -Wshadow -Werror"
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_RETRIES=5
+# pip splits the value of this variable at spaces, which the project's path may have: a URL has none.
+PIP_CONSTRAINT=$(/usr/bin/python3 -c 'import pathlib, sys; print(pathlib.Path(sys.argv[1]).as_uri())' \
+  "$root/tests/python/constraints.txt")
+export PIP_CONSTRAINT
 before=$(find "$root/bindings/python" "$root/tests/python" -not -name __pycache__ | sort)
 
 say "pip install in a fresh environment, from the sources"
