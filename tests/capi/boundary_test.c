@@ -96,6 +96,7 @@ static void the_radars_reserved_field_must_be_zero(void** state) {
   int32_t sensor = -1;
   (void)state;
   options.vehicle = CAIRN_VEHICLE_PLANAR;
+  options.initial_pose = pose_at(0, 0, 0, 0, 0, 0);
   assert_ok(cairn_filter_create(&options, &filter, NULL));
   REFUSES_RESERVED(cairn_range_bearing, cairn_range_bearing_init, reserved,
                    cairn_filter_add_range_bearing(filter, &given, &sensor, NULL), "radar.reserved");

@@ -245,7 +245,7 @@ static void every_null_is_refused_by_name(void** state) {
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "rotation_vector", cairn_quaternion_log(q, NULL, NULL));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "truth", cairn_pose_error(NULL, &pose, e, NULL));
   assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "estimate", cairn_pose_error(&pose, NULL, e, NULL));
-  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "error", cairn_pose_error(&pose, &pose, NULL, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "difference", cairn_pose_error(&pose, &pose, NULL, NULL));
 }
 
 /* `bad` replaces `good` in every function that takes a pose. Nothing may be written. */

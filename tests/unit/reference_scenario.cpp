@@ -26,19 +26,19 @@ std::int32_t compass_predict(void*, const double* pose, const double* l, double*
                              double* J_landmark) {
   for (int i = 0; i < 3; ++i) {
     z[i] = l[i] - pose[i];
-    J_pose[6 * i + i] = -1;
-    J_landmark[3 * i + i] = 1;
+    for (int k = 0; k < 6; ++k) J_pose[6 * i + k] = k == i ? -1 : 0;
+    for (int k = 0; k < 3; ++k) J_landmark[3 * i + k] = k == i ? 1 : 0;
   }
-  return 0;
+  return 1;
 }
 
 std::int32_t compass_place(void*, const double* pose, const double* z, double* l, double* J_pose, double* J_z) {
   for (int i = 0; i < 3; ++i) {
     l[i] = pose[i] + z[i];
-    J_pose[6 * i + i] = 1;
-    J_z[3 * i + i] = 1;
+    for (int k = 0; k < 6; ++k) J_pose[6 * i + k] = k == i ? 1 : 0;
+    for (int k = 0; k < 3; ++k) J_z[3 * i + k] = k == i ? 1 : 0;
   }
-  return 0;
+  return 1;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -20,7 +21,7 @@ namespace {
 struct Wrapped {
   const Sensor<SE3>* sensor = nullptr;
   int rows = 3;
-  int refuse = 0;             // return value of the callbacks
+  int answer = 1;             // return value of the callbacks
   double wrong_landmark = 0;  // error of one entry of a Jacobian
   double offset = 0;          // offset of the placed landmark
 };
@@ -33,14 +34,14 @@ std::int32_t predict_wrapped(void* user, const double* pose, const double* landm
                              double* J_landmark) {
   const Wrapped& w = *static_cast<const Wrapped*>(user);
   Prediction<SE3> out;
-  if (!w.sensor->predict(unpack(pose), Vector3(landmark[0], landmark[1], landmark[2]), kNoMount, out)) return 7;
+  if (!w.sensor->predict(unpack(pose), Vector3(landmark[0], landmark[1], landmark[2]), kNoMount, out)) return 0;
   for (int i = 0; i < w.rows; ++i) {
     z[i] = out.z[i];
     for (int j = 0; j < 6; ++j) J_pose[6 * i + j] = out.J_z_pose(i, j);
     for (int j = 0; j < 3; ++j) J_landmark[3 * i + j] = out.J_z_landmark(i, j);
   }
   J_landmark[1] += w.wrong_landmark;
-  return w.refuse;
+  return w.answer;
 }
 
 std::int32_t place_wrapped(void* user, const double* pose, const double* z, double* landmark, double* J_pose,
@@ -49,13 +50,13 @@ std::int32_t place_wrapped(void* user, const double* pose, const double* z, doub
   Vector3 full(5, 0, 0);  // not determined by fewer than three values
   for (int i = 0; i < w.rows; ++i) full[i] = z[i];
   Placement<SE3> out;
-  if (!w.sensor->place(unpack(pose), full, kNoMount, out)) return 7;
+  if (!w.sensor->place(unpack(pose), full, kNoMount, out)) return 0;
   for (int i = 0; i < 3; ++i) {
     landmark[i] = out.landmark[i] + w.offset;
     for (int j = 0; j < 6; ++j) J_pose[6 * i + j] = out.J_landmark_pose(i, j);
     for (int j = 0; j < w.rows; ++j) J_z[w.rows * i + j] = out.J_landmark_z(i, j);
   }
-  return w.refuse;
+  return w.answer;
 }
 
 // Azimuth and elevation of a point in the body frame: two angles, which are the last two rows of the head.
@@ -166,19 +167,23 @@ std::int32_t spoil_predict(void*, const double*, const double*, double* z, doubl
   for (int i = 0; i < 3; ++i) {
     if (i != spoiled) z[i] = 1;
   }
+  std::fill_n(J_pose, 18, 0.0);
+  std::fill_n(J_landmark, 9, 0.0);
   if (spoiled == 3) J_pose[17] = spoiled_by;
   if (spoiled == 4) J_landmark[8] = spoiled_by;
   if (spoiled == 5) z[0] = spoiled_by;
-  return 0;
+  return 1;
 }
 std::int32_t spoil_place(void*, const double*, const double*, double* landmark, double* J_pose, double* J_z) {
   for (int i = 0; i < 3; ++i) {
     if (i != spoiled) landmark[i] = 1;
   }
+  std::fill_n(J_pose, 18, 0.0);
+  std::fill_n(J_z, 9, 0.0);
   if (spoiled == 3) J_pose[17] = spoiled_by;
   if (spoiled == 4) J_z[8] = spoiled_by;
   if (spoiled == 5) landmark[0] = spoiled_by;
-  return 0;
+  return 1;
 }
 
 }  // namespace
@@ -193,10 +198,10 @@ TEST_CASE("custom: refusals") {
   CHECK(CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen));
   CHECK(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
   CHECK_FALSE(CustomSensor<SE3>(p).predict(kPose, kPose.translation(), kNoMount, seen));
-  user.refuse = 1;
+  user.answer = 0;
   CHECK_FALSE(CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen));
   CHECK_FALSE(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
-  user.refuse = -1;
+  user.answer = -1;
   const auto aborts = [](const auto& call) {
     try {
       call();
@@ -207,7 +212,9 @@ TEST_CASE("custom: refusals") {
   };
   CHECK(aborts([&] { (void)CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen); }));
   CHECK(aborts([&] { (void)CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed); }));
-  user.refuse = 0;
+  user.answer = 2;  // neither yes, nor no, nor stop
+  CHECK(aborts([&] { (void)CustomSensor<SE3>(p).predict(kPose, kLandmark, kNoMount, seen); }));
+  user.answer = 1;
   p.place = nullptr;
   CHECK_FALSE(CustomSensor<SE3>(p).place(kPose, Vector3(5, 0, 0), kNoMount, placed));
 
