@@ -100,6 +100,31 @@ class DeclarationsTest(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "must be one of .*FilterOptions"):
             cairn.defaults(cairn.Health)
 
+    def test_nothing_of_the_interface_is_missing(self):
+        sys.path.insert(0, os.path.dirname(API_JSON))
+        import bindings_check
+        names = {function["name"] for function in API["functions"] if hasattr(cairn.lib, function["name"])}
+        names |= {name for name in bindings_check.constants(API) if name == "CAIRN_ID_NONE" or
+                  name.startswith("CAIRN_VERSION")}  # cairn.ID_NONE, cairn.__version__
+        for described in API["enums"]:
+            members = getattr(cairn, "".join(part.capitalize() for part in described["name"].split("_")[1:]))
+            names |= {value["name"] for member, value in zip(members, described["values"])
+                      if value["name"].endswith("_" + member.name)}
+        with_lengths = {"cairn_world_step": ["motion_count", "observation_count"], "cairn_fleet_step": ["vehicle_count"]}
+        for described in API["structs"]:
+            name, camel = described["name"], "".join(part.capitalize() for part in described["name"].split("_")[1:])
+            if name == "cairn_pose":
+                shown = cairn.Pose._fields
+            elif name == "cairn_error":
+                shown = cairn.CairnError.__annotations__
+            elif described["role"] == "plain":
+                shown = layouts.OF_STRUCT[name].names
+            else:
+                shown = [*getattr(structs, camel).__annotations__, *with_lengths.get(name, [])]  # len(step.motions)
+            names |= {f"{name}.{field}" for field in shown if field in {field["name"] for field in described["fields"]}}
+        self.assertEqual(bindings_check.missing(API, names), [])
+        self.assertEqual(bindings_check.unknown(API, names), [])
+
     def test_documentation_names_what_exists(self):
         """Generated documentation says Filter.calibrate_sensor where the C documentation names the C function."""
         text = "\n".join(sources()[name] for name in ("constants.py", "structs.py", "layouts.py"))
