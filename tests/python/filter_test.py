@@ -86,7 +86,7 @@ class ResultsTest(unittest.TestCase):
         self.assertGreater(len(in_c.splitlines()), 10)
 
     def test_the_best_build_is_loaded(self):
-        folder = os.environ.get("CAIRN_LIBRARY", "")
+        folder = os.environ.get("CAIRN_LIBRARY") or _library.INSIDE
         two = os.path.isdir(os.path.join(folder, "glibc-hwcaps", "x86-64-v3")) and _library._has_v3()
         if two:
             self.assertEqual(ffi.string(lib.cairn_build()), b"x86-64-v3")
