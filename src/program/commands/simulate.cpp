@@ -40,8 +40,9 @@ std::vector<Figure> run_world(const SimulateOptions& options, const Way& way, st
   if (!progress) progress.emplace(drive.steps() * options.runs * ways, options.common.quiet);
   Session session;
   // Files are written for the first run only: the others are like it.
-  if (run == 0 && !options.common.output.empty()) {
-    session.output = options.common.output + (way.name.empty() ? "" : "/" + way.name);
+  if (run == 0 && options.common.output.wanted()) {
+    session.output = options.common.output;
+    if (!way.name.empty()) session.output.folder += "/" + way.name;
   }
   session.seconds_before = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   session.on_step = [&] { progress->advance(); };
@@ -67,7 +68,7 @@ void simulate_command(const std::vector<std::string>& arguments) {
   const SimulateOptions options = parse_simulate_options(arguments);
   if (options.common.help) return write_help();
   std::vector<Way> ways = ways_of(options);
-  if (options.compare && !options.common.output.empty()) create_folder(options.common.output);
+  if (options.compare && options.common.output.wanted()) create_folder(options.common.output.folder);
   {
     std::optional<Progress> progress;
     for (std::uint32_t run = 0; run < options.runs; ++run) {
@@ -78,8 +79,8 @@ void simulate_command(const std::vector<std::string>& arguments) {
     const std::vector<Figure> figures = figures_of(ways[0]);
     return write_stdout(options.common.json ? json(figures) + "\n" : "mars\n" + text(figures));
   }
-  if (!options.common.output.empty()) {
-    OutputFile file(options.common.output, "summary.json");
+  if (options.common.output.wanted()) {
+    OutputFile file(options.common.output.folder, "summary.json");
     file.text(compared_json(ways));
     file.close();
   }

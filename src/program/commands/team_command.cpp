@@ -18,10 +18,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Runs the team in its mode and, if `beside` is given, each vehicle without the others. The run has begun at `begin`.
-std::vector<Figure> run_team(TeamDrive& drive, TeamDrive* beside, const TeamChoices& choices, const std::string& folder,
+std::vector<Figure> run_team(TeamDrive& drive, TeamDrive* beside, const TeamChoices& choices, const OutputPlace& place,
                              Progress& progress, Clock::time_point begin) {
   std::optional<TeamOutput> output;
-  if (!folder.empty()) output.emplace(drive, choices.mode, folder);
+  if (place.wanted()) output.emplace(drive, choices.mode, place);
   TeamRunner runner(drive, choices);
   const TeamResult result = runner.run([&](const TeamStep& step, const std::vector<VehicleEstimate>& estimates) {
     if (output) output->add(step, estimates);
@@ -54,7 +54,8 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
   const UsvOptions options = parse_usv_options(arguments);
   if (options.common.help) return write_help();
   if (options.compare) {
-    if (!options.common.output.empty()) create_folder(options.common.output);
+    const OutputPlace& place = options.common.output;
+    if (place.wanted()) create_folder(place.folder);
     std::string table, object, rows;
     StepTable steps;
     {
@@ -62,13 +63,13 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
       compare_modes(
           options, [&] { progress.advance(); }, table, object, rows, steps);
     }
-    if (!options.common.output.empty()) {
-      steps.write(options.common.output);
-      write_scene(compared_scene(options), options.common.output);
-      OutputFile file(options.common.output, "team_compare.csv");
+    if (place.wanted()) {
+      steps.write(place.folder);
+      write_scene(compared_scene(options), place.folder);
+      OutputFile file(place.folder, "team_compare.csv");
       file.text(rows);
       file.close();
-      OutputFile summary(options.common.output, "summary.json");
+      OutputFile summary(place.folder, "summary.json");
       summary.text(object + "\n");
       summary.close();
     }
@@ -82,9 +83,9 @@ void simulate_team_command(const std::vector<std::string>& arguments) {
     fleet.seed = options.common.seed + run;
     FleetDrive drive(fleet), beside(fleet);
     if (!progress) progress.emplace(2 * drive.steps() * options.runs, options.common.quiet);
-    const std::string folder = run == 0 ? options.common.output : "";
-    runs.push_back(run_team(drive, &beside, options.team, folder, *progress, begin));
-    if (!folder.empty()) write_scene(fleet, folder);
+    const OutputPlace place = run == 0 ? options.common.output : OutputPlace{};
+    runs.push_back(run_team(drive, &beside, options.team, place, *progress, begin));
+    if (place.wanted()) write_scene(fleet, place.folder);
   }
   progress.reset();
   const std::vector<Figure> figures = runs.size() == 1 ? runs.front() : means(runs);

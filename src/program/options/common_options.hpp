@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "program/options/option.hpp"
+#include "program/output/output_place.hpp"
 
 namespace cairn::program {
 
@@ -13,11 +13,14 @@ struct CommonChoices {
   bool help = false;
   bool json = false;
   bool quiet = false;
-  std::string output;  // folder; empty: none
+  OutputPlace output;
   std::uint64_t seed = 1;
 };
 
 // `choices` must live as long as the group.
 OptionGroup common_options(CommonChoices& choices);
+
+// Throws UsageError if an option has no effect without another one.
+void check_common(const CommonChoices& choices);
 
 }  // namespace cairn::program

@@ -80,6 +80,18 @@ std::string expected(const options::Bounds& bounds) {
 
 }  // namespace
 
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> words(1);
+  for (const char letter : list) {
+    if (letter == ',') {
+      words.emplace_back();
+    } else {
+      words.back() += letter;
+    }
+  }
+  return words;
+}
+
 void reject(const std::string& name, const std::string& value, const std::string& expected) {
   throw UsageError("option " + name + ": '" + value + "' is not " + expected);
 }

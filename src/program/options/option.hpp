@@ -38,6 +38,9 @@ struct OptionGroup {
   std::vector<Option> options;
 };
 
+// The words between commas; an empty one where nothing stands.
+std::vector<std::string> split(const std::string& list);
+
 // Throw UsageError.
 [[noreturn]] void reject(const std::string& name, const std::string& value, const std::string& expected);
 std::uint64_t parse_whole(const std::string& name, const std::string& value, std::uint64_t low, std::uint64_t high);

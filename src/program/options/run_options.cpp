@@ -62,6 +62,7 @@ RunOptions parse_run_options(const std::vector<std::string>& arguments) {
     options.log = word;
     has_log = true;
   });
+  check_common(options.common);
   check_contradictions(options.filter);
   if (!options.common.help && options.log.empty()) throw UsageError("no log given (usage: cairn run LOG [options])");
   return options;

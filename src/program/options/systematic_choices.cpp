@@ -2,7 +2,6 @@
 #include "program/options/systematic_choices.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 namespace cairn::program {
 
@@ -10,8 +9,7 @@ Option components(const OptionText& text, const options::Bounds& bounds, std::si
   const std::string name = text.name;
   return custom(text, [=](const std::string& value) {
     std::vector<double> numbers;
-    std::stringstream words(value);
-    for (std::string word; std::getline(words, word, ',');) numbers.push_back(parse_number(name, word, bounds));
+    for (const std::string& word : split(value)) numbers.push_back(parse_number(name, word, bounds));
     if (numbers.size() != 1 && numbers.size() != count)
       reject(name, value, "1 or " + std::to_string(count) + " numbers");
     for (std::size_t i = 0; i < count; ++i) target[i] = numbers[numbers.size() == 1 ? 0 : i];

@@ -142,7 +142,10 @@ UsvOptions parse_usv_options(const std::vector<std::string>& arguments) {
   parse(arguments, groups, "simulate", [&](const std::string& word) {
     if (word != "usv") throw UsageError("one scenario at a time: '" + word + "' is a second one");
   });
+  check_common(options.common);
   check_choices(options.team);
+  if (options.compare && options.common.output.origin)
+    throw UsageError("option --origin is not for --compare of boats, which writes no maps; leave it out");
   return options;
 }
 
@@ -165,6 +168,7 @@ MrclamOptions parse_mrclam_options(const std::vector<std::string>& arguments) {
   }
   options.noise.range = options.range_noise.value_or(options.noise.range);
   options.noise.bearing = options.bearing_noise.value_or(options.noise.bearing);
+  check_common(options.common);
   check_choices(options.team);
   return options;
 }

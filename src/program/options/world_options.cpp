@@ -220,6 +220,7 @@ SimulateOptions parse_simulate_options(const std::vector<std::string>& arguments
       },
       "--preset");
   if (options.common.help) return options;
+  check_common(options.common);
   check_contradictions(options.filter);
   if (scenario.empty()) throw UsageError("no scenario given (usage: cairn simulate mars|usv [options])");
   if (options.compare && options.filter.submap_landmarks == 0u)

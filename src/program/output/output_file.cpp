@@ -20,8 +20,8 @@ void create_folder(const std::string& folder) {
   throw UsageError("cannot create the folder " + folder + ": " + std::strerror(cause));
 }
 
-OutputFile::OutputFile(const std::string& folder, const char* name)
-    : path_(folder + "/" + name), file_(std::fopen(path_.c_str(), "w"), &std::fclose) {
+OutputFile::OutputFile(const std::string& folder, const std::string& name, char separator)
+    : path_(folder + "/" + name), separator_(separator), file_(std::fopen(path_.c_str(), "w"), &std::fclose) {
   if (!file_) fail();
 }
 
@@ -34,7 +34,7 @@ void OutputFile::text(const std::string& text) {
 }
 
 void OutputFile::field(const std::string& value) {
-  text(row_begun_ ? "," + value : value);
+  text(row_begun_ ? separator_ + value : value);
   row_begun_ = true;
 }
 

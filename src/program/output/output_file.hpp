@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file of comma-separated values that is being written, and its folder.
+// A file of separated values that is being written, and its folder.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace cairn::program {
 // A file that is being written. Every failure is a UsageError that names the file.
 class OutputFile {
  public:
-  OutputFile(const std::string& folder, const char* name);
+  OutputFile(const std::string& folder, const std::string& name, char separator = ',');
 
   void text(const std::string& text);
   // The fields of a row, from the left; `end` ends it.
@@ -29,6 +29,7 @@ class OutputFile {
   [[noreturn]] void fail() const;
 
   std::string path_;
+  char separator_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   bool row_begun_ = false;
 };

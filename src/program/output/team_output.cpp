@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "program/output/tool_files.hpp"
+
 namespace cairn::program {
 namespace {
 
@@ -18,8 +20,11 @@ const std::string& made(const std::string& folder) {
 
 }  // namespace
 
-TeamOutput::TeamOutput(const TeamDrive& drive, std::int32_t mode, const std::string& folder)
-    : drive_(drive), folder_(made(folder)), trajectories_(folder, "team_trajectories.csv") {
+TeamOutput::TeamOutput(const TeamDrive& drive, std::int32_t mode, const OutputPlace& place)
+    : drive_(drive),
+      place_(place),
+      trajectories_(made(place.folder), "team_trajectories.csv"),
+      of_vehicles_(drive.vehicles().size()) {
   trajectories_.text("step,time,vehicle,x,y,heading,sigma3_x,sigma3_y,sigma3_heading,true_x,true_y,true_heading\n");
   steps_.begin_run(drive.landmarks(), mode, drive.vehicles());
 }
@@ -54,6 +59,7 @@ void TeamOutput::add(const TeamStep& step, const std::vector<VehicleEstimate>& e
       trajectories_.empty(3);
     }
     trajectories_.end();
+    of_vehicles_[v].add(step.time, step_, own.pose, step.vehicles[v].truth);
   }
   steps_.add(step.time, estimates);
   ++step_;
@@ -61,11 +67,13 @@ void TeamOutput::add(const TeamStep& step, const std::vector<VehicleEstimate>& e
 
 void TeamOutput::finish(const TeamRunner& runner, const std::vector<Figure>& figures) {
   trajectories_.close();
-  steps_.write(folder_);
-  OutputFile landmarks(folder_, "team_landmarks.csv");
+  steps_.write(place_.folder);
+  OutputFile landmarks(place_.folder, "team_landmarks.csv");
   landmarks.text("vehicle,id,x,y,sigma3_x,sigma3_y,cov_xy,observations,true_x,true_y\n");
   for (std::size_t v = 0; v < drive_.vehicles().size(); ++v) {
-    for (const cairn_landmark& landmark : runner.map(v)) {
+    const std::vector<cairn_landmark> map = runner.map(v);
+    write_tool_files(place_, "vehicle_" + std::to_string(drive_.vehicles()[v]) + "_", map, of_vehicles_[v]);
+    for (const cairn_landmark& landmark : map) {
       landmarks.field(drive_.vehicles()[v]);
       landmarks.field(landmark.id);
       const double values[] = {landmark.position[0], landmark.position[1], 3 * std::sqrt(landmark.covariance[0]),
@@ -81,7 +89,7 @@ void TeamOutput::finish(const TeamRunner& runner, const std::vector<Figure>& fig
     }
   }
   landmarks.close();
-  OutputFile summary(folder_, "summary.json");
+  OutputFile summary(place_.folder, "summary.json");
   summary.text(json(figures) + "\n");
   summary.close();
 }

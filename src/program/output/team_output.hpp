@@ -2,10 +2,12 @@
 // The folder of --output of a team: trajectories and maps of all vehicles, and the claim and time of each step.
 #pragma once
 
-#include <string>
+#include <vector>
 
 #include "program/output/csv_output.hpp"
+#include "program/output/output_place.hpp"
 #include "program/output/step_table.hpp"
+#include "program/output/trajectories.hpp"
 #include "program/runners/team_runner.hpp"
 
 namespace cairn::program {
@@ -13,7 +15,7 @@ namespace cairn::program {
 class TeamOutput {
  public:
   // Creates the files, and the folder if it does not exist. Throws UsageError.
-  TeamOutput(const TeamDrive& drive, std::int32_t mode, const std::string& folder);
+  TeamOutput(const TeamDrive& drive, std::int32_t mode, const OutputPlace& place);
 
   void add(const TeamStep& step, const std::vector<VehicleEstimate>& estimates);
   void finish(const TeamRunner& runner, const std::vector<Figure>& figures);
@@ -24,9 +26,10 @@ class TeamOutput {
 
  private:
   const TeamDrive& drive_;
-  std::string folder_;
+  OutputPlace place_;
   OutputFile trajectories_;
   StepTable steps_;
+  std::vector<Trajectories> of_vehicles_;
   std::uint64_t step_ = 0;
 };
 

@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/output/trajectories.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "program/library.hpp"
 #include "program/output/output_file.hpp"
 
 namespace cairn::program {
-namespace {
 
-std::string tum_line(double time, const cairn_pose& pose) {
-  const double *p = pose.position, *q = pose.quaternion;
-  char line[256];
-  std::snprintf(line, sizeof line, "%.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", time, p[0], p[1], p[2], q[1],
-                q[2], q[3], q[0]);
-  return line;
-}
-
-}  // namespace
-
-void Trajectories::add(const DriveStep& step, const StepResult& result) {
-  times_.push_back(std::isnan(step.time) ? static_cast<double>(step.number) : step.time);
-  online_.push_back(result.pose);
-  truth_.push_back(step.truth);
+void Trajectories::add(double time, std::uint64_t number, const cairn_pose& pose,
+                       const std::optional<cairn_pose>& truth) {
+  times_.push_back(std::isnan(time) ? static_cast<double>(number) : time);
+  online_.push_back(pose);
+  truth_.push_back(truth);
 }
 
 void Trajectories::finish(const cairn_filter* filter) {
@@ -49,23 +39,35 @@ std::optional<double> Trajectories::corrected_rmse() const {
   return std::sqrt(sum / static_cast<double>(scored));
 }
 
-// Writes no file if there are no poses.
-template <class AnyPose>
-void Trajectories::write_tum(const std::string& folder, const char* name, const std::vector<AnyPose>& poses) const {
-  std::optional<OutputFile> file;
-  for (std::size_t k = 0; k < poses.size(); ++k) {
-    const std::optional<cairn_pose> pose = poses[k];
-    if (!pose) continue;
-    if (!file) file.emplace(folder, name);
-    file->text(tum_line(times_[k], *pose));
+std::vector<Trajectories::Named> Trajectories::named() const {
+  std::vector<Named> all = {
+      {"trajectory_online", {}, {}}, {"trajectory_corrected", {}, {}}, {"trajectory_truth", {}, {}}};
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    all[0].add(times_[k], online_[k]);
+    if (!corrected_.empty()) all[1].add(times_[k], corrected_[k]);
+    if (truth_[k]) all[2].add(times_[k], *truth_[k]);
   }
-  if (file) file->close();
+  all.erase(std::remove_if(all.begin(), all.end(), [](const Named& one) { return one.poses.empty(); }), all.end());
+  return all;
 }
 
-void Trajectories::write(const std::string& folder) const {
-  write_tum(folder, "trajectory_online.tum", online_);
-  write_tum(folder, "trajectory_corrected.tum", corrected_);
-  write_tum(folder, "trajectory_truth.tum", truth_);
+void Trajectories::write_tum(const std::string& folder, const std::string& prefix) const {
+  for (const Named& one : named()) {
+    OutputFile file(folder, prefix + one.name + ".tum", ' ');
+    for (std::size_t k = 0; k < one.poses.size(); ++k) {
+      const double* q = one.poses[k].quaternion;
+      file.field(one.times[k]);
+      file.fields(one.poses[k].position, 3);
+      file.fields(q + 1, 3);
+      file.field(q[0]);
+      file.end();
+    }
+    file.close();
+  }
+}
+
+void Trajectories::add_lines(GeoJson& file) const {
+  for (const Named& one : named()) file.line(one.name, one.poses);
 }
 
 }  // namespace cairn::program

@@ -7,6 +7,7 @@
 #include "program/output/csv_output.hpp"
 #include "program/output/summary.hpp"
 #include "program/output/systematic_csv.hpp"
+#include "program/output/tool_files.hpp"
 #include "program/output/trajectories.hpp"
 #include "program/runners/runner.hpp"
 
@@ -15,16 +16,16 @@ namespace cairn::program {
 std::vector<Figure> run_drive(Drive& drive, const FilterChoices& choices, const Session& session) {
   const auto begin = std::chrono::steady_clock::now();
   std::optional<CsvOutput> output;
-  if (!session.output.empty()) output.emplace(drive, session.output);
+  if (session.output.wanted()) output.emplace(drive, session.output.folder);
   std::optional<SystematicCsv> systematic;
-  if (output) systematic.emplace(session.output);
+  if (output) systematic.emplace(session.output.folder);
   Runner runner(drive, choices);
   Summary summary(drive, choices.names_known());
   Trajectories trajectories;
   runner.run([&](const cairn_filter* filter, const DriveStep& step, const StepResult& result) {
     const std::optional<PoseScore> score = score_pose(filter, step, result.pose);
     summary.add(step, result, score);
-    trajectories.add(step, result);
+    trajectories.add(step.time, step.number, result.pose, step.truth);
     if (output) output->add(step, result, score);
     if (systematic) systematic->add(filter, step);
     session.on_step();
@@ -36,7 +37,7 @@ std::vector<Figure> run_drive(Drive& drive, const FilterChoices& choices, const 
                  session.seconds_before + seconds.count());
   if (output) {
     output->finish(runner.filter(), last_closing, summary);
-    trajectories.write(session.output);
+    write_tool_files(session.output, "", map_landmarks(runner.filter()), trajectories);
     systematic->finish();
   }
   return summary.figures();

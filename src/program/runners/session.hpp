@@ -9,11 +9,12 @@
 #include "program/drives/drive.hpp"
 #include "program/options/filter_choices.hpp"
 #include "program/output/figures.hpp"
+#include "program/output/output_place.hpp"
 
 namespace cairn::program {
 
 struct Session {
-  std::string output;         // folder; empty: none
+  OutputPlace output;
   double seconds_before = 0;  // time that the run took before
   std::function<void()> on_step;
 };

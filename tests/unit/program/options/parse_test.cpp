@@ -132,3 +132,11 @@ TEST_CASE("options: bounds contain what they say, and never NaN") {
   for (const auto& bounds : {kPositive, kNotNegative, kProbability, kFinite, from_to(1, 5)})
     CHECK(!bounds.contain(nan));
 }
+
+TEST_CASE("options: the words between commas") {
+  using Words = std::vector<std::string>;
+  CHECK(split("1") == Words{"1"});
+  CHECK(split("1,-2,x y") == Words{"1", "-2", "x y"});
+  CHECK(split("") == Words{""});
+  CHECK(split(",1,,2,") == Words{"", "1", "", "2", ""});
+}
