@@ -32,8 +32,8 @@ trap summary EXIT
 
 begin "Packages"
 need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libnanoflann-dev libmatio-dev \
-  libcmocka-dev doctest-dev python3 python3-cffi python3-numpy python3-clang-14 doxygen=doxygen shellcheck=shellcheck \
-  binutils=nm groff-base=groff mosquitto libmosquitto-dev
+  libcmocka-dev doctest-dev nlohmann-json3-dev python3 python3-cffi python3-numpy python3-clang-14 \
+  doxygen=doxygen shellcheck=shellcheck binutils=nm groff-base=groff mosquitto libmosquitto-dev
 launcher=()
 if command -v ccache >/dev/null; then
   launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)

@@ -14,7 +14,9 @@ namespace conformance {
 
 namespace {
 
-bool is_name(const json& value) { return value.is_string() && value.get_ref<const std::string&>().rfind('$', 0) == 0; }
+bool is_name(const json& value) {
+  return value.is_string() && value.get_ref<const std::string&>().rfind('$', 0) == 0;
+}
 
 int64_t constant(const std::string& name) {
   const auto found = all_constants().find(name);
@@ -22,7 +24,7 @@ int64_t constant(const std::string& name) {
   return found->second;
 }
 
-} // namespace
+}  // namespace
 
 double read_double(const json& from) {
   if (from.is_number()) return from.get<double>();
@@ -46,7 +48,7 @@ int64_t read_signed(const json& from) {
 
 uint64_t read_unsigned(const json& from) {
   if (from.is_number_unsigned()) return from.get<uint64_t>();
-  if (from.is_array()) { // bits
+  if (from.is_array()) {  // bits
     uint64_t bits = 0;
     for (const json& name : from) bits |= read_unsigned(name);
     return bits;
@@ -130,7 +132,7 @@ void Scenario::set_handle(const std::string& name, const void* handle) {
 void* Scenario::handle(const json& name) const {
   const auto found = handles_.find(name.get<std::string>());
   if (found == handles_.end()) throw Failure(name.dump() + " is no handle");
-  return const_cast<void*>(found->second); // borrowed maps are const; the functions that change maps refuse them
+  return const_cast<void*>(found->second);  // borrowed maps are const; the functions that change maps refuse them
 }
 
 void Scenario::destroyed(const void* handle) {
@@ -154,7 +156,9 @@ Payload* Scenario::payload(const Payload& from) {
   return payloads_.back().get();
 }
 
-std::vector<std::string> Scenario::take_lines() { return std::exchange(lines_, {}); }
+std::vector<std::string> Scenario::take_lines() {
+  return std::exchange(lines_, {});
+}
 
 /* --- Call --- */
 
@@ -215,7 +219,8 @@ bool Call::finish(cairn_status result, const char* last_message) {
   }
   if (error.status != status) throw Failure("the error has the status " + std::to_string(error.status));
   if (std::strcmp(error.message, last_message) != 0)
-    throw Failure(std::string("the last message is \"") + last_message + "\", and the error's \"" + error.message + '"');
+    throw Failure(std::string("the last message is \"") + last_message + "\", and the error's \"" + error.message +
+                  '"');
   return false;
 }
 
@@ -248,4 +253,4 @@ void Call::end() const {
   }
 }
 
-} // namespace conformance
+}  // namespace conformance

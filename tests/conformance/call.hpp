@@ -35,10 +35,18 @@ double read_double(const json& from);
 int64_t read_signed(const json& from);
 uint64_t read_unsigned(const json& from);
 
-inline void read(const json& from, double& to) { to = read_double(from); }
-inline void read(const json& from, int32_t& to) { to = static_cast<int32_t>(read_signed(from)); }
-inline void read(const json& from, uint32_t& to) { to = static_cast<uint32_t>(read_unsigned(from)); }
-inline void read(const json& from, uint64_t& to) { to = read_unsigned(from); }
+inline void read(const json& from, double& to) {
+  to = read_double(from);
+}
+inline void read(const json& from, int32_t& to) {
+  to = static_cast<int32_t>(read_signed(from));
+}
+inline void read(const json& from, uint32_t& to) {
+  to = static_cast<uint32_t>(read_unsigned(from));
+}
+inline void read(const json& from, uint64_t& to) {
+  to = read_unsigned(from);
+}
 
 template <class T, size_t n>
 void read(const json& from, T (&to)[n]) {
@@ -46,15 +54,28 @@ void read(const json& from, T (&to)[n]) {
   for (size_t i = 0; i < n; ++i) read(from[i], to[i]);
 }
 
-/* The generated dispatch has read() and defaults() of each struct. defaults() does what `_init` does, or sets zeros, and
-   sets struct_size. */
+/* A list that was given is never NULL, also if it is empty. */
+template <class T>
+const T* data_of(const std::optional<std::vector<T>>& list) {
+  static const T nothing = {};
+  return !list ? nullptr : list->empty() ? &nothing : list->data();
+}
+
+/* The generated dispatch has read() and defaults() of each struct. defaults() does what `_init` does, or sets zeros,
+   and sets struct_size. */
 
 /* --- to JSON --- */
 
 json write_double(double value);
-inline json write_integer(int64_t value) { return value; }
-inline json write_bool(int64_t value) { return value == 0 || value == 1 ? json(value == 1) : json(value); }
-inline json write_unsigned(uint64_t value) { return std::to_string(value); }
+inline json write_integer(int64_t value) {
+  return value;
+}
+inline json write_bool(int64_t value) {
+  return value == 0 || value == 1 ? json(value == 1) : json(value);
+}
+inline json write_unsigned(uint64_t value) {
+  return std::to_string(value);
+}
 json write_constant(int64_t value, const Constants& names);
 json write_bits(int64_t value, const Constants& names);
 json write_bytes(const uint8_t* from, size_t count);
@@ -190,6 +211,6 @@ using Function = void (*)(Call&);
 const std::map<std::string, Function>& functions(); /* generated */
 const char* status_text(cairn_status status);       /* generated: the name of the constant */
 
-} // namespace conformance
+}  // namespace conformance
 
 #endif

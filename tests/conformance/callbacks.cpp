@@ -79,7 +79,7 @@ int32_t place(const Payload& which, const cairn_pose& pose, const double* z, dou
   return 1;
 }
 
-} // namespace
+}  // namespace
 
 bool is_predict(const std::string& name) {
   static const std::set<std::string> names = {"body_point", "body_point_ahead", "range_only", "wrong_jacobian",
@@ -92,7 +92,7 @@ bool is_place(const std::string& name) {
   return names.count(name) != 0;
 }
 
-} // namespace conformance
+}  // namespace conformance
 
 int32_t conformance_predict(void* user, const cairn_pose* pose, const double landmark[3], double* z,
                             double* jacobian_pose, double* jacobian_landmark) {
@@ -109,4 +109,6 @@ void conformance_log(void* payload, const char* line) {
   static_cast<conformance::Payload*>(payload)->lines->emplace_back(line);
 }
 
-void conformance_release(void* user) { ++static_cast<conformance::Payload*>(user)->released; }
+void conformance_release(void* user) {
+  ++static_cast<conformance::Payload*>(user)->released;
+}

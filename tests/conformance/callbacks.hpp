@@ -21,7 +21,7 @@ struct Payload {
 bool is_predict(const std::string& name);
 bool is_place(const std::string& name);
 
-} // namespace conformance
+}  // namespace conformance
 
 /* Have the linkage that the library's types have. `user` is a Payload, which says which function is meant. */
 extern "C" {

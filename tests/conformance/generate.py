@@ -31,14 +31,14 @@ class Generator:
             return f"write_{name}"
         if kind == "enum":
             bits = next(enum["bits"] for enum in self.api["enums"] if enum["name"] == name)
-            return f"[](auto value) {{ return write_{'bits' if bits else 'constant'}(value, names_of_{name}); }}"
+            return f"[](auto v) {{ return write_{'bits' if bits else 'constant'}(v, names_of_{name}); }}"
         if kind == "number":
             return "write_double"
         if kind == "bool":
             return "write_bool"
         if what["base"] == "uint64_t":
             return "write_unsigned"
-        return "[](auto value) { return write_integer(static_cast<int64_t>(value)); }"
+        return "[](auto v) { return write_integer(static_cast<int64_t>(v)); }"
 
     def written(self, what, value, length=None):
         """A C++ expression: the JSON of a value, or of a list of this length."""
@@ -104,7 +104,8 @@ class Generator:
         if function["fallible"]:
             message = LAST_MESSAGE[function["library"]] + "()"
             if two_steps:
-                self.put("  size_t needed = 0, capacity = 0;", f"  cairn_status status = {call};", "  if (status == CAIRN_OK && needed > 0) {",
+                self.put("  size_t needed = 0, capacity = 0;", f"  cairn_status status = {call};",
+                         "  if (status == CAIRN_OK && needed > 0) {",
                          "    capacity = needed;",
                          *(f"    {line}" for kind, line in inputs if kind == "resize"),
                          f"    status = {call};", "  }", f"  if (!call.finish(status, {message})) return;")
@@ -170,7 +171,7 @@ class Generator:
         if p["direction"] == "in":
             optional = "true" if p["optional"] else "false"
             inputs.append(("list", f'  const auto {name} = call.list<{kind}>("{name}", {optional});'))
-            arguments.append(f"{name} ? {name}->data() : nullptr")
+            arguments.append(f"data_of({name})")
             if length.isidentifier() and length not in sizes:
                 sizes[length] = name
                 inputs.append(("size", f"  const size_t {length} = {name} ? {name}->size() : 0;"))

@@ -4,7 +4,6 @@
 
 make.py                  fails if the calls of a file *.json are not those of scenarios/
 make.py --record REPLAY  writes all files; REPLAY is the C replayer, which runs the calls
-make.py --calls          writes all files without values
 """
 
 import json
@@ -18,10 +17,11 @@ import tempfile
 
 sys.dont_write_bytecode = True
 from scenarios import (  # noqa: E402
-    association, custom, first, library, maps, poses, sensors, submaps, systematic, teams, worlds, wrong)
+    association, custom, every_option, first, library, maps, poses, sensors, submaps, systematic, teams, worlds, wrong)
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-MODULES = [first, library, poses, sensors, association, custom, submaps, maps, systematic, teams, worlds, wrong]
+MODULES = [first, library, poses, sensors, association, custom, submaps, maps, systematic, teams, worlds, wrong,
+           every_option]
 BITS = re.compile("x[0-9a-f]{16}")
 
 
@@ -68,13 +68,13 @@ def is_name(value):
     return isinstance(value, str) and value.startswith("$")
 
 
-def recorded(scenario, output):
+def recorded(scenario, output, problems):
     """A scenario with the values that a replayer got."""
     calls = []
-    for call, got in zip(scenario["calls"], output["calls"], strict=True):
+    for call, got in zip(scenario["calls"], output["calls"]):
         got = decimal(got)
         if got.get("status") != call.get("status"):
-            sys.exit(f"{scenario['name']}: {call} gives {got}")
+            problems.append(f"{scenario['name']}: {json.dumps(call)} gives {got.get('status')}, {got.get('message')}")
         gives = {**got.get("gives", {}), **call.get("gives", {})}
         calls.append({**call, **got, **({"gives": gives} if gives else {})})
     return {**scenario, "calls": calls}
@@ -89,10 +89,15 @@ def record(replay):
         scenarios = list(written())
         for scenario in scenarios:
             (calls / f"{scenario['name']}.json").write_text(text(scenario), encoding="utf-8")
-        subprocess.run([replay, "--record", calls, output], check=True)
-        for scenario in scenarios:
+        run = subprocess.run([replay, "--record", calls, output])
+        problems = []
+        for number, scenario in enumerate(scenarios):
             got = json.loads((output / f"{scenario['name']}.json").read_text(encoding="utf-8"))
-            (FOLDER / f"{scenario['name']}.json").write_text(text(recorded(scenario, got)), encoding="utf-8")
+            scenarios[number] = recorded(scenario, got, problems)
+    if problems or run.returncode:
+        sys.exit("\n".join(["nothing was written:", *problems]))
+    for scenario in scenarios:
+        (FOLDER / f"{scenario['name']}.json").write_text(text(scenario), encoding="utf-8")
 
 
 def check():
@@ -110,9 +115,6 @@ def check():
 def main(arguments):
     if not arguments:
         check()
-    elif arguments == ["--calls"]:
-        for scenario in written():
-            (FOLDER / f"{scenario['name']}.json").write_text(text(scenario), encoding="utf-8")
     elif len(arguments) == 2 and arguments[0] == "--record":
         record(arguments[1])
     else:

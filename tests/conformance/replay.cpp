@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The C replayer: cairn_conformance [--record] FOLDER OUTPUT
- * Replays the scenarios of FOLDER by the C interface, compares what it gets with what they say, and writes it to OUTPUT.
- * With --record it does not compare. README.md describes both forms. */
+ * Replays the scenarios of FOLDER by the C interface, compares what it gets with what they say, and writes it to
+ * OUTPUT. With --record it does not compare. README.md describes both forms. */
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -63,8 +63,7 @@ void compare(const json& expected, const json& got, double tolerance, double sca
 /* Outputs that have a name are not in the scenario. */
 void compare_call(const json& entry, const json& got) {
   if (entry.value("status", json()) != got.value("status", json())) throw Failure("not as expected: " + got.dump());
-  for (const char* key : {"message", "log"})
-    compare(entry.value(key, json()), got.value(key, json()), 0, 1, key);
+  for (const char* key : {"message", "log"}) compare(entry.value(key, json()), got.value(key, json()), 0, 1, key);
   const json expected = entry.value("gives", json::object());
   json values = got.value("gives", json::object());
   for (const auto& [name, value] : expected.items())
@@ -102,7 +101,7 @@ int replay(const fs::path& path, const fs::path& output, bool record) {
       std::fprintf(stderr, "%s, call %zu, %s: %s\n", path.filename().c_str(), i, entries[i]["call"].dump().c_str(),
                    e.what());
       ++failures;
-      if (calls.size() == i) break; // the call has no outputs, and later calls may need them
+      if (calls.size() == i) break;  // the call has no outputs, and later calls may need them
     }
   }
   try {
@@ -130,8 +129,8 @@ int run(const fs::path& folder, const fs::path& output, bool record) {
   return failures == 0 ? 0 : 1;
 }
 
-} // namespace
-} // namespace conformance
+}  // namespace
+}  // namespace conformance
 
 int main(int argc, char** argv) {
   const bool record = argc == 4 && std::string(argv[1]) == "--record";

@@ -24,7 +24,15 @@ def unknown(name, about, kind, **options):
     frame = drive.cartesian(reach=10.0)
     twin = [round(value + 0.11, 4) for value in frame[0]["z"]]
     far = [round(value + 0.28, 4) for value in frame[1]["z"]]
-    s.call("cairn_filter_update", filter=rover, sensor=0, observations=without_ids(frame + [seen(0, *twin), seen(0, *far)]))
+    s.call("cairn_filter_update", filter=rover, sensor=0,
+           observations=without_ids(frame + [seen(0, *twin), seen(0, *far)]))
+    # Each passes its own gate, but they do not go together.
+    drive.twist(s, rover, 1.0, 0.1)
+    frame = drive.cartesian(reach=10.0, sigma=0.0)
+    for n, observation in enumerate(frame):
+        signs = (-1) ** n, (-1) ** (n // 2), (-1) ** (n // 3)
+        observation["z"] = [round(value + 0.12 * sign, 4) for value, sign in zip(observation["z"], signs)]
+    s.call("cairn_filter_update", filter=rover, sensor=0, observations=without_ids(frame))
     ask(s, rover)
     themap = s.call("cairn_filter_map", gives={"return": "$map"}, filter=rover)
     s.call("cairn_map_landmarks", map=themap)
@@ -64,27 +72,28 @@ def deferred():
 
 def slip():
     s = Scenario("slip", "A vehicle slips: most of a frame contradicts its pose, and the motion is widened.")
-    drive = Drive(13, landmarks=30, size=15.0)
+    drive = Drive(13, landmarks=8, size=9.0)  # a landmark is a witness after ten observations
     rover = s.call("cairn_filter_create", gives={"filter": "$rover"}, options={"initial_covariance": START})
     s.call("cairn_filter_set_log", filter=rover, log="collect")
     s.call("cairn_filter_add_cartesian", filter=rover, cartesian={"sigma": [0.05, 0.05, 0.05]})
-    for step in range(10):
-        drive.twist(s, rover, 1.0, 0.1)
-        if step == 6:
+    for step in range(18):
+        drive.twist(s, rover, 0.2, 0.1)
+        if step == 14:
             drive.x, drive.y = drive.x + 2.5, drive.y - 1.5
-        frame = drive.cartesian(reach=10.0, most=8)
-        if step == 6:
+        frame = drive.cartesian(reach=15.0, most=8)
+        if step == 14:
             frame.append(seen(99, 3.0, 1.0, 0.0))
         s.call("cairn_filter_update", filter=rover, sensor=0, observations=frame)
-        s.call("cairn_filter_last_update", filter=rover)
+        if step > 12:
+            s.call("cairn_filter_last_update", filter=rover)
     ask(s, rover)
     # One landmark alone contradicts the rest, then half of a frame.
     drive.twist(s, rover, 1.0, 0.1)
-    frame = drive.cartesian(reach=10.0, most=8)
+    frame = drive.cartesian(reach=15.0, most=8)
     frame[0]["z"][1] += 3.0
     s.call("cairn_filter_update", filter=rover, sensor=0, observations=frame)
     drive.twist(s, rover, 1.0, 0.1)
-    frame = drive.cartesian(reach=10.0, most=8)
+    frame = drive.cartesian(reach=15.0, most=8)
     for observation in frame:
         observation["z"] = [round(value + 0.19, 4) for value in observation["z"]]
     frame.append(seen(98, 3.0, 1.0, 0.0))

@@ -3,12 +3,15 @@
 
 from .scenario import Scenario
 
-STATUSES = ["OK", "ERROR_ARGUMENT", "ERROR_BUFFER", "ERROR_CAPACITY", "ERROR_NOT_FOUND", "ERROR_NUMERICAL", "ERROR_MEMORY",
+STATUSES = ["OK", "ERROR_ARGUMENT", "ERROR_BUFFER", "ERROR_CAPACITY", "ERROR_NOT_FOUND", "ERROR_NUMERICAL",
+            "ERROR_MEMORY",
             "ERROR_STATE", "ERROR_INTERNAL", "ERROR_CALLBACK"]
 FEATURES = ["sparse", "teams", "trajectory", "systematic", "robust", "health", "errors", "time travel", ""]
-DOUBTS = ["NIS", "REFUSALS", "WIDENED", "SENSOR_NOISE", "MOTION_NOISE", "BIAS", "JUMP", "LANDMARKS", "CLOSING", "BLIND",
+DOUBTS = ["NIS", "REFUSALS", "WIDENED", "SENSOR_NOISE", "MOTION_NOISE", "BIAS", "JUMP", "LANDMARKS", "CLOSING",
+          "BLIND",
           "DEFINITE"]
-OPTIONS = ["filter_options", "stereo_head", "stereo_camera", "range_bearing", "cartesian", "custom", "wheels", "twist_noise",
+OPTIONS = ["filter_options", "stereo_head", "stereo_camera", "range_bearing", "cartesian", "custom", "wheels",
+           "twist_noise",
            "calibration", "merge_options", "team_options", "world_options", "fleet_options"]
 
 

@@ -15,13 +15,13 @@ def survey(s, name, steps, x=0.0, numbered=0, **options):
     drive.x = x
     rover = s.call("cairn_filter_create", gives={"filter": name}, options={"initial_covariance": START, **options})
     s.call("cairn_filter_add_cartesian", filter=rover, cartesian={"sigma": [0.05, 0.05, 0.05]})
-    for _ in range(steps):
+    for step in range(steps):
         drive.twist(s, rover, 1.0, 0.15)
         frame = drive.cartesian(reach=9.0, most=6)
         s.call("cairn_filter_update", filter=rover, sensor=0,
                observations=[{**o, "id": str(int(o["id"]) + numbered)} for o in frame])
-    if "submap_landmarks" in options:
-        s.call("cairn_filter_close_submap", filter=rover)
+        if "submap_landmarks" in options and step in (steps // 2, steps - 1):
+            s.call("cairn_filter_close_submap", filter=rover)
     return rover
 
 
@@ -80,11 +80,12 @@ def merge_dense():
 
 
 def merge_sparse():
-    return merge("merge_sparse", "Two sparse maps are merged by ids.", submap_landmarks=8, join="CAIRN_JOIN_SPARSE")
+    return merge("merge_sparse", "Two sparse maps are merged by ids.", submap_landmarks=40, join="CAIRN_JOIN_SPARSE")
 
 
 def merge_geometry():
-    s = Scenario("merge_geometry", "Maps whose ids say nothing are merged by geometry, and by a transform that is known.")
+    s = Scenario("merge_geometry",
+                 "Maps whose ids say nothing are merged by geometry, and by a transform that is known.")
     west = survey(s, "$west", 16)
     east = survey(s, "$east", 18, x=2.0, numbered=1000)
     far = survey(s, "$far", 3, x=2.0, numbered=2000)
@@ -102,11 +103,12 @@ def merge_geometry():
 
 
 def merge_wrong():
-    s = Scenario("merge_wrong", "Merges that are refused: no common landmark, no room, kinds that differ, options out of range.")
+    s = Scenario("merge_wrong",
+                 "Merges that are refused: no common landmark, no room, kinds that differ, options out of range.")
     west = survey(s, "$west", 8)
     east = survey(s, "$east", 9, x=2.0)
     alien = survey(s, "$alien", 6, x=2.0, numbered=1000)
-    sparse = survey(s, "$sparse", 7, submap_landmarks=8, join="CAIRN_JOIN_SPARSE")
+    sparse = survey(s, "$sparse", 7, submap_landmarks=40, join="CAIRN_JOIN_SPARSE")
     empty = s.call("cairn_filter_create", gives={"filter": "$empty"}, options={})
     merged = copy_of(s, map_of(s, west, "$west_map"), "$merged")
     east_map = map_of(s, east, "$east_map")

@@ -25,7 +25,8 @@ def poses():
 
 
 def wrong_poses():
-    s = Scenario("pose_wrong", "What functions of poses refuse: quaternions that are zero, values that are not finite.")
+    s = Scenario("pose_wrong",
+                 "What functions of poses refuse: quaternions that are zero, values that are not finite.")
     s.wrong("ARGUMENT", "cairn_pose_compose", T_a_b=TURNED, T_b_c=pose(quaternion=(0.0, 0.0, 0.0, 0.0)))
     s.wrong("ARGUMENT", "cairn_pose_compose", T_a_b=pose("nan"), T_b_c=TILTED)
     s.wrong("ARGUMENT", "cairn_pose_inverse", T_a_b=pose(quaternion=(1.0, "inf", 0.0, 0.0)))

@@ -11,7 +11,7 @@ class Scenario:
         self.calls = []
 
     def call(self, function, gives=None, tolerance=None, **inputs):
-        """A call that succeeds. `gives` names outputs; all other outputs are recorded. Returns the name, if it is one."""
+        """A call that succeeds. `gives` names outputs; the others are recorded. Returns the first name."""
         entry = {"call": function}
         if inputs:
             entry["with"] = inputs

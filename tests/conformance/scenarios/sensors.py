@@ -27,7 +27,8 @@ def stereo_head():
            "camera_quaternion": [0.9238795325112867, 0.0, 0.3826834323650898, 0.0], "max_elevation": 1.2,
            "encoder_mode": "CAIRN_ENCODER_PER_OBSERVATION"})
     s.call("cairn_filter_set_view", filter=rover, sensor=0, lower=[1.0, -1.0, "-inf"], upper=[9.0, 1.0, "inf"])
-    s.call("cairn_filter_set_wheels", filter=rover, wheels={"rate_sigma": 0.02, "yaw_sign": "CAIRN_YAW_RIGHT_MINUS_LEFT"})
+    s.call("cairn_filter_set_wheels", filter=rover, wheels={"rate_sigma": 0.02,
+                                                            "yaw_sign": "CAIRN_YAW_RIGHT_MINUS_LEFT"})
     s.call("cairn_filter_set_twist_noise", filter=rover, noise={"rate_sigma": [0.002, 0.002, 0.004]})
     for step in range(6):
         drive.wheels(s, rover, 1.0, 0.08)
@@ -46,7 +47,8 @@ def stereo_head():
     s.call("cairn_filter_set_loss", filter=rover, sensor=0, loss="CAIRN_LOSS_NONE", width=0.0)
     # Behind the lens, too near, and far off: refused one by one. A frame that sees nothing removes nothing at once.
     s.call("cairn_filter_point_head", filter=rover, sensor=0, pan=0.0, stick=0.0)
-    s.call("cairn_filter_update", filter=rover, sensor=0, observations=[seen(90, 0.05, 0.0, 0.0), seen(91, 5.0, 0.0, 1.52)])
+    s.call("cairn_filter_update", filter=rover, sensor=0,
+           observations=[seen(90, 0.05, 0.0, 0.0), seen(91, 5.0, 0.0, 1.52)])
     frame = drive.head()
     frame[0]["z"][0] += 8.0
     s.call("cairn_filter_update", filter=rover, sensor=0, observations=frame)
@@ -78,7 +80,8 @@ def stereo_camera():
 
 
 def cartesian():
-    s = Scenario("cartesian", "A sensor of points: noise of an observation, landmarks removed, merged and split; marginals.")
+    s = Scenario("cartesian",
+                 "A sensor of points: noise of an observation, landmarks removed, merged and split; marginals.")
     drive = Drive(3)
     rover = s.call("cairn_filter_create", gives={"filter": "$rover"},
                    options={"state_error": "CAIRN_STATE_ERROR_INVARIANT", "vehicle": "CAIRN_VEHICLE_SPATIAL",
@@ -93,7 +96,8 @@ def cartesian():
         s.call("cairn_filter_update", filter=rover, sensor=0, observations=frame)
     themap = s.call("cairn_filter_map", gives={"return": "$map"}, filter=rover)
     first, second = (int(o["id"]) for o in frame[:2])
-    s.call("cairn_filter_split_landmark", filter=rover, id=str(first), fresh="100", covariance=diagonal(0.04, 0.04, 0.04))
+    s.call("cairn_filter_split_landmark", filter=rover, id=str(first), fresh="100",
+           covariance=diagonal(0.04, 0.04, 0.04))
     s.call("cairn_map_joint_covariance", map=themap, ids=[str(first), "100"])
     s.call("cairn_filter_merge_landmarks", filter=rover, id=str(first), other="100")
     s.call("cairn_filter_remove_landmark", filter=rover, id=str(second))
@@ -110,19 +114,23 @@ def cartesian():
 
 
 def absolute():
-    s = Scenario("absolute", "Absolute positions, attitudes and headings, increments, and observations that the caller linearised.")
+    s = Scenario("absolute",
+                 "Absolute positions, attitudes and headings, increments, and observations that the caller linearised.")
     rover = s.call("cairn_filter_create", gives={"filter": "$rover"},
                    options={"initial_covariance": diagonal(4.0, 4.0, 4.0, 0.01, 0.01, 0.09)})
     s.call("cairn_filter_add_cartesian", filter=rover, cartesian={})
-    s.call("cairn_filter_update_position", filter=rover, position=[0.5, -0.3, 0.1], covariance=diagonal(0.04, 0.04, 0.09))
-    s.call("cairn_filter_update_position", filter=rover, position=[0.6, -0.2, 1.1], covariance=diagonal(0.04, 0.04, 0.09),
+    s.call("cairn_filter_update_position", filter=rover, position=[0.5, -0.3, 0.1],
+           covariance=diagonal(0.04, 0.04, 0.09))
+    s.call("cairn_filter_update_position", filter=rover, position=[0.6, -0.2, 1.1],
+           covariance=diagonal(0.04, 0.04, 0.09),
            lever_arm=[0.0, 0.0, 1.0])
     s.call("cairn_filter_update_attitude", filter=rover, quaternion=[0.999, 0.01, -0.02, 0.03],
            covariance=diagonal(1e-4, 1e-4, 1e-3))
     s.call("cairn_filter_update_heading", filter=rover, heading=0.08, sigma=0.02)
     s.call("cairn_filter_predict_increment", filter=rover, T_before_after=pose(1.0, 0.1, 0.0, (0.99, 0.0, 0.0, 0.1)),
            covariance=diagonal(1e-2, 1e-3, 1e-3, 1e-5, 1e-5, 1e-4))
-    s.call("cairn_filter_update", filter=rover, sensor=0, observations=[seen(1, 4.0, 1.0, 0.2), seen(2, 3.0, -2.0, 0.4)])
+    s.call("cairn_filter_update", filter=rover, sensor=0,
+           observations=[seen(1, 4.0, 1.0, 0.2), seen(2, 3.0, -2.0, 0.4)])
     s.call("cairn_filter_update_linear", filter=rover, residual=[0.02], covariance=[0.01],
            jacobian_pose=[0.0, 0.0, 0.0, 0.0, 0.0, 0.0], landmarks=["1"], jacobian_landmarks=[1.0, 0.0, 0.0])
     s.call("cairn_filter_update_linear", filter=rover, residual=[0.02, -0.01], covariance=[0.01, 0.002, 0.002, 0.01],
@@ -130,7 +138,8 @@ def absolute():
     s.call("cairn_filter_update_linear", filter=rover, residual=[0.1], covariance=[0.01],
            jacobian_pose=[1.0, 0.0, 0.0, 0.0, 0.0, 0.0], landmarks=[], jacobian_landmarks=[])
     # Refused by the gate, which is no error.
-    s.call("cairn_filter_update_position", filter=rover, position=[50.0, 0.0, 0.0], covariance=diagonal(0.04, 0.04, 0.09))
+    s.call("cairn_filter_update_position", filter=rover, position=[50.0, 0.0, 0.0],
+           covariance=diagonal(0.04, 0.04, 0.09))
     ask(s, rover)
     return s
 

@@ -22,7 +22,8 @@ def two_rounds(name, about, join, seed, **options):
     s = Scenario(name, about)
     drive = Drive(seed, landmarks=50, size=20.0)
     rover = s.call("cairn_filter_create", gives={"filter": "$rover"},
-                   options={"submap_landmarks": 10, "join": join, "trajectory_poses": 200, "initial_covariance": START,
+                   options={"submap_landmarks": 10, "join": join, "trajectory_poses": 200,
+                            "initial_covariance": START,
                             **options})
     s.call("cairn_filter_add_cartesian", filter=rover, cartesian={"sigma": [0.05, 0.05, 0.05]})
     drive_round(s, drive, rover, 60)
@@ -49,17 +50,20 @@ def two_rounds(name, about, join, seed, **options):
 
 
 def dense():
-    return two_rounds("submaps_dense", "Two rounds of a circle in submaps that are joined densely.", "CAIRN_JOIN_DENSE", 5,
+    return two_rounds("submaps_dense", "Two rounds of a circle in submaps that are joined densely.",
+                      "CAIRN_JOIN_DENSE", 5,
                       max_landmarks=100)
 
 
 def sparse():
-    return two_rounds("submaps_sparse", "Two rounds of a circle in submaps that are joined sparsely, with a robust loss.",
+    return two_rounds("submaps_sparse",
+                      "Two rounds of a circle in submaps that are joined sparsely, with a robust loss.",
                       "CAIRN_JOIN_SPARSE", 6, join_loss="CAIRN_LOSS_HUBER", join_loss_width=2.0)
 
 
 def limits():
-    s = Scenario("submap_limits", "Each limit closes a submap; an absolute position does, too. The pose's sigma needs noise.")
+    s = Scenario("submap_limits",
+                 "Each limit closes a submap; an absolute position does, too. The pose's sigma needs noise.")
     for limit, value in ("distance", 4.0), ("extent", 9.0), ("sigma", 0.2):
         drive = Drive(7)
         rover = s.call("cairn_filter_create", gives={"filter": f"${limit}"},
@@ -69,21 +73,28 @@ def limits():
         s.call("cairn_filter_last_closing", filter=rover)
         for _ in range(7):
             drive.twist(s, rover, 1.0, 0.05)
-            s.call("cairn_filter_update", filter=rover, sensor=0, observations=drive.cartesian(reach=8.9, most=2, sigma=0.5))
-        s.call("cairn_filter_update", filter=rover, sensor=0, observations=drive.cartesian(reach=20.0, most=20, sigma=0.5))
+            s.call("cairn_filter_update", filter=rover, sensor=0,
+                   observations=drive.cartesian(reach=8.9, most=2, sigma=0.5))
+        s.call("cairn_filter_update", filter=rover, sensor=0,
+               observations=drive.cartesian(reach=20.0, most=20, sigma=0.5))
         s.call("cairn_filter_last_closing", filter=rover)
-    drive.twist(s, rover, 1.0, 0.05)
-    s.call("cairn_filter_update", filter=rover, sensor=0, observations=drive.cartesian(reach=8.0, most=1, sigma=0.5))
-    s.call("cairn_filter_update_position", filter=rover, position=drive.pose()["position"], covariance=diagonal(1.0, 1.0, 1.0))
+    rover = s.call("cairn_filter_create", gives={"filter": "$fixed"}, options={"submap_landmarks": 40,
+                   "initial_covariance": START, "initial_pose": drive.pose()})
+    s.call("cairn_filter_add_cartesian", filter=rover, cartesian={})
+    s.call("cairn_filter_update", filter=rover, sensor=0, observations=drive.cartesian(reach=20.0, most=5))
+    s.call("cairn_filter_update_position", filter=rover, position=drive.pose()["position"],
+           covariance=diagonal(1.0, 1.0, 1.0))
     s.call("cairn_filter_last_closing", filter=rover)
     return s
 
 
 def full():
-    s = Scenario("submap_full", "A map without room: a closing fails, and the submap stays open. Poses that were dropped.")
+    s = Scenario("submap_full",
+                 "A map without room: a closing fails, and the submap stays open. Poses that were dropped.")
     drive = Drive(8, landmarks=60, size=15.0)
     rover = s.call("cairn_filter_create", gives={"filter": "$rover"},
-                   options={"submap_landmarks": 8, "max_landmarks": 12, "join": "CAIRN_JOIN_DENSE", "trajectory_poses": 4})
+                   options={"submap_landmarks": 8, "max_landmarks": 12, "join": "CAIRN_JOIN_DENSE",
+                            "trajectory_poses": 4})
     s.call("cairn_filter_add_cartesian", filter=rover, cartesian={})
     for _ in range(12):
         drive.twist(s, rover, 1.5, 0.02)

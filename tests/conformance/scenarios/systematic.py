@@ -35,7 +35,8 @@ def errors():
 
 
 def none():
-    s = Scenario("systematic_none", "A filter has no systematic errors by default, and says what it cannot calibrate.")
+    s = Scenario("systematic_none",
+                 "A filter has no systematic errors by default, and says what it cannot calibrate.")
     rover = s.call("cairn_filter_create", gives={"filter": "$rover"}, options={"max_sensor_errors": 2})
     s.call("cairn_filter_systematic_errors", filter=rover)
     s.call("cairn_filter_add_cartesian", filter=rover, cartesian={})
@@ -52,7 +53,8 @@ def none():
 
 
 def health():
-    s = Scenario("health", "A drive whose observations are worse than stated: the verdict, its reasons, and the learned noise.")
+    s = Scenario("health",
+                 "A drive whose observations are worse than stated: the verdict, its reasons, and the learned noise.")
     drive = Drive(32, noise=3.0)
     rover = s.call("cairn_filter_create", gives={"filter": "$rover"},
                    options={"initial_covariance": START, "noise_learning": "CAIRN_NOISE_REPORTED"})

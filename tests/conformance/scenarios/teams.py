@@ -48,7 +48,8 @@ class Boat:
         return self.take()
 
     def take(self, name=None):
-        return self.s.call("cairn_team_take_packet", gives={"packet": name or f"$packet{self.number}"}, team=self.team)
+        return self.s.call("cairn_team_take_packet", gives={"packet": name or f"$packet{self.number}"},
+                           team=self.team)
 
     def receive(self, packet):
         self.s.call("cairn_team_receive", team=self.team, packet=packet)
@@ -109,7 +110,8 @@ def eo_diagonal():
 
 
 def submaps():
-    return together("team_submaps", "Each boat in its own submaps, fused by their common landmarks.", "CAIRN_TEAM_SUBMAPS",
+    return together("team_submaps", "Each boat in its own submaps, fused by their common landmarks.",
+                    "CAIRN_TEAM_SUBMAPS",
                     sight=False, submap_landmarks=6, join="CAIRN_JOIN_SPARSE")
 
 
@@ -121,8 +123,9 @@ def sealed(version=1, kind=1, size=None, body=bytes(40), damage=0):
 
 
 def packets():
-    s = Scenario("team_packets", "Packets that are late, repeated, own, foreign, damaged, contradicting, ahead of time, too many.")
-    a, b = pair(s, "CAIRN_TEAM_JOINT", one={"max_waiting": 2})
+    s = Scenario("team_packets",
+                 "Packets that are late, repeated, own, foreign, damaged, contradicting, ahead of time, too many.")
+    a, b = pair(s, "CAIRN_TEAM_JOINT", one={"max_waiting": 3})
     impostor = Boat(s, 2, 6.0, "CAIRN_TEAM_JOINT", name="$impostor")
     stranger = Boat(s, 7, 9.0, "CAIRN_TEAM_JOINT", name="$stranger")
     s.call("cairn_team_take_packet", team=a.team)  # none yet: no bytes
@@ -138,7 +141,6 @@ def packets():
     a.receive(names["b", 1])                        # waiting: 0 is missing
     a.receive(names["b", 1])                        # repeated
     a.receive(names["b", 2])                        # waiting
-    a.receive(names["b", 3])                        # full
     a.receive(names["b", 0])                        # taken
     a.receive(names["i", 1])                        # conflict
     a.receive(names["i", 3])                        # past: number 3, and earlier than number 2
@@ -146,21 +148,23 @@ def packets():
     a.receive("$packet7")                           # unknown
     for wrong in ("bytes:00ff10", sealed(version=99), sealed(size=4000), sealed(damage=1), sealed(kind=77)):
         a.receive(wrong)                            # foreign, another version, cut, corrupt, nonsense
-    a.receive("bytes:")
     s.call("cairn_team_ask", team=a.team)
-    for _ in range(2):
-        a.take("$request")
-    b.receive("$request")                           # a request, or nothing if it was an own step
-    # Three packets of a boat that was out of reach, then one of a wrong clock.
+    a.take("$request")
+    # Three packets of a boat that was out of reach, then its farewell; another boat has a wrong clock.
     for step in 3, 4, 5:
         a.receive(names["b", step])
-    late = Boat(s, 3, -5.0, "CAIRN_TEAM_JOINT", options={"max_jump": 1000.0})
-    s.call("cairn_team_add", team=a.team, vehicle="3", start=late.start(), covariance=diagonal(0.01, 0.01, 0, 0, 0, 0.001))
-    a.receive(late.step(6.0))
-    a.receive(late.step(500.0))                     # ahead
     s.call("cairn_team_leave", team=b.team)
     a.receive(b.take())                             # leave
     s.call("cairn_team_members", team=a.team)
+    narrow = Boat(s, 9, 0.0, "CAIRN_TEAM_JOINT", options={"max_waiting": 1})
+    s.call("cairn_team_add", team=narrow.team, vehicle="2", start=b.start())
+    narrow.receive(names["b", 1])                   # waiting
+    narrow.receive(names["b", 2])                   # full
+    late = Boat(s, 3, -5.0, "CAIRN_TEAM_JOINT", options={"max_jump": 1000.0})
+    s.call("cairn_team_add", team=a.team, vehicle="3", start=late.start(),
+           covariance=diagonal(0.01, 0.01, 0, 0, 0, 0.001))
+    a.receive(late.step(6.0))
+    a.receive(late.step(500.0))                     # ahead
     s.call("cairn_team_remove", team=a.team, vehicle="3")
     s.call("cairn_team_members", team=a.team)
     a.ask_all(1)
@@ -215,12 +219,14 @@ def wrong():
     s.wrong("ARGUMENT", "cairn_team_create", options={"time_tolerance": -1.0}, filter=planar, radar=RADAR)
     s.wrong("ARGUMENT", "cairn_team_create", options={"max_jump": "nan"}, filter=planar, radar=RADAR)
     s.wrong("ARGUMENT", "cairn_team_create", options={"max_vehicles": 0}, filter=planar, radar=RADAR)
+    s.wrong("ARGUMENT", "cairn_team_create", options={"max_waiting": 0}, filter=planar, radar=RADAR)
     s.wrong("ARGUMENT", "cairn_team_create", options={"history": 0}, filter=planar, radar=RADAR)
     s.wrong("ARGUMENT", "cairn_team_create", options={}, filter=planar, radar={"range_sigma": 0.0})
     a = Boat(s, 1, 0.0, "CAIRN_TEAM_JOINT", options={"max_vehicles": 2})
     team = a.team
     s.wrong("ARGUMENT", "cairn_team_add", team=team, vehicle="1", start=pose(1.0))
-    s.wrong("ARGUMENT", "cairn_team_add", team=team, vehicle="2", start=pose(1.0), covariance=diagonal(-1, 1, 0, 0, 0, 1))
+    s.wrong("ARGUMENT", "cairn_team_add", team=team, vehicle="2", start=pose(1.0),
+            covariance=diagonal(-1, 1, 0, 0, 0, 1))
     s.call("cairn_team_add", team=team, vehicle="2", start=pose(1.0))
     s.wrong("ARGUMENT", "cairn_team_add", team=team, vehicle="2", start=pose(1.0))
     s.wrong("CAPACITY", "cairn_team_add", team=team, vehicle="3", start=pose(1.0))
@@ -228,9 +234,11 @@ def wrong():
     s.wrong("ARGUMENT", "cairn_team_remove", team=team, vehicle="1")
     s.wrong("NOT_FOUND", "cairn_team_pose", team=team, vehicle="3")
     s.wrong("ARGUMENT", "cairn_team_predict_twist", team=team, dt=0.0, velocity=[1.0, 0.0, 0.0], rate=[0.0, 0.0, 0.0])
-    s.wrong("ARGUMENT", "cairn_team_predict_increment", team=team, T_before_after=pose(quaternion=(0.0, 0.0, 0.0, 0.0)),
+    s.wrong("ARGUMENT", "cairn_team_predict_increment", team=team,
+            T_before_after=pose(quaternion=(0.0, 0.0, 0.0, 0.0)),
             covariance=[0.0] * 36)
     s.wrong("NUMERICAL", "cairn_team_pose_nees", team=team, truth=pose())
+    s.wrong("ARGUMENT", "cairn_team_score", team=team, truth=pose("nan"))
     a.step(1.0)
     s.wrong("ARGUMENT", "cairn_team_observe", team=team, time=0.5, landmarks=[], vehicles=[])
     s.wrong("ARGUMENT", "cairn_team_observe", team=team, time="nan", landmarks=[], vehicles=[])

@@ -4,24 +4,31 @@
 from .scenario import Scenario
 
 
+def steps(s, world, count):
+    """Steps whose outputs are recorded."""
+    for _ in range(count):
+        s.call("cairn_world_next", world=world)
+        s.call("cairn_world_motions", world=world)
+        s.call("cairn_world_observations", world=world)
+
+
 def step(s, world):
+    """A step whose outputs are the inputs of later calls."""
     s.call("cairn_world_next", gives={"step": "$step"}, world=world)
     s.call("cairn_world_motions", gives={"motions": "$motions"}, world=world)
     s.call("cairn_world_observations", gives={"observations": "$frame"}, world=world)
 
 
 def world():
-    s = Scenario("world", "A rover in a world of the paper's kind: steps, truth, terrain, landmarks; then the same again.")
+    s = Scenario("world",
+                 "A rover in a world of the paper's kind: steps, truth, terrain, landmarks; then the same again.")
     made = s.call("cairn_world_create", gives={"world": "$world"}, options={"landmarks": 20, "seed": "7"})
     s.call("cairn_world_steps", world=made)
     s.call("cairn_world_most_observations", world=made)
     s.call("cairn_world_motions", world=made)
     s.call("cairn_world_observations", world=made)
     for _ in range(2):
-        for _ in range(3):
-            s.call("cairn_world_next", world=made)
-            s.call("cairn_world_motions", world=made)
-            s.call("cairn_world_observations", world=made)
+        steps(s, made, 3)
         s.call("cairn_world_rewind", world=made)
     s.call("cairn_world_pose", world=made, time=12.5)
     s.call("cairn_world_contacts", world=made, time=12.5)
@@ -57,10 +64,7 @@ def kinds():
         s.call("cairn_world_options_preset", options={"seed": "5"}, preset="CAIRN_PRESET_" + preset)
     for number, options in enumerate(KINDS):
         made = s.call("cairn_world_create", gives={"world": f"$world{number}"}, options={"seed": "3", **options})
-        for _ in range(3):
-            s.call("cairn_world_next", world=made)
-            s.call("cairn_world_motions", world=made)
-            s.call("cairn_world_observations", world=made)
+        steps(s, made, 3)
     s.wrong("STATE", "cairn_world_contacts", world="$world1", time=1.0)
     return s
 
@@ -94,10 +98,11 @@ def wrong_world():
     s = Scenario("world_wrong", "Worlds that cannot be made, and the end of a drive.")
     for options in ({"landmarks": 0}, {"speed": 0.0}, {"strip": -1.0}, {"radius": 10.0}, {"max_slope": 2.0},
                     {"range_sigma": "nan"}, {"far_range": 1.0}, {"motion_period": 0.07}, {"half_azimuth": 4.0},
-                    {"wheel_scale": [-1.5, 0.0]}):
+                    {"wheel_scale": [-1.5, 0.0]}, {"laps": -1.0}, {"round_length": 0.0}, {"round_variation": 0.5},
+                    {"landmark_area": 0.0}, {"velocity_sigma": -0.1}, {"gravity": "inf"}):
         s.wrong("ARGUMENT", "cairn_world_create", options=options)
     made = s.call("cairn_world_create", gives={"world": "$world"},
-                  options={"landmarks": 4, "frame_period": 200.0, "terrain": "CAIRN_TERRAIN_FLAT"})
+                  options={"landmarks": 200, "frame_period": 200.0, "terrain": "CAIRN_TERRAIN_FLAT"})
     s.call("cairn_world_steps", world=made)
     for _ in range(3):
         s.call("cairn_world_next", gives={"step": "$step"}, world=made)
@@ -107,7 +112,8 @@ def wrong_world():
 
 
 def fleet():
-    s = Scenario("fleet", "Two boats in a uniform sea and three along a coast: steps, sightings, features, coast lines.")
+    s = Scenario("fleet",
+                 "Two boats in a uniform sea and three along a coast: steps, sightings, features, coast lines.")
     for name, options in (("$sea", {"seed": "3", "features": 6, "layout": "CAIRN_FLEET_UNIFORM"}),
                           ("$coast", {"seed": "4", "features": 8, "vehicles": 3, "layout": "CAIRN_FLEET_COAST"})):
         made = s.call("cairn_fleet_create", gives={"fleet": name}, options=options)
@@ -131,8 +137,10 @@ def fleet():
 
 def wrong_fleet():
     s = Scenario("fleet_wrong", "Fleets that cannot be made, and the end of a drive.")
-    for options in ({"vehicles": 0}, {"features": 0}, {"area": -1.0}, {"separation": 6000.0}, {"course_length": 20000.0},
+    for options in ({"vehicles": 0}, {"features": 0}, {"area": -1.0}, {"separation": 6000.0},
+                    {"course_length": 20000.0},
                     {"period": 2000.0}, {"range_sigma": "inf"}, {"coast_distance": 0.6}, {"coast_relief": 0.4},
+                    {"coast_strip": 0.6},
                     {"layout": "CAIRN_FLEET_COAST", "coast_distance": 0.01, "coast_relief": 0.0}):
         s.wrong("ARGUMENT", "cairn_fleet_create", options=options)
     made = s.call("cairn_fleet_create", gives={"fleet": "$short"}, options={"duration": 10.0})

@@ -29,7 +29,8 @@ def options():
 
 
 def sensors():
-    s = Scenario("filter_wrong_sensors", "Sensors with wrong descriptions, calls with a wrong sensor, too many sensors.")
+    s = Scenario("filter_wrong_sensors",
+                 "Sensors with wrong descriptions, calls with a wrong sensor, too many sensors.")
     rover = s.call("cairn_filter_create", gives={"filter": "$rover"}, options={"max_sensors": 2})
     for name, parameter, options in (
             ("stereo_head", "head", {"range_sigma": 0.0}), ("stereo_head", "head", {"azimuth_sigma": "nan"}),
@@ -37,6 +38,8 @@ def sensors():
             ("stereo_head", "head", {"camera_quaternion": [0.0, 0.0, 0.0, 0.0]}),
             ("stereo_camera", "camera", {"baseline": 0.0}), ("stereo_camera", "camera", {"sigma": [1.0, -1.0, 1.0]}),
             ("stereo_camera", "camera", {"T_body_camera": pose("inf")}), ("stereo_camera", "camera", {"cu": "nan"}),
+            ("stereo_camera", "camera", {"min_disparity": 0.0}),
+            ("stereo_camera", "camera", {"min_disparity_sigmas": -1.0}),
             ("range_bearing", "radar", {}), ("cartesian", "cartesian", {"sigma": [0.1, 0.0, 0.1]}),
             ("cartesian", "cartesian", {"T_body_sensor": pose(quaternion=(0.0, 0.0, 0.0, 0.0))})):
         s.wrong("ARGUMENT", f"cairn_filter_add_{name}", filter=rover, **{parameter: options})
@@ -53,36 +56,45 @@ def sensors():
     s.wrong("ARGUMENT", "cairn_filter_point_head", filter=rover, sensor=0, pan="nan", stick=0.0)
     s.wrong("NOT_FOUND", "cairn_filter_set_loss", filter=rover, sensor=-1, loss="CAIRN_LOSS_HUBER", width=1.0)
     s.wrong("ARGUMENT", "cairn_filter_set_loss", filter=rover, sensor=0, loss="CAIRN_LOSS_CAUCHY", width=0.0)
-    s.wrong("NOT_FOUND", "cairn_filter_set_view", filter=rover, sensor=7, lower=[0.0, 0.0, 0.0], upper=[1.0, 1.0, 1.0])
+    s.wrong("NOT_FOUND", "cairn_filter_set_view", filter=rover, sensor=7, lower=[0.0, 0.0, 0.0],
+            upper=[1.0, 1.0, 1.0])
     s.wrong("ARGUMENT", "cairn_filter_set_view", filter=rover, sensor=0, lower=[0.0, 2.0, 0.0], upper=[1.0, 1.0, 1.0])
-    s.wrong("ARGUMENT", "cairn_filter_set_view", filter=rover, sensor=0, lower=["nan", 0.0, 0.0], upper=[1.0, 1.0, 1.0])
+    s.wrong("ARGUMENT", "cairn_filter_set_view", filter=rover, sensor=0, lower=["nan", 0.0, 0.0],
+            upper=[1.0, 1.0, 1.0])
     boat = s.call("cairn_filter_create", gives={"filter": "$boat"}, options={"vehicle": "CAIRN_VEHICLE_PLANAR"})
     s.wrong("ARGUMENT", "cairn_filter_add_stereo_head", filter=boat, head={})
     s.wrong("ARGUMENT", "cairn_filter_add_stereo_camera", filter=boat, camera={})
     s.wrong("ARGUMENT", "cairn_filter_add_range_bearing", filter=boat, radar={"bearing_sigma": -1.0})
+    s.wrong("ARGUMENT", "cairn_filter_add_range_bearing", filter=boat, radar={"near_range": 0.0})
     s.wrong("ARGUMENT", "cairn_filter_add_range_bearing", filter=boat, radar={"T_body_sensor": pose(0.0, 0.0, 1.0)})
     return s
 
 
 def motions():
     s = Scenario("filter_wrong_motions", "Motions that are refused, and the pose before and after.")
-    rover = s.call("cairn_filter_create", gives={"filter": "$rover"}, options={"initial_covariance": diagonal(1, 1, 1, 0, 0, 0)})
+    rover = s.call("cairn_filter_create", gives={"filter": "$rover"},
+                   options={"initial_covariance": diagonal(1, 1, 1, 0, 0, 0)})
     s.call("cairn_filter_pose", filter=rover)
     still = [0.0, 0.0, 0.0]
     for dt in 0.0, -1.0, "nan", "inf":
-        s.wrong("ARGUMENT", "cairn_filter_predict_wheels", filter=rover, dt=dt, left_rad_per_s=1.0, right_rad_per_s=1.0)
+        s.wrong("ARGUMENT", "cairn_filter_predict_wheels", filter=rover, dt=dt, left_rad_per_s=1.0,
+                right_rad_per_s=1.0)
         s.wrong("ARGUMENT", "cairn_filter_predict_twist", filter=rover, dt=dt, velocity=still, rate=still)
-    s.wrong("ARGUMENT", "cairn_filter_predict_wheels", filter=rover, dt=1.0, left_rad_per_s="nan", right_rad_per_s=1.0)
+    s.wrong("ARGUMENT", "cairn_filter_predict_wheels", filter=rover, dt=1.0, left_rad_per_s="nan",
+            right_rad_per_s=1.0)
     s.wrong("ARGUMENT", "cairn_filter_predict_wheels_gyro", filter=rover, dt=1.0, left_rad_per_s=1.0,
             right_rad_per_s="inf", rate=still)
-    s.wrong("ARGUMENT", "cairn_filter_predict_wheels_gyro", filter=rover, dt=1.0, left_rad_per_s=1.0, right_rad_per_s=1.0,
+    s.wrong("ARGUMENT", "cairn_filter_predict_wheels_gyro", filter=rover, dt=1.0, left_rad_per_s=1.0,
+            right_rad_per_s=1.0,
             rate=[0.0, 0.0, "nan"])
     s.wrong("ARGUMENT", "cairn_filter_predict_twist", filter=rover, dt=1.0, velocity=[1.0, "-inf", 0.0], rate=still)
-    s.wrong("ARGUMENT", "cairn_filter_predict_increment", filter=rover, T_before_after=pose(quaternion=(0.0, 0.0, 0.0, 0.0)),
+    s.wrong("ARGUMENT", "cairn_filter_predict_increment", filter=rover,
+            T_before_after=pose(quaternion=(0.0, 0.0, 0.0, 0.0)),
             covariance=[0.0] * 36)
     s.wrong("ARGUMENT", "cairn_filter_predict_increment", filter=rover, T_before_after=pose(),
             covariance=diagonal(-1, 1, 1, 1, 1, 1))
-    s.wrong("NUMERICAL", "cairn_filter_predict_increment", filter=rover, T_before_after=pose(2e9), covariance=[0.0] * 36)
+    s.wrong("NUMERICAL", "cairn_filter_predict_increment", filter=rover, T_before_after=pose(2e9),
+            covariance=[0.0] * 36)
     s.wrong("ARGUMENT", "cairn_filter_set_wheels", filter=rover, wheels={"radius": 0.0})
     s.wrong("ARGUMENT", "cairn_filter_set_wheels", filter=rover, wheels={"slip_sigma": -0.1})
     s.wrong("ARGUMENT", "cairn_filter_set_twist_noise", filter=rover, noise={"velocity_sigma": [0.1, -0.1, 0.1]})
@@ -97,22 +109,26 @@ def updates():
     rover = s.call("cairn_filter_create", gives={"filter": "$rover"},
                    options={"max_observations": 3, "initial_covariance": diagonal(1, 1, 1, 0.01, 0.01, 0.01)})
     s.call("cairn_filter_add_cartesian", filter=rover, cartesian={})
-    s.call("cairn_filter_update", filter=rover, sensor=0, observations=[seen(1, 4.0, 1.0, 0.2), seen(2, 3.0, -2.0, 0.4)])
+    s.call("cairn_filter_update", filter=rover, sensor=0,
+           observations=[seen(1, 4.0, 1.0, 0.2), seen(2, 3.0, -2.0, 0.4)])
     s.call("cairn_filter_pose", filter=rover)
     update = {"function": "cairn_filter_update", "filter": rover}
     s.wrong("NOT_FOUND", **update, sensor=1, observations=[seen(1, 4.0, 1.0, 0.2)])
     s.wrong("ARGUMENT", **update, sensor=0, observations=[seen(1, 4.0, 1.0, 0.2), seen(1, 4.0, 1.0, 0.2)])
     s.wrong("ARGUMENT", **update, sensor=0, observations=[seen("18446744073709551615", 4.0, 1.0, 0.2)])
     s.wrong("ARGUMENT", **update, sensor=0, observations=[seen(1, 4.0, "nan", 0.2)])
-    s.wrong("ARGUMENT", **update, sensor=0, observations=[{**seen(1, 4.0, 1.0, 0.2), "covariance": diagonal(1, 1, -1)}])
+    s.wrong("ARGUMENT", **update, sensor=0, observations=[{**seen(1, 4.0, 1.0, 0.2),
+                                                           "covariance": diagonal(1, 1, -1)}])
     s.wrong("ARGUMENT", **update, sensor=0,
             observations=[{**seen(1, 4.0, 1.0, 0.2), "covariance": [1.0, 0.5] + ONES[2:]}])
     s.wrong("CAPACITY", **update, sensor=0, observations=[seen(n, 4.0, 1.0, 0.2) for n in range(4)])
     linear = {"function": "cairn_filter_update_linear", "filter": rover}
-    s.wrong("NOT_FOUND", **linear, residual=[0.0], covariance=[1.0], landmarks=["3"], jacobian_landmarks=[1.0, 0.0, 0.0])
-    s.wrong("ARGUMENT", **linear, residual=[0.0], covariance=[0.0], landmarks=["1"], jacobian_landmarks=[1.0, 0.0, 0.0])
-    s.wrong("ARGUMENT", **linear, residual=["nan"], covariance=[1.0], landmarks=["1"], jacobian_landmarks=[1.0, 0.0, 0.0])
-    s.wrong("ARGUMENT", **linear, residual=[], covariance=[], landmarks=["1"], jacobian_landmarks=[])
+    s.wrong("NOT_FOUND", **linear, residual=[0.0], covariance=[1.0], landmarks=["3"],
+            jacobian_landmarks=[1.0, 0.0, 0.0])
+    s.wrong("ARGUMENT", **linear, residual=[0.0], covariance=[0.0], landmarks=["1"],
+            jacobian_landmarks=[1.0, 0.0, 0.0])
+    s.wrong("ARGUMENT", **linear, residual=["nan"], covariance=[1.0], landmarks=["1"],
+            jacobian_landmarks=[1.0, 0.0, 0.0])
     s.wrong("ARGUMENT", **linear, residual=[0.0], covariance=[1.0], landmarks=["1", "1"],
             jacobian_landmarks=[1.0, 0.0, 0.0, 1.0, 0.0, 0.0])
     s.wrong("ARGUMENT", **linear, residual=[0.0], covariance=[1.0], landmarks=[], jacobian_landmarks=[])
@@ -122,7 +138,8 @@ def updates():
     s.wrong("ARGUMENT", **position, position=[0.0, "nan", 0.0], covariance=ONES)
     s.wrong("ARGUMENT", **position, position=[0.0, 0.0, 0.0], covariance=[0.0] * 9)
     s.wrong("ARGUMENT", **position, position=[0.0, 0.0, 0.0], covariance=ONES, lever_arm=["inf", 0.0, 0.0])
-    s.wrong("ARGUMENT", "cairn_filter_update_attitude", filter=rover, quaternion=[0.0, 0.0, 0.0, 0.0], covariance=ONES)
+    s.wrong("ARGUMENT", "cairn_filter_update_attitude", filter=rover, quaternion=[0.0, 0.0, 0.0, 0.0],
+            covariance=ONES)
     s.wrong("ARGUMENT", "cairn_filter_update_attitude", filter=rover, quaternion=[1.0, 0.0, 0.0, 0.0],
             covariance=diagonal(1, 0, 1))
     s.wrong("ARGUMENT", "cairn_filter_update_heading", filter=rover, heading=0.1, sigma=0.0)
