@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The module cairn._fast: Filter.update without cffi. cffi and numpy's conversions take longer than a small update itself.
- * The module is optional: whatever it does not take goes the way of cffi (cairn/_frames.py), with the same result.
+/* The module cairn._fast: Filter.update without cffi. cffi and numpy's conversions take longer than a small update
+ * itself. The module is optional: whatever it does not take goes the way of cffi (cairn/_frames.py), with the same
+ * result.
  *
  * It uses Python's limited interface, so one compiled module serves all versions of Python from 3.11 on. */
 #define Py_LIMITED_API 0x030b0000
@@ -9,8 +10,8 @@
 #include <cairn/filter.h>
 #include <string.h>
 
-typedef cairn_status (*update_fn)(cairn_filter *filter, int32_t sensor, const cairn_observation *observations, size_t count,
-                                  cairn_match *matches, cairn_error *error);
+typedef cairn_status (*update_fn)(cairn_filter *filter, int32_t sensor, const cairn_observation *observations,
+                                  size_t count, cairn_match *matches, cairn_error *error);
 
 /* Frames up to this length need no memory from the heap. */
 enum { ON_STACK = 64 };
@@ -162,7 +163,8 @@ static PyObject *update(PyObject *Py_UNUSED(module), PyObject *const *arguments,
     PyErr_Clear();
     return Py_NewRef(Py_None);
   }
-  PyObject *result = call(arguments, (int32_t)sensor, view.buf, (size_t)view.len / sizeof(cairn_observation), arguments[6]);
+  const size_t length = (size_t)view.len / sizeof(cairn_observation);
+  PyObject *result = call(arguments, (int32_t)sensor, view.buf, length, arguments[6]);
   PyBuffer_Release(&view);
   return result;
 }

@@ -48,8 +48,9 @@ def build_library():
         sys.exit("cairn: building the library needs cmake, a C++ compiler, Eigen and nanoflann (Debian: cmake g++ "
                  "libeigen3-dev libnanoflann-dev); or set CAIRN_BUNDLE to the folder of an installed library")
     tree, prefix = SCRATCH / "library", SCRATCH / "prefix"
+    jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count()))
     for command in (["-S", str(ROOT), "-B", str(tree), "-DCMAKE_BUILD_TYPE=Release", "-DCAIRN_BUILD_PROGRAM=OFF"],
-                    ["--build", str(tree), "--parallel", os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count()))],
+                    ["--build", str(tree), "--parallel", jobs],
                     ["--install", str(tree), "--prefix", str(prefix), "--component", "runtime"]):
         subprocess.run(["cmake", *command], check=True)
     return next(prefix.glob("**/" + DECLARED["SONAMES"]["cairn"])).parent

@@ -43,11 +43,14 @@ class LeakTest(unittest.TestCase):
         gc.collect()
         self.assertLess(resident() - before, ROOM)
 
+    def test_filters(self):
+        self.constant(lambda: cairn.Filter(max_landmarks=4, max_observations=4))
+
     def test_filters_that_are_forgotten(self):
-        self.constant(used_filter)
+        self.constant(used_filter, 3000)
 
     def test_filters_that_are_closed(self):
-        self.constant(lambda: used_filter().close(), 2000)
+        self.constant(lambda: used_filter().close(), 1000)
 
     def test_teams(self):
         self.constant(lambda: cairn.Team(vehicle=1, filter={"max_landmarks": 4}), 1000)

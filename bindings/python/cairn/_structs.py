@@ -193,7 +193,8 @@ def new(struct_name: str, values: Mapping[str, Any]) -> Any:
 def new_pose(name: str, value: PoseLike) -> Any:
     """A cairn_pose from (position, quaternion)."""
     position, quaternion = pose_fields(name, value).values()
-    return ffi.new("cairn_pose *", (vector(f"{name}.position", position, 3), vector(f"{name}.quaternion", quaternion, 4)))
+    return ffi.new("cairn_pose *", (vector(f"{name}.position", position, 3),
+                                    vector(f"{name}.quaternion", quaternion, 4)))
 
 
 def sized(struct_name: str) -> Any:

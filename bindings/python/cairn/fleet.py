@@ -88,11 +88,13 @@ class Fleet(Simulation[FleetStep]):
 
     def seen_features(self, vehicle: int) -> Structs:
         """The features that a boat measured in the last step: an array of cairn.FLEET_SIGHTING."""
-        return self._filled("cairn_fleet_sighting", lib.cairn_fleet_seen_features, _structs.identifier("vehicle", vehicle))
+        number = _structs.identifier("vehicle", vehicle)
+        return self._filled("cairn_fleet_sighting", lib.cairn_fleet_seen_features, number)
 
     def seen_vehicles(self, vehicle: int) -> Structs:
         """The other boats that a boat measured in the last step: an array of cairn.FLEET_SIGHTING."""
-        return self._filled("cairn_fleet_sighting", lib.cairn_fleet_seen_vehicles, _structs.identifier("vehicle", vehicle))
+        number = _structs.identifier("vehicle", vehicle)
+        return self._filled("cairn_fleet_sighting", lib.cairn_fleet_seen_vehicles, number)
 
     @property
     def options(self) -> FleetOptions:

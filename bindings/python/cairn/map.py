@@ -93,13 +93,13 @@ class Map(Handle):
         """An independent map with the same landmarks."""
         return Map(self._ask("cairn_map **", lib.cairn_map_copy))
 
-    def merge(self, other: Map, by: MergeBy | Literal["id", "geometry"] | None = None, transform: PoseLike | None = None,
-              **options: Unpack[MergeOptions]) -> MergeReport:
-        """Merges the landmarks of `other` into this map, which must be a copy. Returns a report: numbers of common and of
-        added landmarks, T_map_other with its covariance, the joint distance with its rows and threshold.
+    def merge(self, other: Map, by: MergeBy | Literal["id", "geometry"] | None = None,
+              transform: PoseLike | None = None, **options: Unpack[MergeOptions]) -> MergeReport:
+        """Merges the landmarks of `other` into this map, which must be a copy. Returns a report: numbers of common and
+        of added landmarks, T_map_other with its covariance, the joint distance with its rows and threshold.
 
-        by: "id", the default, or "geometry" if the ids of the two maps are unrelated; then merged_ids() tells the new id
-        of each landmark. transform: (position, quaternion) that takes points of the other map's frame into this map's
+        by: "id", the default, or "geometry" if the ids of the two maps are unrelated; then merged_ids() tells the new
+        id of each landmark. transform: (position, quaternion) that takes points of the other map's frame into this map's
         frame, if it is known beforehand; the option `covariance` is that of its error [dp; dtheta], 6 x 6, and without
         it the transform is exact. The other options are those of cairn.MergeOptions.
 

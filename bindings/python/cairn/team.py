@@ -52,7 +52,8 @@ class Team(Handle):
         settings = _structs.new("cairn_team_options", options)
         filter_settings = _structs.new("cairn_filter_options", {"vehicle": "planar", **(filter or {})})
         created = ffi.new("cairn_team **")
-        call(lib.cairn_team_create, settings, filter_settings, _structs.new("cairn_range_bearing", radar or {}), created)
+        sensor = _structs.new("cairn_range_bearing", radar or {})
+        call(lib.cairn_team_create, settings, filter_settings, sensor, created)
         self.vehicle = int(settings.vehicle)
         """Number of this vehicle."""
         super().__init__(created[0], lib.cairn_team_destroy)

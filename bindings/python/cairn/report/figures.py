@@ -8,12 +8,12 @@ import os
 from collections.abc import Iterator
 from typing import Any
 
-import matplotlib
 import numpy as np
 
 from . import scene
 from .run import ReportError
 
+matplotlib: Any = importlib.import_module("matplotlib")
 matplotlib.use("Agg", force=True)
 pyplot: Any = importlib.import_module("matplotlib.pyplot")
 ticker: Any = importlib.import_module("matplotlib.ticker")
