@@ -494,7 +494,8 @@ class TeamOptions(TypedDict, total=False):
     """a step that follows the one before it by more than this, s, > 0, is refused until the next one confirms it;
     default 60."""
     max_waiting: int
-    """Packets of one teammate that can wait for their turn, 1 to 1000000; default 4096."""
+    """Packets of one teammate that can wait for their turn, 1 to 1000000; default 4096. The one that the others
+    wait for has room beside them."""
     history: int
     """Own packets that are kept for teammates that miss them, 1 to 1000000; default 1024."""
 
