@@ -12,6 +12,8 @@
 #include <nanoflann.hpp>
 #include <utility>
 
+#include "core/compiler.hpp"
+
 namespace cairn {
 namespace {
 
