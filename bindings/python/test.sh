@@ -39,6 +39,15 @@ say "pip install in a fresh environment, from the sources"
   fail "pip could not install the package from its sources"
 python=$work/venv/bin/python
 
+# checked_types CONFIGURATION FILE...: runs pyright in its strict mode.
+checked_types() {
+  local configuration=$1
+  shift
+  printf '{"include": [%s], "typeCheckingMode": "strict", "venvPath": "%s", "venv": "venv"%s}\n' \
+    "$(printf '"%s",' "${@#"$work/"}" | sed 's/,$//')" "$work" "$configuration" >"$work/pyrightconfig.json"
+  (cd -- "$work" && PATH=$work/venv/bin:$PATH pyright --project pyrightconfig.json)
+}
+
 # tested NAME COMMAND...: runs a test of the installed package; shows what it printed if it fails.
 tested() {
   local name=$1
@@ -46,6 +55,19 @@ tested() {
   (cd / && "$@") >"$work/$name.log" 2>&1 || { cat "$work/$name.log"; fail "$name failed"; }
   echo "$name: $(tail -n 1 "$work/$name.log")"
 }
+# The type checkers take as long as all tests together, and run beside them.
+check_types() {
+  ln -s "$root/bindings/python/cairn" "$work/cairn"
+  (cd -- "$work" && "$python" -m mypy --strict --cache-dir "$work/mypy" -p cairn)
+  checked_types "" "$work/cairn"
+  # A user's program: what is wrong in it must be an error.
+  cp -- "$root/tests/python/typed_program.py" "$work"
+  (cd -- "$work" && "$python" -m mypy --strict --cache-dir "$work/mypy" typed_program.py)
+  checked_types ', "enableTypeIgnoreComments": false, "reportUnnecessaryTypeIgnoreComment": true' "$work/typed_program.py"
+}
+(check_types) >"$work/types.log" 2>&1 &
+types=$!
+
 where=$(cd / && "$python" -c 'import cairn, cairn._abi, cairn._fast; print(cairn.__file__)')
 [[ $where == "$work/venv/"* ]] || fail "cairn was imported from $where, not from where pip installed it"
 for name in declarations binding filter map team team_slip finding_back placed_again leak; do
@@ -57,23 +79,6 @@ say "Conformance: the same bits as C"
 (cd / && "$build/bin/cairn_conformance" "$root/tests/conformance" "$work/conformance_of_c") >"$work/replay.log" 2>&1 ||
   echo "the C replayer says: $(tail -n 1 "$work/replay.log")"
 tested conformance "$python" "$root/tests/python/conformance.py" "$root/tests/conformance" "$work/conformance_of_c"
-
-say "Types"
-# checked_types CONFIGURATION FILE...: runs pyright in its strict mode.
-checked_types() {
-  local configuration=$1
-  shift
-  printf '{"include": [%s], "typeCheckingMode": "strict", "venvPath": "%s", "venv": "venv"%s}\n' \
-    "$(printf '"%s",' "${@#"$work/"}" | sed 's/,$//')" "$work" "$configuration" >"$work/pyrightconfig.json"
-  (cd -- "$work" && PATH=$work/venv/bin:$PATH pyright --project pyrightconfig.json)
-}
-ln -s "$root/bindings/python/cairn" "$work/cairn"
-(cd -- "$work" && "$python" -m mypy --strict --cache-dir "$work/mypy" -p cairn)
-checked_types "" "$work/cairn"
-# A user's program: what is wrong in it must be an error.
-cp -- "$root/tests/python/typed_program.py" "$work"
-(cd -- "$work" && "$python" -m mypy --strict --cache-dir "$work/mypy" typed_program.py)
-checked_types ', "enableTypeIgnoreComments": false, "reportUnnecessaryTypeIgnoreComment": true' "$work/typed_program.py"
 
 say "The wheel"
 "$work/venv/bin/pip" wheel --quiet --no-deps --wheel-dir "$work/wheel" "$root/bindings/python"
@@ -88,6 +93,10 @@ builds=$(find "$work/user" -name "$soname" | wc -l)
 ((builds == wanted)) || fail "the wheel holds $builds builds of the library, and should hold $wanted"
 echo "${wheel##*/}: $(cd / && "$work/user/bin/python" -c 'import cairn; print(cairn.version(), cairn.build())')"
 tested wheel "$work/user/bin/python" "$root/tests/python/binding_test.py"
+
+say "Types: mypy and pyright, both strict"
+wait "$types" || { cat "$work/types.log"; fail "a type checker complains"; }
+cat "$work/types.log"
 
 say "Time of an update"
 gcc -O2 -std=c99 -shared -fPIC -I"$root/include" "$root/tests/python/update_timing.c" -o "$work/update_timing.so"
