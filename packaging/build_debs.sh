@@ -31,7 +31,7 @@ profiles=()
 packages=(build-essential dpkg-dev debhelper lintian fakeroot chrpath cmake=cmake ninja-build=ninja pkgconf=pkg-config
   libeigen3-dev libnanoflann-dev libmatio-dev doxygen=doxygen)
 if [[ -d $root/bindings/python ]]; then
-  packages+=(dh-python pybuild-plugin-pyproject python3-all python3-setuptools python3-cffi python3-numpy)
+  packages+=(dh-python pybuild-plugin-pyproject python3-all python3-setuptools python3-wheel python3-cffi python3-numpy)
 else
   profiles+=(pkg.cairn.nopython)
 fi
