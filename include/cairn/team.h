@@ -46,7 +46,8 @@ typedef struct cairn_team_options {
                               0.01 */
   double max_jump;       /**< a step that follows the one before it by more than this, s, > 0, is refused until the
                               next one confirms it; default 60 \since 0.2.0 */
-  uint32_t max_waiting;  /**< packets of one teammate that can wait for their turn, 1 to 1000000; default 4096 */
+  uint32_t max_waiting;  /**< packets of one teammate that can wait for their turn, 1 to 1000000; default 4096. The one
+                              that the others wait for has room beside them */
   uint32_t history;      /**< own packets that are kept for teammates that miss them, 1 to 1000000; default 1024 */
 } cairn_team_options;
 

@@ -90,6 +90,42 @@ static letter forged(const letter* from, uint64_t number, double time) {
   return l;
 }
 
+/* The queue of a teammate's packets is full, and its first packet is still missing. That packet has room: it lets all
+ * others have their turn. */
+static void a_full_queue_takes_the_packet_that_it_waits_for(void** state) {
+  enum { WAITING = 3 };
+  (void)state;
+  static crew c;
+  crew_open(&c, 2, 3, 1e6, CAIRN_TEAM_JOINT);
+  cairn_team_options options = team_options(CAIRN_TEAM_JOINT, 1);
+  options.max_waiting = WAITING, options.max_lag = 1e6;
+  const cairn_filter_options filter = planar_options(&c.v.boats[0][0].truth);
+  const cairn_range_bearing radar = fleet_radar();
+  cairn_team* team = NULL;
+  assert_ok(cairn_team_create(&options, &filter, &radar, &team, NULL));
+  assert_ok(cairn_team_add(team, 2, &c.v.boats[1][0].truth, NULL, NULL));
+  post steps = {NULL, 0, 0};
+  letter* packets[WAITING + 2];
+  size_t count = 0;
+  for (size_t k = 0; k < LENGTH(packets); ++k) {
+    boat_step(c.teams[1], &c.v, 2, k);
+    boat_step(team, &c.v, 1, k);
+    post_collect(&steps, c.teams[1], 0);
+  }
+  for (size_t i = 0; i < steps.count && count < LENGTH(packets); ++i)
+    if (kind_of(&steps.letters[i]) == DATA) packets[count++] = &steps.letters[i];
+  assert_int_equal(count, LENGTH(packets));
+  for (size_t i = 1; i <= WAITING; ++i) assert_int_equal(hand_over(team, packets[i]), CAIRN_PACKET_WAITING);
+  assert_int_equal(hand_over(team, packets[WAITING + 1]), CAIRN_PACKET_FULL);
+  assert_int_equal(report_of(team).taken, 0);
+  assert_int_equal(hand_over(team, packets[0]), CAIRN_PACKET_TAKEN);
+  assert_int_equal(report_of(team).taken, WAITING + 1);
+  assert_int_equal(hand_over(team, packets[WAITING + 1]), CAIRN_PACKET_TAKEN);
+  cairn_team_destroy(team);
+  post_free(&steps);
+  crew_close(&c);
+}
+
 static void a_wrong_clock_of_a_teammate_locks_no_packet_out(void** state) {
   (void)state;
   for (int32_t mode = CAIRN_TEAM_JOINT; mode >= CAIRN_TEAM_EO_DIAGONAL; --mode) {
@@ -179,6 +215,7 @@ int main(void) {
       cmocka_unit_test(requests_do_not_fill_the_queue),
       cmocka_unit_test(a_wrong_own_clock_is_refused),
       cmocka_unit_test(max_jump_is_positive),
+      cmocka_unit_test(a_full_queue_takes_the_packet_that_it_waits_for),
       cmocka_unit_test(a_wrong_clock_of_a_teammate_locks_no_packet_out),
       cmocka_unit_test(absurd_numbers_do_no_harm),
       cmocka_unit_test(a_vehicle_joins_a_map_of_submaps_once),

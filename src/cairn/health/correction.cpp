@@ -21,10 +21,10 @@ Correction<Pose>::Correction(const Pose& before, const Square& P_before, const P
 template <class Pose>
 bool Correction<Pose>::whiten(Tangent& white) const {
   // A direction that hardly varies would be told from the others only by what the linearisation neglects.
-  constexpr double kSlight = 0.01, kRounding = 1e-9;
+  constexpr double kSlight = 0.01;
   if (!value.allFinite() || !covariance.allFinite() || !(covariance.diagonal().maxCoeff() > 0.0)) return false;
   Square S = covariance;
-  S.diagonal() += kSlight * S.diagonal() + kRounding * prior;
+  S.diagonal() += kSlight * S.diagonal() + rounding();
   const Square L = semidefinite_factor(S);
   for (int i = 0; i < Pose::kDof; ++i) {
     double rest = value(i);

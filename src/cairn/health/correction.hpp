@@ -19,6 +19,8 @@ struct Correction {
   // Independent numbers of unit variance: L^-1 value with L L^T = covariance. Returns false if there are none. A
   // direction that the update did not correct gets zero.
   bool whiten(Tangent& white) const;
+  // Variance that rounding may leave in the covariance, and that nothing is known about.
+  Tangent rounding() const { return 1e-9 * prior; }
 
   Tangent value = Tangent::Zero();
   Square covariance = Square::Zero();

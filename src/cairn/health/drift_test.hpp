@@ -14,8 +14,9 @@ template <class Pose>
 class DriftTest {
  public:
   void add(const Correction<Pose>& correction) {
+    const typename Pose::Tangent rounding = correction.rounding();
     for (int i = 0; i < Pose::kDof; ++i) {
-      const double variance = std::max(0.0, correction.covariance(i, i));
+      const double variance = std::max(0.0, correction.covariance(i, i)) + rounding(i);
       if (!std::isfinite(correction.value(i)) || !std::isfinite(variance)) continue;
       sum_(i) = kKeep * sum_(i) + correction.value(i);
       variance_(i) = kKeep * kKeep * variance_(i) + variance;

@@ -59,7 +59,8 @@ Arrival Member::insert(Entry&& entry, const WaitingLimits& limits, bool& late) n
   if (number < next_ || waiting_.count(number) != 0) return repeats(packet) ? Arrival::repeated : Arrival::conflict;
   const Arrival by_time = judge_time(packet, limits);
   if (by_time != Arrival::waiting) return by_time;
-  if (waiting_.size() >= limits.packets) return Arrival::full;
+  // The packet that all others wait for always has room: it lets them have their turn.
+  if (waiting_.size() >= limits.packets && number != next_) return Arrival::full;
   suspect_.reset();
   forget_waiting_before(packet);
   late = waiting_.upper_bound(number) != waiting_.end();

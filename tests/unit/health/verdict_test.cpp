@@ -142,6 +142,16 @@ TEST_CASE("drift: a mean of the corrections is found, and white ones give no ala
   CHECK(most > 5.0);
 }
 
+// A frame that says nothing new about the pose takes off nothing but rounding, and moves it by rounding.
+TEST_CASE("drift: rounding is no bias") {
+  const SE2 pose(SO2::from_angle(0.7), Vector2(3, -2));
+  DriftTest<SE2> drift;
+  const SE2::Square P = 0.01 * SE2::Square::Identity();
+  for (int i = 0; i < 20; ++i)
+    drift.add(Correction<SE2>(pose, P, retract(pose, SE2::Tangent(1e-12, 1e-12, 1e-12)), (1.0 - 1e-15) * P));
+  CHECK(drift.sigmas() < 1e-3);
+}
+
 namespace {
 
 // A filter of a vehicle that stands still and measures its pose directly: the noise of motion and sensor has the stated
