@@ -22,6 +22,7 @@ constexpr double kLeastPosition = 1e-12, kLeastTurn = 1e-14;
 // of its principal submatrices regular.
 struct ScaledFactor {
   Vector scale;
+  double grain = 0.0;  // the variance of the noise, in parts of each variance
   Eigen::LLT<Matrix> llt;
 };
 
@@ -35,6 +36,7 @@ ScaledFactor factor(const Matrix& covariance) {
     out.scale(i) = 1.0 / std::sqrt(std::max(covariance(i, i), turn ? kLeastTurn : kLeastPosition));
   }
   for (double grain = 0.0; grain < 1e-5; grain = grain == 0.0 ? 1e-12 : 100.0 * grain) {
+    out.grain = grain;
     Matrix scaled = out.scale.asDiagonal() * covariance * out.scale.asDiagonal();
     for (Index i = 0; i < n; ++i) scaled(i, i) = std::max(scaled(i, i), 1.0) + grain;
     out.llt.compute(scaled);
@@ -68,8 +70,11 @@ SubmapData<Pose>::SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>
     given = given_errors(submap.covariance, submap.errors);
     errors = factor_errors(submap.errors, points, given);
   }
-  // Tests the whole covariance, so that no private landmark can make a later closing fail that shares it.
-  factor<Pose>(given.covariance);
+  // Tests the whole covariance, so that no private landmark can make a later closing fail that shares it. The noise that
+  // makes it regular stays in it: the factor of the shared landmarks and what the private ones are given them have to
+  // come from one matrix, or a private landmark gets a negative variance.
+  const double grain = factor<Pose>(given.covariance).grain;
+  if (grain > 0.0) given.covariance.diagonal() *= 1.0 + grain;
   covariance = Packed(given.covariance);
 }
 
