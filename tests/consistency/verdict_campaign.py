@@ -166,7 +166,7 @@ def in_copy(compute):
 
 
 def bad(health):
-    return health["verdict"] != cairn.VERDICT_GOOD
+    return health["verdict"] != cairn.Verdict.GOOD
 
 
 def updates_until_found(vehicle, fault):

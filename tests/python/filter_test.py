@@ -16,6 +16,7 @@ import numpy as np
 from cairn import _library, ffi, lib
 from support import seen
 
+NULL = ffi.NULL
 LEVEL = (np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
 
 
@@ -30,19 +31,19 @@ def filled(**options):
 class ResultsTest(unittest.TestCase):
     def test_same_bits_as_the_c_interface(self):
         options = ffi.new("cairn_filter_options *")
-        lib.cairn_filter_options_init(options, ffi.sizeof("cairn_filter_options"))
-        options.max_landmarks, options.error, options.gate_probability = 30, lib.CAIRN_STATE_ERROR_STANDARD, 0.999
+        lib.cairn_filter_options_init(options, ffi.sizeof("cairn_filter_options"), NULL)
+        options.max_landmarks, options.state_error, options.gate_probability = 30, cairn.StateError.STANDARD, 0.999
         for i in range(6):
             options.initial_covariance[7 * i] = 0.01
         raw = ffi.new("cairn_filter **")
-        self.assertEqual(lib.cairn_filter_create(options, raw), 0)
+        self.assertEqual(lib.cairn_filter_create(options, raw, NULL), 0)
         head = ffi.new("cairn_stereo_head *")
-        lib.cairn_stereo_head_init(head, ffi.sizeof("cairn_stereo_head"))
+        lib.cairn_stereo_head_init(head, ffi.sizeof("cairn_stereo_head"), NULL)
         head.range_sigma = 0.2
         camera = ffi.new("int32_t *")
-        lib.cairn_filter_add_stereo_head(raw[0], head, camera)
+        lib.cairn_filter_add_stereo_head(raw[0], head, camera, NULL)
 
-        with cairn.Filter(max_landmarks=30, error="standard", gate_probability=0.999,
+        with cairn.Filter(max_landmarks=30, state_error="standard", gate_probability=0.999,
                           initial_covariance=0.01 * np.eye(6)) as layer:
             own = layer.add_stereo_head(range_sigma=0.2)
             self.assertEqual(own, camera[0])
@@ -50,26 +51,26 @@ class ResultsTest(unittest.TestCase):
             for _ in range(40):
                 rates = draw.normal(1.0, 0.1, 2)
                 layer.predict_wheels(0.2, *rates)
-                self.assertEqual(lib.cairn_filter_predict_wheels(raw[0], 0.2, *rates), 0)
+                self.assertEqual(lib.cairn_filter_predict_wheels(raw[0], 0.2, *rates, NULL), 0)
                 z = np.column_stack([draw.normal(10, 0.2, 5), draw.normal(np.arange(5) / 9, 0.05), draw.normal(0, 0.05, 5)])
                 frame = ffi.new("cairn_observation[5]")
                 for i in range(5):
                     frame[i].id = 100 + i
                     frame[i].z = list(z[i])
                 raw_matches = ffi.new("cairn_match[5]")
-                self.assertEqual(lib.cairn_filter_update(raw[0], camera[0], frame, 5, raw_matches), 0)
+                self.assertEqual(lib.cairn_filter_update(raw[0], camera[0], frame, 5, raw_matches, NULL), 0)
                 matches = layer.update(own, np.arange(100, 105), z)
                 for name in ("landmark", "result", "reason", "distance", "threshold"):
                     self.assertEqual(matches[name].tolist(), [getattr(match, name) for match in raw_matches])
             pose, covariance = ffi.new("cairn_pose *"), ffi.new("double[36]")
-            lib.cairn_filter_pose(raw[0], pose, covariance)
+            lib.cairn_filter_pose(raw[0], pose, covariance, NULL)
             position, quaternion, own_covariance = layer.pose()
             self.assertEqual(position.tolist(), list(pose.position))
             self.assertEqual(quaternion.tolist(), list(pose.quaternion))
             self.assertEqual(own_covariance.ravel().tolist(), list(covariance))
             report = ffi.new("cairn_update_report *")
             report.struct_size = ffi.sizeof("cairn_update_report")
-            lib.cairn_filter_last_update(raw[0], report)
+            lib.cairn_filter_last_update(raw[0], report, NULL)
             self.assertEqual(layer.last_update(), {name: getattr(report, name) for name in (
                 "matched", "placed", "rejected", "rows", "iterations", "nis", "nis_lower", "nis_upper",
                 "association_nodes", "association_exhausted", "association_seconds", "deferred", "removed",
@@ -85,7 +86,7 @@ class ResultsTest(unittest.TestCase):
         self.assertGreater(len(in_c.splitlines()), 10)
 
     def test_the_best_build_is_loaded(self):
-        folder = os.environ.get("CAIRN_LIBRARY", "")
+        folder = os.environ.get("CAIRN_LIBRARY") or _library.INSIDE
         two = os.path.isdir(os.path.join(folder, "glibc-hwcaps", "x86-64-v3")) and _library._has_v3()
         if two:
             self.assertEqual(ffi.string(lib.cairn_build()), b"x86-64-v3")
@@ -110,7 +111,7 @@ class ResultsTest(unittest.TestCase):
         one, sensor = filled()
         matches = one.update(sensor, [7, 8, 40], np.vstack([seen([7]), seen([8]) + 5.0, [[1.0, 1.0, 1.0]]]),
                              covariance=np.tile(0.01 * np.eye(3), (3, 1, 1)))
-        self.assertEqual(matches["result"].tolist(), [cairn.MATCHED, cairn.REJECTED, cairn.NEW])
+        self.assertEqual(matches["result"].tolist(), [cairn.Result.MATCHED, cairn.Result.REJECTED, cairn.Result.NEW])
         self.assertEqual(matches["landmark"].tolist(), [7, 8, 40])
         self.assertGreater(matches["distance"][1], matches["threshold"][1])
         np.testing.assert_allclose(one.map.landmark(40)["covariance"], 0.01 * np.eye(3), atol=1e-12)
@@ -122,13 +123,13 @@ class ResultsTest(unittest.TestCase):
     def test_absolute_and_linear(self):
         one = cairn.Filter(initial_covariance=np.eye(6) * 0.25)
         match = one.update_position([0.4, 0, 0], 1e-6 * np.eye(3), lever_arm=[0.1, 0, 0])
-        self.assertEqual(match["result"], cairn.MATCHED)
+        self.assertEqual(match["result"], cairn.Result.MATCHED)
         np.testing.assert_allclose(one.pose()[0][0], 0.3, atol=1e-2)
-        self.assertEqual(one.update_attitude([1, 0, 0, 0], 1e-4 * np.eye(3))["result"], cairn.MATCHED)
-        self.assertEqual(one.update_heading(0.0, 0.1)["result"], cairn.MATCHED)
+        self.assertEqual(one.update_attitude([1, 0, 0, 0], 1e-4 * np.eye(3))["result"], cairn.Result.MATCHED)
+        self.assertEqual(one.update_heading(0.0, 0.1)["result"], cairn.Result.MATCHED)
         before = one.pose()[2][2, 2]
         height = one.update_linear([0.0], [[1e-4]], jacobian_pose=[[0, 0, 1, 0, 0, 0]])
-        self.assertEqual(height["result"], cairn.MATCHED)
+        self.assertEqual(height["result"], cairn.Result.MATCHED)
         self.assertEqual(height["landmark"], cairn.ID_NONE)
         self.assertLess(one.pose()[2][2, 2], before)
         two, _ = filled()
@@ -146,12 +147,12 @@ class ResultsTest(unittest.TestCase):
         made, sensor = filled()
         with made:
             health = made.health()
-            self.assertEqual((health["verdict"], health["reasons"], health["words"]), (cairn.VERDICT_GOOD, 0, ["good"]))
+            self.assertEqual((health["verdict"], health["reasons"], health["words"]), (cairn.Verdict.GOOD, 0, ["good"]))
             for _ in range(10):
                 made.update(sensor, list(support.LANDMARKS), seen() + np.array([7.0, 0.0, 0.0]))
             health = made.health()
-            self.assertEqual(health["verdict"], cairn.VERDICT_LOST)
-            self.assertTrue(health["reasons"] & cairn.DOUBT_REFUSALS)
+            self.assertEqual(health["verdict"], cairn.Verdict.LOST)
+            self.assertTrue(health["reasons"] & cairn.Doubts.REFUSALS)
             self.assertEqual(health["words"][0], "lost")
             self.assertEqual(len(health["words"]), 1 + bin(health["reasons"]).count("1"))
             of_sensor = made.sensor_health(sensor)
@@ -166,10 +167,10 @@ class ResultsTest(unittest.TestCase):
             one.predict_increment(([1.0, 0, 0], [1, 0, 0, 0]), 1e-4 * np.eye(6))
             one.update(sensor, [5, 6, 7], [[3, 0, 0], [0, 3, 0], [2, 2, 1]])
             self.assertEqual((len(one.map), len(one.local_map), one.submap_count), (0, 3, 0))
-            self.assertEqual(one.last_closing()["reason"], cairn.CLOSED_BY_NONE)
+            self.assertEqual(one.last_closing()["reason"], cairn.ClosedBy.NONE)
             one.close_submap()
             told = one.last_closing()
-            self.assertEqual((told["reason"], told["submaps"], told["landmarks"]), (cairn.CLOSED_BY_CALLER, 1, 3))
+            self.assertEqual((told["reason"], told["submaps"], told["landmarks"]), (cairn.ClosedBy.CALLER, 1, 3))
             self.assertEqual((len(one.map), len(one.local_map), one.submap_count), (3, 0, 1))
             np.testing.assert_allclose(one.map.landmark(5)["position"], [4, 0, 0], atol=1e-9)
             base, ids = one.submap(0)
@@ -179,7 +180,7 @@ class ResultsTest(unittest.TestCase):
             np.testing.assert_allclose(one.local_pose()[2], 0, atol=1e-12)
             with self.assertRaises(cairn.CairnError) as caught:
                 one.submap(1)
-            self.assertEqual(caught.exception.status, cairn.ERROR_NOT_FOUND)
+            self.assertEqual(caught.exception.status, cairn.Status.ERROR_NOT_FOUND)
 
     def test_trajectory(self):
         with cairn.Filter(submap_landmarks=50, trajectory_poses=2) as one:
@@ -193,19 +194,19 @@ class ResultsTest(unittest.TestCase):
             np.testing.assert_allclose(one.trajectory(3)["quaternion"], [[1, 0, 0, 0]], atol=1e-9)
             with self.assertRaises(cairn.CairnError) as caught:
                 one.trajectory(1)
-            self.assertEqual(caught.exception.status, cairn.ERROR_CAPACITY)
+            self.assertEqual(caught.exception.status, cairn.Status.ERROR_CAPACITY)
             self.assertEqual(one.keep_pose(), 4)
         with cairn.Filter() as none, self.assertRaises(cairn.CairnError) as caught:
             none.trajectory()
-        self.assertEqual(caught.exception.status, cairn.ERROR_STATE)
+        self.assertEqual(caught.exception.status, cairn.Status.ERROR_STATE)
 
     def test_systematic_errors(self):
         with cairn.Filter(max_landmarks=20, velocity_bias_sigma=[0, 0.2, 0.1], max_sensor_errors=2) as one:
             sensor = one.add_cartesian(sigma=[0.1, 0.1, 0.2])
             one.calibrate_sensor(sensor, mount_turn_sigma=[0, 0, 0.02], offset_sigma=[0.3, 0, 0])
             errors = one.systematic_errors()
-            self.assertEqual(list(errors["kind"]), [lib.CAIRN_SYSTEMATIC_VELOCITY_BIAS] * 2 +
-                             [lib.CAIRN_SYSTEMATIC_MOUNT_TURN, lib.CAIRN_SYSTEMATIC_OFFSET])
+            self.assertEqual(list(errors["kind"]), [cairn.Systematic.VELOCITY_BIAS] * 2 +
+                             [cairn.Systematic.MOUNT_TURN, cairn.Systematic.OFFSET])
             self.assertEqual(list(errors["component"]), [1, 2, 2, 0])
             self.assertEqual(list(errors["sensor"]), [-1, -1, sensor, sensor])
             np.testing.assert_allclose(errors["sigma"], [0.2, 0.1, 0.02, 0.3])
@@ -217,7 +218,7 @@ class ResultsTest(unittest.TestCase):
             self.assertEqual(none.systematic_covariance().shape, (0, 0))
         with self.assertRaisesRegex(cairn.CairnError, "velocity_bias_walk") as caught:
             cairn.Filter(velocity_bias_walk=[0.1, 0, 0])
-        self.assertEqual(caught.exception.status, cairn.ERROR_ARGUMENT)
+        self.assertEqual(caught.exception.status, cairn.Status.ERROR_ARGUMENT)
 
     def test_required_bytes(self):
         small, large = (cairn.Filter.required_bytes(max_landmarks=n) for n in (10, 1000))
@@ -239,13 +240,13 @@ class CallbackTest(unittest.TestCase):
         one = cairn.Filter(initial_covariance=np.diag([1.0, 1, 1, 0, 0, 0]))
         sensor = one.add_custom(self.offset, self.place, sigma=[0.1] * 3)
         gc.collect()  # the filter keeps the functions alive
-        self.assertEqual(one.update(sensor, [3], [[1.0, 2.0, 3.0]])["result"].tolist(), [cairn.NEW])
-        self.assertEqual(one.update(sensor, [3], [[1.0, 2.0, 3.1]])["result"].tolist(), [cairn.MATCHED])
+        self.assertEqual(one.update(sensor, [3], [[1.0, 2.0, 3.0]])["result"].tolist(), [cairn.Result.NEW])
+        self.assertEqual(one.update(sensor, [3], [[1.0, 2.0, 3.1]])["result"].tolist(), [cairn.Result.MATCHED])
         bearing = one.add_custom(lambda pose, l: (l[:1] - pose.position[:1], [[-1.0, 0, 0, 0, 0, 0]], [[1.0, 0, 0]]), rows=1)
         match = one.update(bearing, [3], [[1.0]], covariance=[[[0.01]]])
-        self.assertEqual(match["result"].tolist(), [cairn.MATCHED])
+        self.assertEqual(match["result"].tolist(), [cairn.Result.MATCHED])
         unseen = one.add_custom(lambda pose, landmark: None, rows=1)
-        self.assertEqual(one.update(unseen, [3], [[1.0]])["reason"].tolist(), [cairn.REASON_NO_IMAGE])
+        self.assertEqual(one.update(unseen, [3], [[1.0]])["reason"].tolist(), [cairn.Reason.NO_IMAGE])
 
     def test_what_a_callback_raises_comes_out(self):
         def broken(pose, landmark):
@@ -258,7 +259,7 @@ class CallbackTest(unittest.TestCase):
         wrong = one.add_custom(lambda pose, landmark: (np.zeros(2), np.zeros((2, 5)), np.zeros((2, 3))), rows=2)
         with self.assertRaisesRegex(ValueError, "jacobian_pose: shape 2 x 6"):
             one.update(wrong, [7], [[1.0, 2.0]])
-        self.assertEqual(one.update(sensor, [7], seen([7]))["result"].tolist(), [cairn.MATCHED])
+        self.assertEqual(one.update(sensor, [7], seen([7]))["result"].tolist(), [cairn.Result.MATCHED])
 
     def test_an_exception_leaves_no_part_of_the_frame(self):
         calls = []
@@ -283,7 +284,7 @@ class CallbackTest(unittest.TestCase):
             np.testing.assert_array_equal(after["covariance"], before["covariance"])
             np.testing.assert_array_equal(one.pose()[2], pose[2])
         calls.extend([None, None])
-        self.assertEqual(one.update(custom, [1, 2], [[3.2, 0, 0], [0, 3, 0]])["result"].tolist(), [cairn.MATCHED] * 2)
+        self.assertEqual(one.update(custom, [1, 2], [[3.2, 0, 0], [0, 3, 0]])["result"].tolist(), [cairn.Result.MATCHED] * 2)
 
     def test_a_callback_may_not_call_its_filter(self):
         one, _ = filled()
@@ -318,7 +319,8 @@ class BadInputTest(unittest.TestCase):
         self.refused(TypeError, "no option 'struct_size'", cairn.Filter, struct_size=3)
         self.refused(TypeError, "max_landmarks", cairn.Filter, max_landmarks=2.5)
         self.refused(OverflowError, "max_landmarks", cairn.Filter, max_landmarks=-1)
-        self.refused(ValueError, "CAIRN_ERROR_ODD", cairn.Filter, error="odd")
+        self.refused(ValueError, "state_error: must be one of 'invariant', 'standard'", cairn.Filter, state_error="odd")
+        self.refused(TypeError, "state_error", cairn.Filter, state_error=0.5)
         self.refused(ValueError, "initial_covariance: shape 6 x 6", cairn.Filter, initial_covariance=np.eye(3))
         self.refused(ValueError, "initial_pose: must be a pose", cairn.Filter, initial_pose=[1, 2, 3])
         self.refused(ValueError, "initial_pose.quaternion: shape 4", cairn.Filter, initial_pose=([0, 0, 0], [1, 0, 0]))
@@ -360,7 +362,7 @@ class BadInputTest(unittest.TestCase):
         with self.assertRaises(cairn.CairnError) as caught:
             cairn.Filter(max_landmarks=0)
         error = caught.exception
-        self.assertEqual((error.status, error.name), (cairn.ERROR_ARGUMENT, "CAIRN_ERROR_ARGUMENT"))
+        self.assertEqual((error.status, error.name), (cairn.Status.ERROR_ARGUMENT, "CAIRN_ERROR_ARGUMENT"))
         self.assertIn("max_landmarks", error.message)
         again = pickle.loads(pickle.dumps(error))
         self.assertEqual((again.status, again.message), (error.status, error.message))
@@ -374,7 +376,7 @@ class BadInputTest(unittest.TestCase):
         z.flags.writeable = False
         strided = two.update(other, np.array([[i, 0] for i in ids], dtype=np.int64)[:, 0], z)
         self.assertEqual(plain.tobytes(), strided.tobytes())
-        self.assertEqual(two.update(other, ids, np.zeros((4, 3), np.float32))["result"].tolist(), [cairn.REJECTED] * 4)
+        self.assertEqual(two.update(other, ids, np.zeros((4, 3), np.float32))["result"].tolist(), [cairn.Result.REJECTED] * 4)
 
 
 class LifetimeTest(unittest.TestCase):
@@ -390,7 +392,7 @@ class LifetimeTest(unittest.TestCase):
                      lambda: one.predict_wheels(0.1, 1, 1), lambda: one.add_cartesian()):
             with self.assertRaisesRegex(cairn.CairnError, "the filter is closed") as caught:
                 call()
-            self.assertEqual(caught.exception.status, cairn.ERROR_STATE)
+            self.assertEqual(caught.exception.status, cairn.Status.ERROR_STATE)
 
     def test_a_map_keeps_its_filter(self):
         one, _ = filled()

@@ -35,7 +35,7 @@ class Among:
         z[:, :2] = z[:, :2] @ np.array([[c, -s], [s, c]])
         z = z + self.random.normal(0, self.sigma, z.shape) + (0 if error is None else error)
         matches = self.vehicle.update(self.sensor, which, z)
-        self.refused.append(int((matches["result"] == cairn.REJECTED).sum()))
+        self.refused.append(int((matches["result"] == cairn.Result.REJECTED).sum()))
         self.widened.append(self.vehicle.last_update()["widened_position"])
         return matches
 
@@ -68,8 +68,8 @@ class SlipTest(unittest.TestCase):
         for landmarks in (PLANAR, SPATIAL):
             for error in ("invariant", "standard"):
                 for turn in (0.0, 0.3):
-                    with self.subTest(size=landmarks.shape[1], error=error, turn=turn):
-                        drive = Among(landmarks, error=error)
+                    with self.subTest(size=landmarks.shape[1], state_error=error, turn=turn):
+                        drive = Among(landmarks, state_error=error)
                         self.lost_and_found(drive, turn=turn)
                         self.assertAlmostEqual(max(drive.widened), 1.0, delta=0.4)
 
@@ -84,7 +84,7 @@ class SlipTest(unittest.TestCase):
             drive.move(1.0 if k == 30 else 0.0)
             matches = drive.see() if k >= 30 else drive.see(range(6))
             if k == 30:
-                self.assertEqual(matches["result"][6], cairn.REJECTED)
+                self.assertEqual(matches["result"][6], cairn.Result.REJECTED)
                 self.assertEqual(matches["reason"][6], 7)
                 self.assertEqual(len(drive.vehicle.map), 6)
         self.assertEqual(len(drive.vehicle.map), 7)
@@ -145,7 +145,7 @@ class SlipTest(unittest.TestCase):
                 drive = Among()
                 for k in range(100):
                     drive.step(slip=1.0 if k == 60 else 0.0)
-                    self.assertEqual(fix(drive)["result"], cairn.MATCHED)
+                    self.assertEqual(fix(drive)["result"], cairn.Result.MATCHED)
                 self.assertLessEqual(sum(drive.refused[60:]), 20)
                 self.assertLess(drive.error().max(), 0.08)
 
@@ -292,7 +292,7 @@ class DoorTest(unittest.TestCase):
             match = drive.vehicle.update_position([*drive.place + drive.random.normal(0, 0.2, 2) + wrong, 0],
                                                   np.diag([0.04, 0.04, 0.04]))
             if wrong:
-                self.assertEqual(match["result"], cairn.REJECTED)
+                self.assertEqual(match["result"], cairn.Result.REJECTED)
             self.assertEqual(drive.vehicle.last_update()["widened_position"], 0.0)
         self.assertLess(drive.error().max(), 0.06)
 
@@ -315,7 +315,7 @@ class FixTest(unittest.TestCase):
                 place[:2] += [30.0, -10.0]
             one.predict_increment(((0, 0, 0), (1, 0, 0, 0)), noise)
             where = place + random.normal(0, 0.1, 3) * [1, 1, 0 if flat else 1]
-            results.append(one.update_position(where, np.eye(3) * 0.01)["result"] == cairn.MATCHED)
+            results.append(one.update_position(where, np.eye(3) * 0.01)["result"] == cairn.Result.MATCHED)
         self.assertTrue(all(results[:20]))
         self.assertEqual(results[20:22], [False, False])
         self.assertTrue(all(results[22:]), results[20:])
@@ -336,7 +336,7 @@ class FixTest(unittest.TestCase):
                     one.predict_wheels(0.1, *(2.0 + random.normal(0, 0.05, 2)))
                     if step % 10 == 0:
                         match = one.update_position(place + random.normal(0, 0.5, 3), np.eye(3) * 0.25)
-                        refused.append(match["result"] == cairn.REJECTED)
+                        refused.append(match["result"] == cairn.Result.REJECTED)
                     near = np.flatnonzero(np.linalg.norm(landmarks - place, axis=1) < 12)
                     one.update(sensor, near, landmarks[near] - place + random.normal(0, 0.1, (len(near), 3)))
                     widened += one.last_update()["widened_position"] > 0

@@ -221,7 +221,7 @@ class WorldTest(unittest.TestCase):
             cairn.World(landmarks=0)
         with self.assertRaisesRegex(TypeError, "no option 'hills'"):
             cairn.World(hills=3)
-        with self.assertRaisesRegex(ValueError, "CAIRN_PRESET_ROW9"):
+        with self.assertRaisesRegex(ValueError, "preset: must be one of 'paper'"):
             cairn.World("row9")
         world = cairn.World()
         with self.assertRaisesRegex(cairn.CairnError, "NOT_FOUND"):

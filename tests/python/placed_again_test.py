@@ -43,7 +43,7 @@ class Drive:
     def young(self, error=None):
         """The result of a frame with all landmarks for the young one."""
         results = self.frame(range(7), None if error is None else {YOUNG: error})
-        assert all(results[id] != cairn.REJECTED for id in OLD), results
+        assert all(results[id] != cairn.Result.REJECTED for id in OLD), results
         return results[YOUNG]
 
     def placed_again(self):
@@ -62,8 +62,8 @@ def all_kinds(test):
         for points in (PLANAR, SPATIAL):
             for error in ("invariant", "standard"):
                 for submap in (0, 30):
-                    with self.subTest(size=points.shape[1], error=error, submap=submap):
-                        test(self, lambda **more: Drive(points, error=error, submap_landmarks=submap, **more))
+                    with self.subTest(size=points.shape[1], state_error=error, submap=submap):
+                        test(self, lambda **more: Drive(points, state_error=error, submap_landmarks=submap, **more))
     return run
 
 
@@ -71,12 +71,12 @@ class PlacedAgainTest(unittest.TestCase):
     @all_kinds
     def test_two_observations_outvote_the_one_that_placed_it(self, drive):
         one = drive()
-        self.assertEqual(one.young(GROSS), cairn.NEW)
+        self.assertEqual(one.young(GROSS), cairn.Result.NEW)
         self.assertTrue(one.counts())
-        self.assertEqual(one.young(), cairn.REJECTED)
+        self.assertEqual(one.young(), cairn.Result.REJECTED)
         self.assertFalse(one.counts())  # one against one
         self.assertEqual(one.vehicle.last_update()["deferred"], 1)
-        self.assertEqual((one.young(), one.placed_again()), (cairn.NEW, 1))  # although the map is full
+        self.assertEqual((one.young(), one.placed_again()), (cairn.Result.NEW, 1))  # although the map is full
         match = one.matches[YOUNG]
         self.assertEqual((match["landmark"], match["reason"]), (YOUNG, 0))
         self.assertGreater(match["distance"], match["threshold"])
@@ -84,7 +84,7 @@ class PlacedAgainTest(unittest.TestCase):
         self.assertTrue(one.counts())
         self.assertEqual(one.vehicle.last_update()["deferred"], 0)
         for _ in range(10):
-            self.assertEqual((one.young(), one.placed_again()), (cairn.MATCHED, 0))
+            self.assertEqual((one.young(), one.placed_again()), (cairn.Result.MATCHED, 0))
         self.assertEqual(one.vehicle.local_map.landmark(YOUNG)["observations"], 11)
         self.assertLess(one.error(), 0.1)
         self.assertGreater(one.vehicle.audit(), 0)
@@ -92,26 +92,26 @@ class PlacedAgainTest(unittest.TestCase):
     @all_kinds
     def test_the_third_observation_decides_for_the_first(self, drive):
         one = drive()
-        self.assertEqual(one.young(), cairn.NEW)
-        self.assertEqual(one.young(GROSS), cairn.REJECTED)
+        self.assertEqual(one.young(), cairn.Result.NEW)
+        self.assertEqual(one.young(GROSS), cairn.Result.REJECTED)
         self.assertFalse(one.counts())
-        self.assertEqual((one.young(), one.placed_again()), (cairn.MATCHED, 0))
+        self.assertEqual((one.young(), one.placed_again()), (cairn.Result.MATCHED, 0))
         self.assertTrue(one.counts())
         self.assertLess(one.error(), 0.15)
 
     def test_observations_that_all_differ_decide_nothing(self):
         one = Drive()
-        self.assertEqual(one.young(GROSS), cairn.NEW)
+        self.assertEqual(one.young(GROSS), cairn.Result.NEW)
         for error in (-GROSS, 2 * GROSS, None):
-            self.assertEqual(one.young(error), cairn.REJECTED)
+            self.assertEqual(one.young(error), cairn.Result.REJECTED)
             self.assertFalse(one.counts())
-        self.assertEqual((one.young(), one.placed_again()), (cairn.NEW, 1))
+        self.assertEqual((one.young(), one.placed_again()), (cairn.Result.NEW, 1))
         self.assertLess(one.error(), 0.2)
 
     def test_an_honest_observation_outside_of_the_gate_changes_nothing(self):
         one = Drive(step=1e-6)
         one.young()
-        self.assertEqual(one.young([0.32, 0, 0]), cairn.REJECTED)
+        self.assertEqual(one.young([0.32, 0, 0]), cairn.Result.REJECTED)
         self.assertTrue(13.9 < one.matches[YOUNG]["distance"] < 27.0, one.matches[YOUNG])
         self.assertTrue(one.counts())
 
@@ -121,8 +121,8 @@ class PlacedAgainTest(unittest.TestCase):
             one.young()
         one.points[YOUNG] += GROSS[:2]
         results = [(one.young(), one.placed_again()) for _ in range(6)]
-        self.assertEqual(results[:4], [(cairn.REJECTED, 0)] * 4)
-        self.assertEqual(results[4:], [(cairn.NEW, 1), (cairn.MATCHED, 0)])
+        self.assertEqual(results[:4], [(cairn.Result.REJECTED, 0)] * 4)
+        self.assertEqual(results[4:], [(cairn.Result.NEW, 1), (cairn.Result.MATCHED, 0)])
 
     def test_an_old_landmark_that_moved_stays(self):
         one = Drive()
@@ -130,7 +130,7 @@ class PlacedAgainTest(unittest.TestCase):
             one.young()
         one.points[YOUNG] += GROSS[:2]
         for _ in range(30):
-            self.assertEqual((one.young(), one.placed_again()), (cairn.REJECTED, 0))
+            self.assertEqual((one.young(), one.placed_again()), (cairn.Result.REJECTED, 0))
         self.assertTrue(one.counts())
         self.assertGreater(one.error(), 3.0)
 
@@ -140,7 +140,7 @@ class PlacedAgainTest(unittest.TestCase):
         one = drive(frames=3)
         one.frame(OLD, slip=2.0)
         for _ in range(12):
-            self.assertEqual(set(one.frame(OLD).values()), {cairn.REJECTED})
+            self.assertEqual(set(one.frame(OLD).values()), {cairn.Result.REJECTED})
             self.assertEqual(one.placed_again(), 0)
         self.assertTrue(all(one.counts(id) for id in OLD))
 
@@ -156,14 +156,14 @@ class PlacedAgainTest(unittest.TestCase):
         one.frame(young)
         for _ in range(5):
             results = one.frame(range(16))
-            self.assertEqual([results[id] for id in (3, 4, 5)], [cairn.REJECTED] * 3)
+            self.assertEqual([results[id] for id in (3, 4, 5)], [cairn.Result.REJECTED] * 3)
             self.assertEqual(one.placed_again(), 0)
 
     def test_a_motion_that_is_hardly_known_decides_nothing(self):
         one = Drive(step=3.0)  # the landmarks say where the vehicle is, dead reckoning does not
         one.young(GROSS)
         for _ in range(6):
-            self.assertEqual((one.young(), one.placed_again()), (cairn.REJECTED, 0))
+            self.assertEqual((one.young(), one.placed_again()), (cairn.Result.REJECTED, 0))
 
     def test_the_state_is_that_of_a_landmark_that_is_placed_for_the_first_time(self):
         """Also the correlation by the encoders of a head, whose error the frame has in common."""
@@ -264,10 +264,10 @@ class ManyGrossErrorsTest(unittest.TestCase):
     def test_a_new_landmark_counts_from_the_second_observation_that_agrees(self):
         for submap in (0, 30):
             one = self.drive(submap_landmarks=submap)
-            self.assertEqual(one.frame(range(7))[YOUNG], cairn.NEW)
+            self.assertEqual(one.frame(range(7))[YOUNG], cairn.Result.NEW)
             self.assertFalse(one.counts())
             self.assertEqual(one.vehicle.last_update()["deferred"], 1)
-            self.assertEqual(one.frame(range(7))[YOUNG], cairn.MATCHED)
+            self.assertEqual(one.frame(range(7))[YOUNG], cairn.Result.MATCHED)
             self.assertTrue(one.counts())
             self.assertLess(one.error(), 0.2)
 
@@ -281,7 +281,7 @@ class ManyGrossErrorsTest(unittest.TestCase):
                 continue
             one.vehicle.close_submap()
             self.assertEqual([int(id) for id in one.vehicle.map.landmarks()["id"]], list(OLD))
-            self.assertEqual(one.frame(range(7))[YOUNG], cairn.NEW)
+            self.assertEqual(one.frame(range(7))[YOUNG], cairn.Result.NEW)
 
     def test_a_submap_compares_its_only_observation_with_the_map(self):
         one = self.drive(submap_landmarks=30, join="dense")
@@ -312,9 +312,9 @@ class ManyGrossErrorsTest(unittest.TestCase):
         one = self.drive(points, submap_landmarks=12)  # room for 28
         one.vehicle.close_submap()
         for start, removed in ((7, 0), (21, 28)):  # each is seen once
-            self.assertEqual(set(one.frame(range(start, start + 14)).values()), {cairn.NEW})
+            self.assertEqual(set(one.frame(range(start, start + 14)).values()), {cairn.Result.NEW})
             self.assertEqual(one.vehicle.last_update()["removed"], removed)
-        self.assertEqual(set(one.frame(range(35, 49)).values()), {cairn.NEW})
+        self.assertEqual(set(one.frame(range(35, 49)).values()), {cairn.Result.NEW})
 
 
 
@@ -324,7 +324,7 @@ class FirstFramesTest(unittest.TestCase):
         one = Drive(frames=0)
         one.frame([YOUNG], {YOUNG: GROSS})
         one.frame([YOUNG])
-        self.assertEqual((one.frame([YOUNG])[YOUNG], one.placed_again()), (cairn.NEW, 1))
+        self.assertEqual((one.frame([YOUNG])[YOUNG], one.placed_again()), (cairn.Result.NEW, 1))
         self.assertLess(one.error(), 0.2)
 
 

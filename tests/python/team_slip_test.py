@@ -44,7 +44,7 @@ class Pair:
             for packet in team.packets():
                 self.teams[1 - sender].receive(packet)
         for own, team in enumerate(self.teams):
-            self.refused[own].append(int((team.decisions()["result"] == cairn.REJECTED).sum()))
+            self.refused[own].append(int((team.decisions()["result"] == cairn.Result.REJECTED).sum()))
 
     def error(self, team, vehicle):
         return np.linalg.norm(self.teams[team].pose(vehicle + 1)[0][:2] - self.places[vehicle])

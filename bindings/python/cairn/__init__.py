@@ -4,37 +4,72 @@
 SI units, radians. Body axes: x forward, y left, z up. Quaternions: w x y z. The covariance of a pose is 6 x 6: that of
 the pose's error [dp; dtheta] in the axes of the map. Arrays are numpy arrays; their shapes are checked.
 
-Filter, Map, Team, World, Fleet, Pose and CairnError are the Python layer. `cairn.lib` has every function and constant
-of the C headers, and `cairn.ffi` is its cffi object. Constants are also here without their prefix: cairn.NEW is
-lib.CAIRN_RESULT_NEW. The library is loaded at the first use of one of these names, so that cairn.report works without it.
+Filter, Map, Team, World and Fleet are the handles of the library. Constants are enumerations (Result.NEW), options are
+keyword arguments that typed dictionaries describe (FilterOptions), arrays of structs have numpy types (OBSERVATION).
+`cairn.lib` has every function of the C headers, and `cairn.ffi` is its cffi object. The library is loaded at the first
+use of one of these names, so that cairn.report works without it.
 """
+
+from __future__ import annotations
+
 import importlib
+from typing import TYPE_CHECKING
 
-__version__ = "0.2.0"
-__all__ = ["CairnError", "Filter", "Fleet", "Map", "Pose", "Team", "World", "ffi", "lib", "planar_pose", "pose_compose",
-           "pose_error", "pose_inverse", "quaternion_from_euler", "quaternion_to_euler", "version"]
+from ._declarations import VERSION as __version__
+from .constants import *
+from .layouts import *
+from .structs import *
 
-_HOMES = {"CairnError": "error", "Filter": "filter", "Fleet": "fleet", "Map": "map", "Team": "team", "World": "world",
-          "ffi": "_library", "lib": "_library", "Pose": "pose", "planar_pose": "pose", "pose_compose": "pose",
-          "pose_error": "pose", "pose_inverse": "pose", "quaternion_from_euler": "pose", "quaternion_to_euler": "pose"}
+if TYPE_CHECKING:
+    from ._frames import observations as observations
+    from ._library import ffi as ffi
+    from ._library import lib as lib
+    from .error import CairnError as CairnError
+    from .error import status_name as status_name
+    from .filter import Filter as Filter
+    from .filter import check_custom as check_custom
+    from .fleet import Fleet as Fleet
+    from .library import build as build
+    from .library import defaults as defaults
+    from .library import doubt_text as doubt_text
+    from .library import has as has
+    from .library import id_none as id_none
+    from .library import verdict_text as verdict_text
+    from .library import version as version
+    from .library import version_number as version_number
+    from .map import Map as Map
+    from .pose import Pose as Pose
+    from .pose import planar_pose as planar_pose
+    from .pose import pose_apply as pose_apply
+    from .pose import pose_compose as pose_compose
+    from .pose import pose_error as pose_error
+    from .pose import pose_identity as pose_identity
+    from .pose import pose_inverse as pose_inverse
+    from .pose import quaternion_exp as quaternion_exp
+    from .pose import quaternion_from_euler as quaternion_from_euler
+    from .pose import quaternion_log as quaternion_log
+    from .pose import quaternion_to_euler as quaternion_to_euler
+    from .team import Team as Team
+    from .world import World as World
+    from .world import world_preset as world_preset
+
+# Where the names are that need the library.
+_HOMES = {"_library": ("ffi", "lib"), "_frames": ("observations",), "error": ("CairnError", "status_name"),
+          "filter": ("Filter", "check_custom"), "fleet": ("Fleet",), "map": ("Map",), "team": ("Team",),
+          "library": ("build", "defaults", "doubt_text", "has", "id_none", "verdict_text", "version", "version_number"),
+          "pose": ("Pose", "planar_pose", "pose_apply", "pose_compose", "pose_error", "pose_identity", "pose_inverse",
+                   "quaternion_exp", "quaternion_from_euler", "quaternion_log", "quaternion_to_euler"),
+          "world": ("World", "world_preset")}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 
-def version():
-    """Version of the loaded library, for example "0.2.0"."""
-    from ._library import ffi, lib
-    return ffi.string(lib.cairn_version()).decode()
-
-
-def __getattr__(name):
-    if name in _HOMES:
-        value = getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
-    elif name.isupper():
-        value = getattr(importlib.import_module("._library", __name__).lib, f"CAIRN_{name}")
-    else:
+def __getattr__(name: str) -> object:
+    if name not in _HOME_OF:
         raise AttributeError(f"module 'cairn' has no attribute '{name}'")
+    value: object = getattr(importlib.import_module(f".{_HOME_OF[name]}", __name__), name)
     globals()[name] = value
     return value
 
 
-def __dir__():
-    return sorted(set(globals()) | set(__all__))
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOME_OF})

@@ -1,51 +1,52 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The base of simulated worlds and fleets: handles of libcairn_sim that hand out one step after another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, Generic, TypeVar
+
 from . import _structs
 from ._handle import Handle
-from ._library import ffi, lib
-from .error import CairnError, check
+from ._library import lib
+from .constants import Status
+from .error import CairnError
+
+Step = TypeVar("Step")
 
 
-def check_sim(status):
-    """Raises a CairnError with the message of libcairn_sim if `status` is an error."""
-    check(status, "cairn_sim_last_message")
-
-
-class Simulation(Handle):
+class Simulation(Handle, Generic[Step]):
     """Iterates over the steps. WHAT names the functions: cairn_<WHAT>_next, _rewind, _steps and the struct _step."""
 
-    def _function(self, verb):
+    def _function(self, verb: str) -> Any:
         return getattr(lib, f"cairn_{self.WHAT}_{verb}")
 
-    def _step(self, struct):
-        """The Python object for a filled struct. It must copy all arrays, which the next step overwrites."""
+    def _step(self, fields: dict[str, Any]) -> Step:
+        """The Python object for a step with these fields. The handle is locked."""
         raise NotImplementedError
 
-    def __len__(self):
+    def __len__(self) -> int:
         """Number of steps, the start included."""
-        steps = ffi.new("size_t *")
-        with self._use() as handle:
-            check_sim(self._function("steps")(handle, steps))
-        return steps[0]
+        return int(self._ask("size_t *", self._function("steps")))
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Step]:
         self.rewind()
         for _ in range(len(self)):
             yield self.next()
 
-    def next(self):
+    def next(self) -> Step:
         """The next step. Raises StopIteration after the last step."""
         struct = _structs.sized(f"cairn_{self.WHAT}_step")
-        with self._use() as handle:
+        with self._guard.lock:
             try:
-                check_sim(self._function("next")(handle, struct))
+                self._call(self._function("next"), struct)
             except CairnError as error:
-                if error.status == lib.CAIRN_ERROR_STATE:
-                    raise StopIteration from None
+                if error.status == Status.ERROR_STATE and not self.closed:
+                    raise StopIteration from error
                 raise
-            return self._step(struct)
+            fields = _structs.as_dict(struct[0])
+            return self._step({name: value for name, value in fields.items() if not name.endswith("_count")})
 
-    def rewind(self):
+    def rewind(self) -> None:
         """Goes back to the first step. The same drive follows again, to the bit."""
-        with self._use() as handle:
-            check_sim(self._function("rewind")(handle))
+        self._call(self._function("rewind"))

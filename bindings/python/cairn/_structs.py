@@ -1,132 +1,180 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Converts C structs and arrays to and from keyword arguments, dictionaries and numpy arrays. All names are the field
 names of the headers, so that a new field in a header needs no change here."""
+
+from __future__ import annotations
+
+import enum
 import math
 import operator
+from collections.abc import Iterable, Mapping
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from . import constants
+from ._declarations import TYPED_FIELDS
 from ._library import ffi, lib
-from ._pose_type import Pose
-from .error import check
+from ._pose_type import Pose, PoseLike
+from .error import call
 
 BOOKKEEPING = ("struct_size", "reserved")  # fields that a Python caller neither sets nor sees
-_NUMPY_OF = {"double": "f8", "float": "f4", "int32_t": "i4", "uint32_t": "u4", "int64_t": "i8", "uint64_t": "u8",
-             "size_t": "u8", "uint8_t": "u1", "int8_t": "i1"}
+FLOAT64 = np.dtype(np.float64)
+UINT64 = np.dtype(np.uint64)
+INT64 = np.dtype(np.int64)
+DOUBLES = ffi.typeof("double *")
+Array = NDArray[np.float64]
+Ids: TypeAlias = NDArray[Any] | Iterable[int]
+"""Landmark ids: whole numbers from 0 to 2^64 - 1."""
+
+_from_buffer = ffi.from_buffer
 
 
-def name_of(kind):
+def name_of(kind: Any) -> str:
     """Name of a struct's type. cffi may put "struct" in front of it, depending on how the declarations were made."""
-    return kind.cname[7:] if kind.cname.startswith("struct ") else kind.cname
+    name: str = kind.cname
+    return name[7:] if name.startswith("struct ") else name
 
 
-def shape_of_array(name, length):
+def shape_of_array(name: str, length: int) -> tuple[int, ...]:
     """Shape that a field of `length` values has in numpy: covariances are square, all other fields are flat."""
     side = math.isqrt(length)
     return (side, side) if "covariance" in name and side * side == length and side > 1 else (length,)
 
 
-def array(name, value, shape=None):
+# Arrays.
+
+
+def array(name: str, value: ArrayLike, shape: tuple[int | None, ...] | None = None) -> Array:
     """A C-contiguous array of doubles, whose buffer can be passed to C. None in `shape` means any length."""
-    if np.iscomplexobj(value):
-        raise TypeError(f"{name}: must be real numbers, and is complex")
     try:
-        result = np.ascontiguousarray(value, dtype=np.float64)
+        raw: NDArray[Any] = np.asarray(value)
+        if raw.dtype.kind == "c":
+            raise TypeError("they are complex, and must be real numbers")
+        result: Array = raw if raw.dtype is FLOAT64 and raw.flags.c_contiguous else np.array(raw, FLOAT64, order="C")
     except (TypeError, ValueError) as error:
         raise TypeError(f"{name}: must be numbers: {error}") from None
-    if shape is not None:
-        fits = result.ndim == len(shape) and all(want in (None, has) for want, has in zip(shape, result.shape))
-        if not fits:
+    has = result.shape
+    if shape is not None and has != shape:
+        if len(has) != len(shape) or any(want not in (None, side) for want, side in zip(shape, has)):
             wanted = " x ".join("n" if want is None else str(want) for want in shape)
-            raise ValueError(f"{name}: shape {wanted} is needed, and {result.shape} was given")
+            raise ValueError(f"{name}: shape {wanted} is needed, and {has} was given")
     return result
 
 
-def doubles(values):
+def vector(name: str, value: ArrayLike, length: int) -> list[float]:
+    """`length` numbers for a parameter `const double *`: cffi passes a short list faster than an array."""
+    if type(value) is np.ndarray and value.dtype is FLOAT64 and value.shape == (length,):
+        numbers: list[float] = value.tolist()
+    else:
+        numbers = array(name, value, (length,)).tolist()
+    return numbers
+
+
+def doubles(values: Array) -> Any:
     """Pointer to the values of an array of doubles. The array must live until the call returns."""
-    return ffi.from_buffer("double *", values)
+    return _from_buffer(DOUBLES, values)
 
 
-def identifiers(name, values):
+def optional_doubles(name: str, value: ArrayLike | None, shape: tuple[int | None, ...]) -> Any:
+    """Pointer to the values of an array, which the pointer keeps alive; NULL for None."""
+    return ffi.NULL if value is None else doubles(array(name, value, shape))
+
+
+def pointer(kind: str, values: NDArray[Any]) -> Any:
+    """Pointer to an array of structs or whole numbers. The array must live until the call returns."""
+    return _from_buffer(kind, values)
+
+
+def identifier(name: str, value: int) -> int:
+    """A landmark id or the number of a vehicle: a whole number from 0 to 2^64 - 1."""
+    try:
+        number = operator.index(value)
+    except TypeError as error:
+        raise TypeError(f"{name}: must be a whole number: {error}") from None
+    if not 0 <= number < 1 << 64:
+        raise ValueError(f"{name}: is not in 0 to 2^64 - 1: {number}")
+    return number
+
+
+def identifiers(name: str, values: Ids) -> NDArray[np.uint64]:
     """Landmark ids as an array of uint64: whole numbers from 0 to 2^64 - 1, one dimension."""
-    if isinstance(values, np.ndarray):
+    if type(values) is np.ndarray:
         if values.ndim != 1:
             raise ValueError(f"{name}: must have one dimension, and has {values.ndim}")
         if values.size == 0:
-            return np.zeros(0, np.uint64)
+            return np.zeros(0, UINT64)
         if values.dtype.kind not in "iu":
             raise TypeError(f"{name}: must be whole numbers, and is an array of {values.dtype}")
         if values.dtype.kind == "i" and values.min() < 0:
             raise ValueError(f"{name}: an id is negative: {values.min()}")
-        return np.ascontiguousarray(values, dtype=np.uint64)
+        return np.ascontiguousarray(values, dtype=UINT64)
     try:
-        numbers = [operator.index(value) for value in values]
+        numbers = list(values)
+        if set(map(type, numbers)) != {int}:
+            numbers = [operator.index(value) for value in numbers]
     except TypeError as error:
         raise TypeError(f"{name}: must be whole numbers: {error}") from None
-    if any(number < 0 or number >= 1 << 64 for number in numbers):
+    if numbers and not 0 <= min(numbers) <= max(numbers) < 1 << 64:
         raise ValueError(f"{name}: an id is not in 0 to 2^64 - 1")
-    return np.fromiter(numbers, dtype=np.uint64, count=len(numbers))
+    return np.array(numbers, UINT64)
 
 
-def dtype(type_name):
-    """The numpy type with the memory layout of the C struct. Covariances are square."""
-    names, formats, offsets = [], [], []
-    for name, field in ffi.typeof(type_name).fields:
-        kind, shape = field.type, ()
-        if kind.kind == "array":
-            kind, shape = kind.item, shape_of_array(name, kind.length)
-        base = dtype(kind.cname) if kind.kind == "struct" else np.dtype(_NUMPY_OF[kind.cname])
-        names.append(name)
-        formats.append((base, shape) if shape else base)
-        offsets.append(field.offset)
-    return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": ffi.sizeof(type_name)})
+# Structs.
 
 
-def constant(field, word, struct=""):
-    """The value of a constant that is given by a word: error="standard" is CAIRN_STATE_ERROR_STANDARD, join_loss="huber" is
-    CAIRN_LOSS_HUBER, and mode="joint" in an options struct of a team is CAIRN_TEAM_JOINT."""
-    for prefix in (field, field.split("_")[0], field.split("_")[-1], *struct.split("_")[1:2]):
-        value = getattr(lib, f"CAIRN_{prefix}_{word}".upper(), None)
-        if value is not None:
-            return value
-    raise ValueError(f"{field}: there is no constant CAIRN_{field.split('_')[0].upper()}_{word.upper()}")
+def constant(where: str, kind: str, value: Any) -> int:
+    """The value of a constant of the type `kind` (a class of cairn.constants) that is given as a member, a number, or a
+    word."""
+    members: type[enum.IntEnum] = getattr(constants, kind)
+    if isinstance(value, str):
+        try:
+            return members[value.upper()]
+        except KeyError:
+            words = ", ".join(repr(member.name.lower()) for member in members)
+            raise ValueError(f"{where}: must be one of {words}, and is {value!r}") from None
+    try:
+        return operator.index(value)
+    except TypeError as error:
+        raise TypeError(f"{where}: {error}") from None
 
 
-def set_field(struct, name, kind, value, where, owner=""):
-    """Sets one field of a struct of type `owner` to a Python value."""
+def set_field(struct: Any, name: str, kind: Any, value: Any, where: str, typed: str | None) -> None:
+    """Sets one field of a struct to a Python value. `typed` is the type of constants that the field holds, or None."""
     where = f"{where}{name}"
     if kind.kind == "array":
         shape = shape_of_array(name, kind.length)
         values = np.asarray(value)
         if values.shape != (kind.length,):  # a flat array is always accepted
             values = array(where, value, shape)
-        setattr(struct, name, [float(number) for number in values.ravel()])
+        setattr(struct, name, array(where, values).ravel().tolist())
     elif kind.kind == "struct":
-        set_fields(getattr(struct, name), kind, pose_fields(where, value) if name_of(kind) == "cairn_pose" else value,
-                   where + ".")
-    elif kind.kind == "primitive":
-        if isinstance(value, str):
-            value = constant(name, value, owner)
+        if name_of(kind) == "cairn_pose":
+            value = pose_fields(where, value)
+        set_fields(getattr(struct, name), kind, value, where + ".")
+    else:
+        if typed is not None and typed != "bool":
+            value = constant(where, typed, value)
         try:
             setattr(struct, name, value if kind.cname == "double" else operator.index(value))
         except (TypeError, OverflowError) as error:
             raise type(error)(f"{where}: {error}") from None
-    else:
-        setattr(struct, name, value)
 
 
-def set_fields(struct, kind, values, where=""):
+def set_fields(struct: Any, kind: Any, values: Mapping[str, Any], where: str = "") -> None:
     fields = {name: field.type for name, field in kind.fields if not name.startswith(BOOKKEEPING)}
+    typed = TYPED_FIELDS.get(name_of(kind), {})
     for name, value in values.items():
         if name not in fields:
             raise TypeError(f"there is no option '{where}{name}': {name_of(kind)} has {', '.join(fields)}")
-        set_field(struct, name, fields[name], value, where, name_of(kind))
+        set_field(struct, name, fields[name], value, where, typed.get(name))
 
 
-def pose_fields(name, value):
+def pose_fields(name: str, value: Any) -> dict[str, Any]:
     """The fields of a pose that is given as (position, quaternion), as a cairn.Pose, or as a dictionary."""
     if isinstance(value, dict):
-        return value
+        return value  # pyright: ignore[reportUnknownVariableType]
     try:
         position, quaternion = value
     except (TypeError, ValueError):
@@ -134,81 +182,40 @@ def pose_fields(name, value):
     return {"position": position, "quaternion": quaternion}
 
 
-def new(type_name, values):
+def new(struct_name: str, values: Mapping[str, Any]) -> Any:
     """A struct with the library's defaults (from its _init function) and with the given fields set."""
-    struct = ffi.new(f"{type_name} *")
-    check(getattr(lib, f"{type_name}_init")(struct, ffi.sizeof(type_name)))
-    set_fields(struct, ffi.typeof(type_name), values)
+    struct = ffi.new(f"{struct_name} *")
+    call(getattr(lib, f"{struct_name}_init"), struct, ffi.sizeof(struct_name))
+    set_fields(struct, ffi.typeof(struct_name), values)
     return struct
 
 
-def new_pose(name, value):
+def new_pose(name: str, value: PoseLike) -> Any:
     """A cairn_pose from (position, quaternion)."""
-    struct = ffi.new("cairn_pose *")
-    set_fields(struct, ffi.typeof("cairn_pose"), pose_fields(name, value), f"{name}.")
-    return struct
+    position, quaternion = pose_fields(name, value).values()
+    return ffi.new("cairn_pose *", (vector(f"{name}.position", position, 3),
+                                    vector(f"{name}.quaternion", quaternion, 4)))
 
 
-def sized(type_name):
+def sized(struct_name: str) -> Any:
     """An empty struct with its struct_size set, for a function that fills it."""
-    struct = ffi.new(f"{type_name} *")
-    struct.struct_size = ffi.sizeof(type_name)
-    return struct
+    return ffi.new(f"{struct_name} *", {"struct_size": ffi.sizeof(struct_name)})
 
 
-def report(type_name, ask):
-    """Calls a function that fills a struct with a struct_size; returns the struct as a dictionary."""
-    struct = sized(type_name)
-    check(ask(struct))
-    return as_dict(struct[0])
-
-
-def observations(ids, z, covariance=None):
-    """An array of cairn_observation from n ids, n x rows values and their noise (n x rows x rows, or None). `ids` may
-    also be a complete array of observations; then z and covariance must be None."""
-    layout = dtype("cairn_observation")
-    if z is None:
-        frame = np.asarray(ids)
-        if frame.dtype != layout or frame.ndim != 1 or covariance is not None:
-            raise TypeError("z is missing: only an array of observations can be given without z")
-        return np.ascontiguousarray(frame)
-    ids = identifiers("ids", ids)
-    z = array("z", np.zeros((0, 3)) if len(ids) == 0 and np.size(z) == 0 else z, (len(ids), None))
-    rows = z.shape[1]
-    if not 1 <= rows <= 3:
-        raise ValueError(f"z: must have 1 to 3 values per observation, and has {rows}")
-    frame = np.zeros(len(ids), layout)
-    frame["id"] = ids
-    frame["z"][:, :rows] = z
-    if covariance is not None:
-        packed = array("covariance", covariance, (len(ids), rows, rows)).reshape(len(ids), rows * rows)
-        frame["covariance"].reshape(len(ids), 9)[:, : rows * rows] = packed
-    return frame
-
-
-def as_dict(struct):
-    """The fields of a struct: numbers, arrays, and poses as cairn.Pose. Pointers are left out."""
-    result = {}
-    for name, field in ffi.typeof(struct).fields:
-        if name.startswith(BOOKKEEPING) or field.type.kind == "pointer":
+def as_dict(struct: Any) -> dict[str, Any]:
+    """The fields of a struct: numbers, constants, arrays, and poses as cairn.Pose."""
+    result: dict[str, Any] = {}
+    kind = ffi.typeof(struct)
+    typed = TYPED_FIELDS.get(name_of(kind), {})
+    for name, field in kind.fields:
+        if name.startswith(BOOKKEEPING):
             continue
         value = getattr(struct, name)
         if field.type.kind == "array":
             value = np.array(list(value)).reshape(shape_of_array(name, field.type.length))
         elif field.type.kind == "struct":
-            value = Pose.of(value) if name_of(field.type) == "cairn_pose" else as_dict(value)
+            value = Pose.of(value)
+        elif name in typed:
+            value = bool(value) if typed[name] == "bool" else getattr(constants, typed[name])(value)
         result[name] = value
     return result
-
-
-def filled(type_name, ask):
-    """The array of structs that ask(buffer, capacity, needed) fills. The first call asks for the number of structs."""
-    needed = ffi.new("size_t *")
-    check(ask(ffi.NULL, 0, needed))
-    result = np.zeros(needed[0], dtype(type_name) if type_name in STRUCTS else _NUMPY_OF[type_name])
-    if len(result):
-        check(ask(ffi.from_buffer(f"{type_name} *", result, require_writable=True), len(result), needed))
-    return result[: needed[0]]
-
-
-STRUCTS = frozenset(ffi.list_types()[0])

@@ -1,32 +1,58 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Error statuses of the C interface as exceptions."""
+"""Errors of the library as exceptions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from ._library import ffi, lib
+from .constants import Status
+
+if TYPE_CHECKING:
+    from .structs import MergeReport
 
 
 class CairnError(Exception):
-    """The library refused a call. The handle is unchanged.
+    """The library refused a call. The handle is as before.
 
-    status: one of the CAIRN_ERROR_ constants (a negative whole number). name: the name of that constant. message: which
-    argument or variable is wrong, why, and what to do.
+    status: a member of cairn.Status. name: the name of its C constant. message: which argument or variable is wrong,
+    why, and what to do. report: of a refused merge of maps, else None.
     """
 
-    def __init__(self, status, message):
-        self.status = int(status)
-        self.name = ffi.string(lib.cairn_status_name(self.status)).decode()
+    status: Status
+    name: str
+    message: str
+    report: MergeReport | None = None
+
+    def __init__(self, status: int, message: str) -> None:
+        self.status = Status(status)
+        self.name = status_name(status)
         self.message = message
         super().__init__(f"{self.name}: {message}")
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[type[CairnError], tuple[Status, str]]:
         return type(self), (self.status, self.message)
 
 
-def check(status, message="cairn_last_message"):
-    """Raises a CairnError if `status` is an error. Must run in the thread of the failed call and right after it.
-    `message` is the name of the function that returns the message."""
-    if status != 0:
-        raise CairnError(status, ffi.string(getattr(lib, message)()).decode(errors="replace"))
+def status_name(status: int) -> str:
+    """Name of a status in C, for example "CAIRN_ERROR_ARGUMENT"; "unknown status" for any other value."""
+    name: str = ffi.string(lib.cairn_status_name(status)).decode()
+    return name
 
 
-def closed(what):
-    """The error of a call on a closed handle."""
-    return CairnError(lib.CAIRN_ERROR_STATE, f"the {what} is closed: make a new one")
+def new_error() -> Any:
+    """A cairn_error, which a call of the library fills in."""
+    return ffi.new("cairn_error *", {"struct_size": ffi.sizeof("cairn_error")})
+
+
+def failure(status: int, error: Any) -> CairnError:
+    """The exception for a call that returned `status` and filled in `error`."""
+    return CairnError(status, ffi.string(error.message).decode(errors="replace"))
+
+
+def call(function: Any, *arguments: Any) -> None:
+    """Calls a function of the library that belongs to no handle."""
+    error = new_error()
+    status = function(*arguments, error)
+    if status:
+        raise failure(status, error)

@@ -71,8 +71,8 @@ def main():
         position, quaternion, covariance = rover.pose()
         sigma = 3.0 * np.sqrt(np.diag(covariance))
         yaw = cairn.quaternion_to_euler(quaternion)[2]
-        print(f"{STEPS} steps; {results.count(cairn.MATCHED)} observations matched, {results.count(cairn.NEW)} placed a rock,"
-              f" {results.count(cairn.REJECTED)} were rejected")
+        print(f"{STEPS} steps; {results.count(cairn.Result.MATCHED)} observations matched, {results.count(cairn.Result.NEW)} placed a rock,"
+              f" {results.count(cairn.Result.REJECTED)} were rejected")
         print(f"pose    x {position[0]:6.2f} +- {sigma[0]:.2f} m   y {position[1]:6.2f} +- {sigma[1]:.2f} m   "
               f"yaw {yaw / DEGREE:6.1f} +- {sigma[5] / DEGREE:.1f} deg   (3 sigma)")
         print(f"truth   x {truth.x:6.2f}          y {truth.y:6.2f}          "

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """python -m cairn.report DIR [-o FILE]: one HTML page; --figures OUT: the figures of the paper."""
+from __future__ import annotations
+
 import argparse
 import os
 import sys
+from typing import Any
 
 from . import page, run, team, team_page
 
 
-def pictures_of(runs):
+def pictures_of(runs: Any) -> Any:
     """The paper's figures for the page of a comparison. Without matplotlib it prints a message and returns none."""
     from . import figures
     try:
@@ -18,7 +21,7 @@ def pictures_of(runs):
         return ()
 
 
-def main(arguments=None):
+def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="python -m cairn.report",
         description="Makes one self-contained HTML page of a run's results, or pictures of them.")
@@ -31,7 +34,7 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     try:
         cooperation = team.read_folder(options.folder)
-        runs = run.read_folder(options.folder) if cooperation is None else ()
+        runs: Any = run.read_folder(options.folder) if cooperation is None else ()
         if options.figures:
             from . import figures, team_figures
             paths = (figures.write(runs, options.figures, options.format) if cooperation is None

@@ -1,8 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The curves of the page in plotly's form: {"data": [...], "layout": {...}}."""
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import NDArray
 
 from . import thin
+
+if TYPE_CHECKING:
+    from .run import Run
+
+Array = NDArray[Any]
 
 MOST = 2400  # points of a curve
 COLOURS = {"only": "#2563a8", "standard": "#c8641b", "submaps": "#2563a8"}
@@ -16,12 +26,12 @@ ERRORS = [("x", "error_x_m", "sigma3_x_m", "m", 1.0), ("y", "error_y_m", "sigma3
           ("yaw: about the map's z", "error_dtheta_z_rad", "sigma3_dtheta_z_rad", "deg", np.degrees(1.0))]
 
 
-def key_of(runs, run):
+def key_of(runs: list[Run], run: Run) -> str:
     return "only" if len(runs) == 1 else run.name
 
 
-def base_layout(height, y_title, x_title="time (s)", **more):
-    layout = {"height": height, "margin": {"l": 56, "r": 16, "t": 12, "b": 44}, "paper_bgcolor": "#ffffff",
+def base_layout(height: int, y_title: str, x_title: str = "time (s)", **more: Any) -> dict[str, Any]:
+    layout: dict[str, Any] = {"height": height, "margin": {"l": 56, "r": 16, "t": 12, "b": 44}, "paper_bgcolor": "#ffffff",
               "plot_bgcolor": "#ffffff", "font": {"family": "system-ui, sans-serif", "size": 12, "color": "#33312c"},
               "xaxis": {**AXIS, "title": {"text": x_title}}, "yaxis": {**AXIS, "title": {"text": y_title}},
               "hovermode": "closest", "showlegend": False}
@@ -29,25 +39,27 @@ def base_layout(height, y_title, x_title="time (s)", **more):
     return layout
 
 
-def line(x, y, colour, name, **more):
-    trace = {"type": "scatter", "mode": "lines", "x": thin.numbers(x, 3), "y": thin.significant(y, 5), "name": name,
+def line(x: Array, y: Array, colour: str, name: str, **more: Any) -> dict[str, Any]:
+    trace: dict[str, Any] = {"type": "scatter", "mode": "lines", "x": thin.numbers(x, 3), "y": thin.significant(y, 5), "name": name,
              "line": {"color": colour, "width": 1.4}}
     trace.update(more)
     return trace
 
 
-def band(x, low, high, fill, name):
+def band(x: Array, low: Array, high: Array, fill: str, name: str) -> dict[str, Any]:
     """The area between two curves."""
     return {"type": "scatter", "mode": "lines", "x": thin.numbers(np.concatenate([x, x[::-1]]), 3),
             "y": thin.significant(np.concatenate([high, low[::-1]]), 4), "fill": "toself", "fillcolor": fill,
             "line": {"width": 0}, "hoverinfo": "skip", "name": name}
 
 
-def errors(runs):
+def errors(runs: list[Run]) -> list[Any]:
     """One figure for each of the six errors with its 3-sigma band. Empty if there is no truth."""
-    figures = []
+    figures: list[Any] = []
     for title, error_name, sigma_name, unit, scale in ERRORS:
-        bands, lines, inside = [], [], []
+        bands: list[Any] = []
+        lines: list[Any] = []
+        inside: list[Any] = []
         for run in runs:
             error, sigma = run.trajectory.get(error_name), run.trajectory.get(sigma_name)
             if error is None or np.isnan(error).all():
@@ -61,7 +73,7 @@ def errors(runs):
                 bands.append(band(times[kept], -scale * sigma[kept], scale * sigma[kept], BANDS[key], f"{label}3 σ"))
                 judged = np.isfinite(error) & (sigma > 0)
                 if judged.any():
-                    share = np.mean(np.abs(error[judged]) <= sigma[judged])
+                    share = np.count_nonzero(np.abs(error[judged]) <= sigma[judged]) / np.count_nonzero(judged)
                     inside.append(f"{label}{100 * share:.1f} % inside 3 σ")
             kept = thin.envelope(error, MOST)
             lines.append(line(times[kept], scale * error[kept], COLOURS[key], f"{label}error"))
@@ -71,9 +83,10 @@ def errors(runs):
     return figures
 
 
-def nis(runs):
+def nis(runs: list[Run]) -> Any:
     """Normalised innovation squared (NIS) over its degrees of freedom, with its 95 % band."""
-    traces, notes = [], []
+    traces: list[Any] = []
+    notes: list[str] = []
     for run in runs:
         table = run.timing
         if table is None or not {"nis", "nis_rows", "nis_lower", "nis_upper"} <= set(table):
@@ -85,7 +98,7 @@ def nis(runs):
         label = "" if key == "only" else f"{key}: "
         rows, times = table["nis_rows"][judged], run.time_of_steps(table["step"][judged])
         value, low, high = (table[name][judged] / rows for name in ("nis", "nis_lower", "nis_upper"))
-        share = np.mean((value >= low) & (value <= high))
+        share = np.count_nonzero((value >= low) & (value <= high)) / len(value)
         notes.append(f"{label}{100 * share:.1f} % of the updates inside (95 % are expected), mean {value.mean():.3f} "
                      "(1 is expected)")
         kept = thin.evenly(len(value), MOST)
@@ -99,9 +112,12 @@ def nis(runs):
             "layout": base_layout(280, "NIS / dof")}
 
 
-def step_time(runs):
+def step_time(runs: list[Run]) -> Any:
     """Time of each step on a logarithmic axis. Closings are marked."""
-    traces, notes, least, most = [], [], [], []
+    traces: list[Any] = []
+    notes: list[Any] = []
+    least: list[Any] = []
+    most: list[Any] = []
     for run in runs:
         table = run.timing
         if table is None or "step_ms" not in table or len(table["step_ms"]) == 0:
@@ -130,9 +146,9 @@ def step_time(runs):
     return {"title": "Time of a step", "note": " · ".join(notes), "data": traces, "layout": layout}
 
 
-def held(runs):
+def held(runs: list[Run]) -> Any:
     """Landmarks in the state of the filter."""
-    traces = []
+    traces: list[Any] = []
     for run in runs:
         counts = run.held_landmarks()
         if counts is None:

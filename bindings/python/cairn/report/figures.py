@@ -1,21 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures 5 to 13 of section 4 of the Mars paper, drawn by matplotlib from the two runs of a comparison."""
+from __future__ import annotations
+
+import importlib
 import io
 import os
+from collections.abc import Iterator
+from typing import Any
 
-import matplotlib
 import numpy as np
 
 from . import scene
 from .run import ReportError
 
+matplotlib: Any = importlib.import_module("matplotlib")
 matplotlib.use("Agg", force=True)
-from matplotlib import pyplot, ticker  # noqa: E402
+pyplot: Any = importlib.import_module("matplotlib.pyplot")
+ticker: Any = importlib.import_module("matplotlib.ticker")
 
 TRUTH, ESTIMATE, MARK, SEEN = "#d63f8f", "#1f4fd0", "#2e9b3d", "#d02626"  # the colours of the paper: pink, blue, green, red
 SIDES = {"standard": "#c8641b", "submaps": "#2563a8"}
-STYLE = {"font.size": 9, "axes.grid": True, "grid.color": "#e4e1da", "axes.edgecolor": "#9a968c", "axes.titlesize": 10,
-         "legend.fontsize": 8, "legend.framealpha": 0.9, "svg.hashsalt": "cairn", "savefig.facecolor": "white"}
+STYLE: dict[Any, Any] = {
+    "font.size": 9, "axes.grid": True, "grid.color": "#e4e1da", "axes.edgecolor": "#9a968c", "axes.titlesize": 10,
+    "legend.fontsize": 8, "legend.framealpha": 0.9, "svg.hashsalt": "cairn", "savefig.facecolor": "white"}
 CAPTIONS = {
     5: "Figure 5: the terrain and the rover's true trajectory",
     6: "Figure 6: true and estimated trajectory, standard EKF-SLAM",
@@ -28,17 +35,17 @@ CAPTIONS = {
     13: "Figure 13: landmarks in the state of the filter"}
 
 
-def _terrain(axes, table):
+def _terrain(axes: Any, table: Any) -> None:
     ground = scene.terrain(table)
     if ground is None:
         return
-    x, y = np.meshgrid(ground["x"], ground["y"])
+    x, y = np.meshgrid(np.array(ground["x"], float), np.array(ground["y"], float))
     z = np.array(ground["z"], dtype=float)
     axes.plot_surface(x, y, z, cmap="copper", alpha=0.55, linewidth=0, antialiased=False, rasterized=True, rcount=80,
                       ccount=80)
 
 
-def _flatten(axes):
+def _flatten(axes: Any) -> None:
     """Axes x and y have the same scale. Heights are drawn five times as tall, and more on flat ground."""
     axes.set_xlabel("x (m)", labelpad=6)
     axes.set_ylabel("y (m)", labelpad=6)
@@ -52,7 +59,7 @@ def _flatten(axes):
     axes.view_init(elev=38, azim=-120)
 
 
-def terrain_and_truth(run):
+def terrain_and_truth(run: Any) -> Any:
     figure = pyplot.figure(figsize=(6.4, 4.6))
     axes = figure.add_subplot(projection="3d")
     _terrain(axes, run.terrain)
@@ -66,7 +73,7 @@ def terrain_and_truth(run):
     return figure
 
 
-def trajectories(run):
+def trajectories(run: Any) -> Any:
     figure = pyplot.figure(figsize=(6.4, 4.6))
     axes = figure.add_subplot(projection="3d")
     truth, estimate = run.positions("true_"), run.positions()
@@ -83,7 +90,7 @@ def trajectories(run):
     return figure
 
 
-def _three(times, values, names, unit, bound, sigmas=None):
+def _three(times: Any, values: Any, names: Any, unit: Any, bound: Any, sigmas: Any = None) -> Any:
     """Three curves, one below the other, each with the paper's bound."""
     figure, rows = pyplot.subplots(3, 1, sharex=True, figsize=(6.4, 4.6))
     for row, value, name, at in zip(rows, values.T, names, range(3)):
@@ -104,23 +111,23 @@ def _three(times, values, names, unit, bound, sigmas=None):
     return figure
 
 
-def position_error(run, bound):
+def position_error(run: Any, bound: Any) -> Any:
     truth = run.positions("true_")
     if truth is None:
         return None
-    sigmas = [run.trajectory.get(f"sigma3_{axis}_m") for axis in "xyz"]
-    sigmas = None if any(sigma is None for sigma in sigmas) else np.stack(sigmas, axis=1)
+    columns = [run.trajectory.get(f"sigma3_{axis}_m") for axis in "xyz"]
+    sigmas = None if any(sigma is None for sigma in columns) else np.stack(columns, axis=1)
     return _three(run.times(), truth - run.positions(), "xyz", "m", bound, sigmas=sigmas)
 
 
-def attitude_error(run, bound):
+def attitude_error(run: Any, bound: Any) -> Any:
     error = run.euler_error()
     if error is None:
         return None
     return _three(run.times(), np.degrees(error), ("roll", "pitch", "yaw"), "°", bound)
 
 
-def local_deviation(run):
+def local_deviation(run: Any) -> Any:
     """Figure of the local position and azimuth. None if the run did not write them."""
     columns = [run.trajectory.get(name) for name in ("local_sigma_x_m", "local_sigma_y_m", "local_sigma_dtheta_z_rad")]
     if any(column is None for column in columns):
@@ -140,7 +147,7 @@ def local_deviation(run):
     return figure
 
 
-def held(runs):
+def held(runs: Any) -> Any:
     counts = {run: run.held_landmarks() for run in runs}
     if not any(counts.values()):
         return None
@@ -157,7 +164,7 @@ def held(runs):
     return figure
 
 
-def draw(runs):
+def draw(runs: Any) -> Any:
     """(number, function that draws it) of each figure that these runs have. A single run is standard or has submaps."""
     sides = {run.name: run for run in runs} if len(runs) > 1 else {
         "submaps" if runs[0].submaps is not None and len(runs[0].submaps["step"]) else "standard": runs[0]}
@@ -175,7 +182,7 @@ def draw(runs):
     yield 13, lambda: held(runs)
 
 
-def _rendered(drawn, kind):
+def _rendered(drawn: Iterator[Any], kind: str) -> Iterator[Any]:
     with pyplot.rc_context(STYLE):
         for number, make in drawn:
             figure = make()
@@ -187,15 +194,15 @@ def _rendered(drawn, kind):
             yield number, content.getvalue()
 
 
-def for_page(runs):
+def for_page(runs: Any) -> Any:
     """(caption, media type, bytes) of each figure."""
     return [(CAPTIONS[number], "image/png", content) for number, content in _rendered(draw(runs), "png")]
 
 
-def write_figures(drawn, folder, kind, name):
+def write_figures(drawn: Iterator[Any], folder: str, kind: str, name: str) -> list[Any]:
     """Writes name_05.png and so on; returns their paths. `drawn` gives numbers and the functions that draw."""
     os.makedirs(folder, exist_ok=True)
-    paths = []
+    paths: list[Any] = []
     for number, content in _rendered(drawn, kind):
         paths.append(os.path.join(folder, f"{name}_{number:02d}.{kind}"))
         with open(paths[-1], "wb") as file:
@@ -203,7 +210,7 @@ def write_figures(drawn, folder, kind, name):
     return paths
 
 
-def write(runs, folder, kind):
+def write(runs: Any, folder: Any, kind: Any) -> Any:
     """Writes figure_05.png and so on; returns their paths."""
     paths = write_figures(draw(runs), folder, kind, "figure")
     if not paths:

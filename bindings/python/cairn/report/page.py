@@ -1,14 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Builds the page: one file that contains everything."""
+from __future__ import annotations
+
 import base64
 import html
+import importlib
 import json
 import os
 import re
+from typing import Any, TYPE_CHECKING
 
-from .. import __version__
 from . import curves, path_curves, scene, trust, trust_curves
+from .._declarations import VERSION
 from .run import ReportError
+
+if TYPE_CHECKING:
+    from .run import Run
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MEANINGS = {
@@ -52,7 +59,7 @@ CARDS = [("verdict", "verdict at the end", ""), ("verdict_good_share", "of the s
 FIGURE_SECTION = "The Mars paper’s figures"
 
 
-def number(value):
+def number(value: Any) -> str:
     """A number in readable form."""
     if isinstance(value, str):
         return html.escape(value)
@@ -61,19 +68,19 @@ def number(value):
     return f"{value:.4g}"
 
 
-def meaning(key):
+def meaning(key: str) -> str:
     vehicle = re.fullmatch(r"vehicle_(\d+)_(.*)", key)
     return f"vehicle {vehicle[1]}: {MEANINGS.get(vehicle[2], '')}" if vehicle else MEANINGS.get(key, "")
 
 
-def table(runs):
+def table(runs: list[Any]) -> str:
     keys = [key for key in MEANINGS if any(key in run.summary for run in runs)]
     keys += sorted({key for run in runs for key in run.summary} - set(MEANINGS))
     if not keys:
         return '<p class="note">There is no summary.json.</p>'
     names = [""] if len(runs) == 1 else [run.name for run in runs]
     head = "".join(f"<th>{html.escape(name)}</th>" for name in names)
-    rows = []
+    rows: list[Any] = []
     for key in keys:
         cells = "".join(f"<td>{number(run.summary[key]) if key in run.summary else '–'}</td>" for run in runs)
         rows.append(f'<tr><td><code>{html.escape(key)}</code></td>{cells}'
@@ -86,8 +93,9 @@ def table(runs):
             + "\n".join(rows) + "</tbody></table></div>")
 
 
-def cards(runs):
-    main, shown = runs[-1], []
+def cards(runs: list[Run]) -> str:
+    main = runs[-1]
+    shown: list[str] = []
     for key, name, unit in CARDS:
         if key not in main.summary or (key == "submaps" and not main.summary[key]):
             continue
@@ -100,9 +108,9 @@ def cards(runs):
     return f'<div class="cards">{"".join(shown)}</div>' if shown else ""
 
 
-def keys(runs):
+def keys(runs: list[Run]) -> str:
     """The legend of the curves."""
-    shown = []
+    shown: list[Any] = []
     for run in runs:
         key = curves.key_of(runs, run)
         label = "" if key == "only" else f"{html.escape(key)}: "
@@ -111,17 +119,18 @@ def keys(runs):
     return f'<div class="keys">{"".join(shown)}</div>'
 
 
-def plot_block(curve, at):
+def plot_block(curve: dict[str, Any], at: int) -> str:
     note = f'<p class="note">{html.escape(curve["note"])}</p>' if curve["note"] else ""
     return (f'<div><h3>{html.escape(curve["title"])}</h3>{note}'
             f'<div id="curve{at}" class="plot" style="height:{curve["layout"]["height"]}px"></div></div>')
 
 
-def section(title, figures, found, note="", grid="grid", kind=""):
+def section(title: str, figures: list[Any], found: list[Any], note: str = "", grid: str = "grid",
+            kind: str = "") -> str:
     """A section of figures, one below the other or in a grid of the style `grid`. The figures are added to `found`."""
     if not figures:
         return ""
-    blocks = []
+    blocks: list[Any] = []
     for figure in figures:
         found.append(figure)
         blocks.append(plot_block(figure, len(found) - 1))
@@ -131,9 +140,10 @@ def section(title, figures, found, note="", grid="grid", kind=""):
     return f"<section{attribute}><h2>{title}</h2>{body}{note}</section>"
 
 
-def trust_sections(run, label, found):
+def trust_sections(run: Run, label: str, found: list[Any]) -> Any:
     """What the run says of itself: verdict, systematic errors, corrected trajectory. Each appears if its file is there."""
-    known, blocks = trust.Trust(run.folder, run.start), []
+    known = trust.Trust(run.folder, run.start)
+    blocks: list[str] = []
     if known.health is not None:
         blocks.append(section(f"Trust{label}", [trust_curves.verdict(known.health)], found, grid="", kind="trust"))
         blocks.append(section(f"What the verdict rests on{label}", trust_curves.of_health(known.health), found, kind="trust"))
@@ -149,13 +159,14 @@ def trust_sections(run, label, found):
     return [block for block in blocks if block]
 
 
-def sections(runs, pictures):
+def sections(runs: list[Run], pictures: Any) -> Any:
     """HTML of the sections below the scene, and the curves in them."""
-    found, blocks = [], []
+    found: list[Any] = []
+    blocks: list[str] = []
     for run in runs:
         blocks += trust_sections(run, "" if len(runs) == 1 else f": {html.escape(run.name)}", found)
 
-    def place(curve):
+    def place(curve: dict[str, Any]) -> str:
         found.append(curve)
         return plot_block(curve, len(found) - 1)
 
@@ -177,15 +188,15 @@ def sections(runs, pictures):
     return "\n".join(blocks), found
 
 
-def plotly_source():
+def plotly_source() -> Any:
     try:
-        from plotly.offline import get_plotlyjs
+        plotly: Any = importlib.import_module("plotly.offline")
     except ImportError as error:
         raise ReportError(f"the page needs plotly ({error}): pip install 'cairn[report]'") from None
-    return get_plotlyjs().replace("</script", "<\\/script")
+    return plotly.get_plotlyjs().replace("</script", "<\\/script")
 
 
-def lead_of(run):
+def lead_of(run: Run) -> str:
     times = run.times()
     lead = f"{len(times)} steps"
     if run.timed:
@@ -193,7 +204,7 @@ def lead_of(run):
     return lead + (f"; times count from {run.start:.3f} s" if run.start else "")
 
 
-def build(folder, runs, pictures=()):
+def build(folder: str, runs: list[Run], pictures: Any = ()) -> str:
     """The text of the page of one run or of two."""
     title = os.path.basename(os.path.abspath(folder))
     title = f"{title}: submaps beside one standard map" if len(runs) > 1 else title
@@ -207,7 +218,8 @@ def build(folder, runs, pictures=()):
                     scene.build(runs))
 
 
-def assemble(folder, title, lead, cards_html, blocks, table_html, found, built_scene=None):
+def assemble(folder: str, title: str, lead: str, cards_html: str, blocks: str, table_html: str, found: list[Any],
+             built_scene: Any = None) -> str:
     """The text of the page from its parts. `found` are the curves in the blocks."""
     data = {"scene": built_scene,
             "curves": [{"data": curve["data"], "layout": curve["layout"], "alone": bool(curve.get("alone"))}
@@ -215,13 +227,13 @@ def assemble(folder, title, lead, cards_html, blocks, table_html, found, built_s
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     parts = {"TITLE": html.escape(title), "LEAD": html.escape(lead), "CARDS": cards_html,
              "SCENE": asset("scene.html") if built_scene else "", "SECTIONS": blocks, "TABLE": table_html,
-             "VERSION": __version__, "FOLDER": html.escape(folder), "STYLE": asset("page.css"),
+             "VERSION": VERSION, "FOLDER": html.escape(folder), "STYLE": asset("page.css"),
              "SCRIPT": (asset("scene.js") if built_scene else "") + asset("page.js"), "DATA": text,
              "PLOTLY": plotly_source()}
     pieces = asset("page.html").split("@")
     return "".join(parts[piece] if i % 2 else piece for i, piece in enumerate(pieces))
 
 
-def asset(name):
+def asset(name: str) -> str:
     with open(os.path.join(HERE, name), encoding="utf-8") as file:
         return file.read()

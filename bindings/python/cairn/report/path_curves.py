@@ -1,27 +1,39 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The corrected trajectory beside the online one, in plotly's form."""
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import NDArray
 
 from . import thin
 from .curves import MOST, base_layout, line
 from .trust_curves import BLACK, BLUE, LEGEND, ORANGE
 
-STYLES = {"online": {"color": ORANGE, "width": 1.4, "dash": "dash"}, "corrected": {"color": BLUE, "width": 1.8}}
+if TYPE_CHECKING:
+    from .run import Run
+    from .trust import Trust
+
+Array = NDArray[Any]
+
+STYLES: dict[str, dict[str, Any]] = {"online": {"color": ORANGE, "width": 1.4, "dash": "dash"}, "corrected": {"color": BLUE, "width": 1.8}}
 
 
-def _points(points, name, style):
+def _points(points: Array, name: str, style: dict[str, Any]) -> dict[str, Any]:
     kept = thin.evenly(len(points), MOST)
     return {"type": "scatter", "mode": "lines", "x": thin.significant(points[kept, 0], 7),
             "y": thin.significant(points[kept, 1], 7), "name": name, "line": style, "hoverinfo": "name"}
 
 
-def _trajectories(trust):
+def _trajectories(trust: Trust) -> dict[str, tuple[Array, Array]]:
     return {name: found for name, found in (("online", trust.online), ("corrected", trust.corrected)) if found is not None}
 
 
-def from_above(run, trust):
+def from_above(run: Run, trust: Trust) -> dict[str, Any]:
     """True, online and corrected trajectory from above."""
-    traces, truth = [], run.positions("true_")
+    traces: list[Any] = []
+    truth = run.positions("true_")
     if truth is not None:
         traces.append(_points(truth, "true", {"color": BLACK, "width": 1.2}))
     traces += [_points(points, name, STYLES[name]) for name, (_, points) in _trajectories(trust).items()]
@@ -31,7 +43,7 @@ def from_above(run, trust):
     return {"title": "From above", "note": "", "data": traces, "layout": layout, "alone": True}
 
 
-def distances(run, times, points):
+def distances(run: Run, times: Array, points: Array) -> tuple[Array, Array]:
     """Times, and the distances of the poses from the truth of the same time. A pose whose time has no truth is left out."""
     truth, at = run.positions("true_"), run.times()
     after = np.clip(np.searchsorted(at, times), 1, len(at) - 1) if len(at) > 1 else np.zeros(len(times), int)
@@ -42,11 +54,12 @@ def distances(run, times, points):
     return times[same][known], error[known]
 
 
-def errors(run, trust):
+def errors(run: Run, trust: Trust) -> Any:
     """Distance from the truth over time, or None if there is no truth."""
     if run.positions("true_") is None:
         return None
-    traces, notes = [], []
+    traces: list[Any] = []
+    notes: list[Any] = []
     for name, (times, points) in _trajectories(trust).items():
         times, error = distances(run, times, points)
         if len(times) == 0:
@@ -61,7 +74,7 @@ def errors(run, trust):
     return {"title": "Position error", "note": "root mean square: " + ", ".join(notes), "data": traces, "layout": layout}
 
 
-def of_run(run, trust):
+def of_run(run: Run, trust: Trust) -> list[Any]:
     """The figures of the two trajectories. Empty without a corrected one."""
     if trust.corrected is None:
         return []

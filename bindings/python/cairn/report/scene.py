@@ -1,8 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The data of the page's 3-D scene: the objects, and which of them are shown at each stop of the slider."""
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import NDArray
 
 from . import shapes, thin
+
+if TYPE_CHECKING:
+    from .run import Run
+
+Array = NDArray[Any]
 
 MOST_ELLIPSOIDS = 150
 MOST_LANDMARKS = 20000
@@ -14,7 +24,7 @@ COVARIANCE = ["cov_xx_m2", "cov_xy_m2", "cov_xz_m2", "cov_xy_m2", "cov_yy_m2", "
               "cov_zz_m2"]
 
 
-def terrain(table):
+def terrain(table: Any) -> Any:
     """Regular grid, thinned: x (n), y (m), z (m x n)."""
     if table is None or len(table["x"]) == 0:
         return None
@@ -29,14 +39,14 @@ def terrain(table):
             "z": [thin.numbers(row, 3) for row in heights]}
 
 
-def _columns(points, digits=3):
+def _columns(points: Array, digits: int = 3) -> dict[str, Any]:
     return {axis: thin.numbers(points[:, i], digits) for i, axis in enumerate("xyz")}
 
 
 class Landmarks:
     """The map, in the order in which the landmarks were first seen."""
 
-    def __init__(self, run):
+    def __init__(self, run: Run) -> None:
         table = run.landmarks or {"id": np.zeros(0, np.uint64), "x_m": np.zeros(0), "y_m": np.zeros(0), "z_m": np.zeros(0)}
         first = np.array([run.observations.first_step.get(int(i), 0) for i in table["id"]], dtype=float)
         order = np.argsort(first, kind="stable")
@@ -52,11 +62,12 @@ class Landmarks:
             self.covariances = np.stack([table[name] for name in COVARIANCE], axis=1)[order].reshape(-1, 3, 3)
 
 
-def outlines(run, landmarks):
+def outlines(run: Run, landmarks: Landmarks) -> list[Any]:
     """The outline of each submap from above: (submap, step, points, landmark rows)."""
     if run.submaps is None:
         return []
-    drawn, since = [], run.trajectory["step"][0]
+    drawn: list[Any] = []
+    since = run.trajectory["step"][0]
     positions = run.positions()
     for submap, step in zip(run.submaps["submap"].tolist(), run.submaps["step"]):
         rows = [landmarks.where[i] for i in run.members.get(submap, []) if i in landmarks.where]
@@ -69,13 +80,13 @@ def outlines(run, landmarks):
     return drawn
 
 
-def run_scene(run):
+def run_scene(run: Run) -> dict[str, Any]:
     """The objects of one run. Entries that are added over time are in order of time, each with its step."""
     steps, positions, truth = run.trajectory["step"], run.positions(), run.positions("true_")
     kept = thin.evenly(len(steps), MOST_POINTS)
     landmarks = Landmarks(run)
     marks = thin.evenly(landmarks.count, MOST_LANDMARKS)
-    scene = {"name": run.name, "estimate": _columns(positions[kept]), "steps": thin.numbers(steps[kept], 0),
+    scene: dict[str, Any] = {"name": run.name, "estimate": _columns(positions[kept]), "steps": thin.numbers(steps[kept], 0),
              "times": thin.numbers(run.times()[kept], 3),
              "truth": None if truth is None else _columns(truth[kept]),
              "landmarks": {**_columns(landmarks.points[marks]), "id": [str(i) for i in landmarks.ids[marks]],
@@ -104,7 +115,7 @@ def run_scene(run):
     return scene
 
 
-def stops(run):
+def stops(run: Run) -> list[float]:
     """Steps at which the slider stops: after each of several closings, or evenly spread. The last step is always a stop."""
     steps = run.trajectory["step"]
     closings = [step for step in run.closing_steps() if steps[0] <= step <= steps[-1]]
@@ -115,14 +126,15 @@ def stops(run):
     return sorted({float(step) for step in chosen} | {float(steps[-1])})
 
 
-def exaggeration(scenes, ground):
+def exaggeration(scenes: list[dict[str, Any]], ground: Any) -> dict[str, float]:
     """Extent of the scene, and the factor by which heights are exaggerated so that flat ground shows some relief."""
-    def span(axis):
+    def span(axis: str) -> float:
         found = [value for scene in scenes for value in scene["estimate"][axis] + scene["landmarks"][axis]
                  if value is not None]
         if ground:
             found += ground[axis] if axis != "z" else [v for row in ground["z"] for v in row if v is not None]
-        return max(found) - min(found)
+        extent: float = max(found) - min(found)
+        return extent
 
     x, y, z = max(span("x"), 1e-9), max(span("y"), 1e-9), max(span("z"), 1e-9)
     widest = max(x, y)
@@ -135,7 +147,7 @@ def exaggeration(scenes, ground):
             "times": times}
 
 
-def build(runs):
+def build(runs: list[Run]) -> dict[str, Any]:
     """The scene of one run or of two. The last run has the stops of the slider and the submaps."""
     main = runs[-1]
     first, closings = Landmarks(main).first, sorted(main.closing_steps())

@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads the files that a team wrote into its folder: one run of all vehicles, or a comparison of the modes."""
+from __future__ import annotations
+
 import os
 import types
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import run
 from .run import ReportError
+
+Array = NDArray[Any]
 
 TRAJECTORY = ["step", "time", "vehicle", "x", "y", "heading", "sigma3_x", "sigma3_y", "sigma3_heading"]
 LANDMARKS = ["vehicle", "id", "x", "y", "sigma3_x", "sigma3_y"]
@@ -15,7 +21,7 @@ STEPS = ["features", "mode", "runs", "step", "time", "vehicle", "norm_m2", "recu
 SCENE = ["kind", "id", "x", "y", "radius"]
 
 
-def _table(folder, name, columns):
+def _table(folder: str, name: str, columns: list[str]) -> Any:
     path = os.path.join(folder, name)
     table = run.read_columns(path, columns)
     if table is not None and len(table[columns[0]]) == 0 and columns is not LANDMARKS:
@@ -26,14 +32,14 @@ def _table(folder, name, columns):
 class Vehicle:
     """The columns of one vehicle in a table, and its errors if there is truth."""
 
-    def __init__(self, number, columns):
+    def __init__(self, number: int, columns: dict[str, Array]) -> None:
         self.number = number
         self.columns = columns
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Array:
         return self.columns[name]
 
-    def error(self, name):
+    def error(self, name: str) -> Array:
         """Truth minus estimate of x, y or heading; NaN where there is no truth."""
         if f"true_{name}" not in self.columns:
             return np.full(len(self["time"]), np.nan)
@@ -41,7 +47,7 @@ class Vehicle:
         return (error + np.pi) % (2 * np.pi) - np.pi if name == "heading" else error
 
 
-def _by_vehicle(table):
+def _by_vehicle(table: dict[str, Array]) -> list[Vehicle]:
     return [Vehicle(int(number), {name: column[table["vehicle"] == number] for name, column in table.items()})
             for number in np.unique(table["vehicle"])]
 
@@ -49,7 +55,7 @@ def _by_vehicle(table):
 class Scene:
     """The square that simulated boats drive in: team_scene.csv."""
 
-    def __init__(self, table, path):
+    def __init__(self, table: dict[str, Array], path: str) -> None:
         self.table, self.path = table, path
         self.features = len(self._of("feature")["id"])
         self.boats = [int(number) for number in self._of("radar")["id"]]
@@ -59,17 +65,17 @@ class Scene:
             for boat in self.boats:
                 self.circle(kind, boat)
 
-    def _of(self, kind):
+    def _of(self, kind: str) -> dict[str, Array]:
         chosen = self.table["kind"] == kind
         return {name: column[chosen] for name, column in self.table.items()}
 
-    def points(self, kind, number=None):
+    def points(self, kind: str, number: int | None = None) -> tuple[Array, Array]:
         """x and y of the coast, of the features or of the drive of boat `number`."""
         rows = self._of(kind)
         chosen = np.ones(len(rows["id"]), bool) if number is None else rows["id"] == number
         return rows["x"][chosen], rows["y"][chosen]
 
-    def circle(self, kind, number):
+    def circle(self, kind: str, number: int) -> Any:
         """x, y and radius of the `course` of a boat, or of its `radar` at the start."""
         rows = self._of(kind)
         for i in np.flatnonzero(rows["id"] == number):
@@ -80,24 +86,24 @@ class Scene:
 class Steps:
     """Claimed uncertainty and time of each vehicle at each step: team_steps.csv."""
 
-    def __init__(self, table, _):
+    def __init__(self, table: dict[str, Array], _: str) -> None:
         self.table = table
         self.features = sorted({int(number) for number in table["features"]})
         self.modes = list(dict.fromkeys(table["mode"].tolist()))
         self.vehicles = sorted({int(number) for number in table["vehicle"]})
         self.runs = int(table["runs"].max())
 
-    def compares(self):
+    def compares(self) -> bool:
         """Whether there are steps with a team and steps without."""
         return "mono" in self.modes and len(self.modes) > 1
 
-    def curve(self, column, features, mode, vehicle):
+    def curve(self, column: str, features: int, mode: str, vehicle: int) -> tuple[Array, Array]:
         """Times and values of a column. Empty if the mode was not run with this number of features."""
         chosen = ((self.table["features"] == features) & (self.table["mode"] == mode)
                   & (self.table["vehicle"] == vehicle))
         return self.table["time"][chosen], self.table[column][chosen]
 
-    def improvement(self, features, mode, vehicle):
+    def improvement(self, features: int, mode: str, vehicle: int) -> tuple[Array, Array]:
         """Times, and by how much the norm is smaller than in the mode mono, in %; NaN where the norm of mono is 0."""
         times, norm = self.curve("norm_m2", features, mode, vehicle)
         alone_times, alone = self.curve("norm_m2", features, "mono", vehicle)
@@ -107,7 +113,7 @@ class Steps:
             return times, np.where(alone > 0, 100 * (alone - norm) / alone, np.nan)
 
 
-def _read(folder, name, columns, kind):
+def _read(folder: str, name: str, columns: list[str], kind: Any) -> Any:
     table = _table(folder, name, columns)
     return None if table is None else kind(table, os.path.join(folder, name))
 
@@ -115,7 +121,7 @@ def _read(folder, name, columns, kind):
 class TeamRun:
     """The files of 'cairn simulate usv --output' or of 'cairn run' on an MRCLAM folder."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: str) -> None:
         self.folder = folder
         self.name = os.path.basename(os.path.abspath(folder))
         self.vehicles = _by_vehicle(_table(folder, "team_trajectories.csv", TRAJECTORY))
@@ -126,13 +132,15 @@ class TeamRun:
         self.steps = _read(folder, "team_steps.csv", STEPS, Steps)
         self.observations = types.SimpleNamespace(refused={})  # no file holds them
 
-    def drawn_features(self):
+    def drawn_features(self) -> list[int]:
         """The numbers of features with which the scene can be drawn."""
         return [] if self.scene is None else [self.scene.features]
 
-    def one_map(self):
+    def one_map(self) -> bool:
         """Whether all vehicles hold the same map. They do if all run the same filter."""
-        first = self.maps[0] if self.maps else None
+        if not self.maps:
+            return True
+        first = self.maps[0]
         return all(np.array_equal(one["id"], first["id"]) and np.allclose(one["x"], first["x"], rtol=0, atol=1e-6)
                    and np.allclose(one["y"], first["y"], rtol=0, atol=1e-6) for one in self.maps)
 
@@ -140,7 +148,7 @@ class TeamRun:
 class TeamComparison:
     """The files of 'cairn simulate usv --compare --output': rows by number of features and mode."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: str) -> None:
         self.folder = folder
         self.name = os.path.basename(os.path.abspath(folder))
         self.table = _table(folder, "team_compare.csv", COMPARISON)
@@ -149,17 +157,17 @@ class TeamComparison:
         self.scene = _read(folder, "team_scene.csv", SCENE, Scene)
         self.steps = _read(folder, "team_steps.csv", STEPS, Steps)
 
-    def drawn_features(self):
+    def drawn_features(self) -> list[Any]:
         """The numbers of features with which the scene can be drawn: the first features are those of the smaller worlds."""
         return [] if self.scene is None else self.features
 
-    def value(self, column, features, mode):
+    def value(self, column: str, features: int, mode: str) -> float:
         """One figure; NaN if the mode was not run with this number of features."""
         found = (self.table["features"] == features) & (self.table["mode"] == mode)
         return float(self.table[column][found][0]) if found.any() else float("nan")
 
 
-def read_folder(folder):
+def read_folder(folder: str) -> Any:
     """A TeamRun or a TeamComparison, or None if the folder holds neither. If the folder was used for both, its
     summary.json decides."""
     has_run, has_comparison = (os.path.isfile(os.path.join(folder, name))

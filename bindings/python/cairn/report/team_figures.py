@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures 2 to 7 of the cooperative paper, drawn by matplotlib from a comparison of the modes or from one run."""
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterator
+from typing import Any, TYPE_CHECKING
+
 import numpy as np
 
 from . import team_time
@@ -7,21 +13,25 @@ from .figures import pyplot, write_figures
 from .run import ReportError
 from .team_curves import MODES, colour_of
 
+if TYPE_CHECKING:
+    from .team import Scene
+    from .team import Steps
+
 DASHES = {"mono": "-", "eo_diagonal": (0, (5, 2)), "eo_full": (0, (5, 2, 1, 2)), "submaps": ":", "joint": "-"}
 LABELS = {"mono": "alone (mono)", "eo_diagonal": "together (eo_diagonal)", "eo_full": "together (eo_full)",
           "submaps": "together (submaps)", "joint": "together (joint)"}
 SHOWN = ("mono", "eo_diagonal", "eo_full", "joint")  # in a comparison; the paper has no figure of submaps
 
 
-def shown_modes(steps):
+def shown_modes(steps: Steps) -> list[str]:
     return [mode for mode in team_time.ordered(steps.modes) if mode in SHOWN or len(steps.modes) <= 2]
 
 
-def _line_of(mode):
+def _line_of(mode: str) -> dict[str, Any]:
     return {"color": MODES.get(mode, "#55524a"), "linestyle": DASHES.get(mode, "-"), "linewidth": 1.3}
 
 
-def _boat(axes, scene, boat, colour, size):
+def _boat(axes: Any, scene: Scene, boat: int, colour: str, size: int) -> None:
     """A triangle at the start of a boat, with the bow ahead: boats turn to the left around the centre of their course."""
     x, y, _ = scene.circle("radar", boat)
     cx, cy, _ = scene.circle("course", boat)
@@ -29,7 +39,7 @@ def _boat(axes, scene, boat, colour, size):
     axes.plot(x, y, color=colour, marker=(3, 0, heading - 90), markersize=size, linestyle="none", zorder=6)
 
 
-def _closer(axes, scene, boat, colour):
+def _closer(axes: Any, scene: Scene, boat: int, colour: str) -> None:
     """Course and true drive of one boat, and the boat at its start."""
     axes.plot(*team_time.circle_points(*scene.circle("course", boat)), color=colour, linewidth=1.3)
     axes.plot(*scene.points("drive", boat), color="#1c1b19", linewidth=0.8)
@@ -41,7 +51,7 @@ def _closer(axes, scene, boat, colour):
     axes.set_title(f"boat {boat} (m); triangle: start;\nblack: the true drive", fontsize=8)
 
 
-def world(scene, features):
+def world(scene: Scene, features: int) -> Any:
     """Coast line, features, courses, and the radars' circles at the start. A window looks closer at the second boat."""
     figure = pyplot.figure(figsize=(8.4, 5.4))
     cells = figure.add_gridspec(2, 2, width_ratios=(1.9, 1), height_ratios=(1, 1))
@@ -74,7 +84,7 @@ def world(scene, features):
     return figure
 
 
-def norms(steps, features):
+def norms(steps: Steps, features: int) -> Any:
     """For two boats: above the norm of the position's covariance, below the improvement ratio."""
     vehicles = steps.vehicles[:2]
     figure, cells = pyplot.subplots(2, len(vehicles), sharex=True, sharey="row", squeeze=False, figsize=(7.2, 5.4))
@@ -92,7 +102,7 @@ def norms(steps, features):
     cells[0, 0].set_ylabel("norm of the position's\ncovariance (m²)")
     cells[1, 0].set_ylabel("improvement ratio (%)")
     cells[0, 0].set_ylim(bottom=0)
-    handles, labels = (sum(parts, []) for parts in zip(cells[0, 0].get_legend_handles_labels(),
+    handles, labels = ([*first, *second] for first, second in zip(cells[0, 0].get_legend_handles_labels(),
                                                        cells[1, 0].get_legend_handles_labels()))
     figure.legend(handles, labels, loc="upper center", ncols=3, frameon=False)
     figure.text(0.995, 0.005, "one world" if steps.runs == 1 else f"means of {steps.runs} worlds", ha="right", va="bottom",
@@ -102,7 +112,7 @@ def norms(steps, features):
     return figure
 
 
-def recursion(steps, features):
+def recursion(steps: Steps, features: int) -> Any:
     """The time of a recursion of the second boat."""
     vehicle = team_time.paper_boat(steps)
     figure, axes = pyplot.subplots(figsize=(6.4, 4.0))
@@ -121,18 +131,18 @@ def recursion(steps, features):
     return figure
 
 
-def draw(one):
+def draw(one: Any) -> Iterator[Any]:
     """(number, function that draws it) of each figure for which the folder has the data."""
     for (kind, features), number in sorted(team_time.PAPER.items(), key=lambda entry: entry[1]):
         if kind == "scene":
             if one.scene is not None and features in one.drawn_features():
-                yield number, lambda features=features: world(one.scene, features)
+                yield number, functools.partial(world, one.scene, features)
         elif one.steps is not None and features in one.steps.features and one.steps.compares():
-            make = norms if kind == "norm" else recursion
-            yield number, lambda features=features, make=make: make(one.steps, features)
+            make: Callable[..., Any] = norms if kind == "norm" else recursion
+            yield number, functools.partial(make, one.steps, features)
 
 
-def write(one, folder, kind):
+def write(one: Any, folder: str, kind: str) -> Any:
     """Writes usv_figure_02.png and so on; returns their paths."""
     paths = write_figures(draw(one), folder, kind, "usv_figure")
     if not paths:

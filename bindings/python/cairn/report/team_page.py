@@ -1,10 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page of a team: the trajectories and maps of its vehicles, or a comparison of the modes."""
+from __future__ import annotations
+
 import html
+from typing import Any, TYPE_CHECKING
 
 import numpy as np
 
 from . import page, team, team_curves, team_time
+
+if TYPE_CHECKING:
+    from .team import Steps
+    from .team import TeamComparison
+    from .team import TeamRun
 
 CARDS = [("pose_rmse_m", "position error, rms", "m", 1), ("landmark_rmse_m", "landmark error, rms", "m", 1),
          ("pose_anees_per_dof", "consistency of the poses (1 is right)", "", 1),
@@ -16,8 +24,8 @@ COLUMNS = [("claimed", "claimed, %", "{:.1f}"), ("true", "true, %", "{:.1f}"), (
            ("landmark_rmse_m", "landmarks, m", "{:.2f}"), ("recursion_ms", "ms a recursion", "{:.3g}")]
 
 
-def _cards(summary):
-    shown = []
+def _cards(summary: dict[str, Any]) -> str:
+    shown: list[Any] = []
     for key, name, unit, scale in CARDS:
         value = summary.get(key)
         if isinstance(value, (int, float)):
@@ -26,11 +34,11 @@ def _cards(summary):
     return f'<div class="cards">{"".join(shown)}</div>' if shown else ""
 
 
-def _worlds(steps, kind):
+def _worlds(steps: Steps, kind: str) -> str:
     return "One world." if steps.runs == 1 else f"{kind} of {steps.runs} worlds."
 
 
-def _over_time(steps, features, found):
+def _over_time(steps: Steps, features: int, found: list[dict[str, Any]]) -> str:
     """Norms and improvement ratios with one number of features."""
     figures = team_time.norms(steps, features) + team_time.improvements(steps, features)
     return page.section(f"Uncertainty with {features} features{team_time.paper_figure('norm', features)}", figures, found,
@@ -39,7 +47,7 @@ def _over_time(steps, features, found):
                         "A click on a mode in the legend shows or hides it.", grid="grid pairs")
 
 
-def _compared_steps(steps, found):
+def _compared_steps(steps: Steps, found: list[dict[str, Any]]) -> str:
     """All modes over time. The steps of only one mode need one curve for each vehicle."""
     if len(steps.modes) > 1:
         return "".join(_over_time(steps, features, found) for features in steps.features) + _recursions(steps, found)
@@ -48,15 +56,16 @@ def _compared_steps(steps, found):
                         "of the packets.", grid="grid pairs")
 
 
-def _recursions(steps, found):
+def _recursions(steps: Steps, found: list[dict[str, Any]]) -> str:
     figures = [figure for features in steps.features
                for figure in team_time.recursions(steps, features, steps.vehicles)]
     return page.section("Time of a recursion", figures, found,
                         f"{_worlds(steps, 'Medians')} One vehicle, one step, with its share of the packets.", grid="grid pairs")
 
 
-def _of_run(one):
-    found, times = [], np.concatenate([vehicle["time"] for vehicle in one.vehicles])
+def _of_run(one: TeamRun) -> str:
+    found: list[Any] = []
+    times = np.concatenate([vehicle["time"] for vehicle in one.vehicles])
     the_map = team_curves.the_map(one)
     if one.scene is None:
         blocks = page.section("The drives and their map", [the_map], found, grid="")
@@ -72,10 +81,10 @@ def _of_run(one):
     return page.assemble(one.folder, one.name, lead, _cards(one.summary), blocks, page.table([one]), found)
 
 
-def _comparison_table(comparison):
+def _comparison_table(comparison: TeamComparison) -> str:
     columns = [column for column in COLUMNS if column[0] in comparison.table]
     head = "".join(f"<th>{title}</th>" for _, title, _ in columns)
-    rows = []
+    rows: list[Any] = []
     for features in comparison.features:
         for mode in comparison.modes:
             values = [(form, comparison.value(name, features, mode)) for name, _, form in columns]
@@ -85,8 +94,8 @@ def _comparison_table(comparison):
             + "</tbody></table></div>")
 
 
-def _of_comparison(comparison):
-    found = []
+def _of_comparison(comparison: TeamComparison) -> str:
+    found: list[Any] = []
     blocks = page.section("Improvement on a vehicle by itself, vehicle 1", team_curves.improvement(comparison), found,
                            "Claimed: by how much the norm of the position’s covariance is smaller. True: by how much the mean "
                            "squared error is. A claim above the truth is overconfidence.")
@@ -101,6 +110,6 @@ def _of_comparison(comparison):
     return page.assemble(comparison.folder, comparison.name, lead, "", blocks, _comparison_table(comparison), found)
 
 
-def build(one):
+def build(one: Any) -> str:
     """The text of the page of a TeamRun or of a TeamComparison."""
     return _of_comparison(one) if isinstance(one, team.TeamComparison) else _of_run(one)

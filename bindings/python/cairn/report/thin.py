@@ -1,9 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Picks fewer points whose curve looks the same."""
+from __future__ import annotations
+
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
 
 
-def envelope(values, most):
+def envelope(values: Array, most: int) -> Array:
     """Indices of the lowest and the highest value of each of most/2 intervals, so that no peak is lost."""
     count = len(values)
     if count <= most:
@@ -17,14 +24,14 @@ def envelope(values, most):
     return np.array(sorted(kept))
 
 
-def evenly(count, most):
+def evenly(count: int, most: int) -> Array:
     """Indices of at most `most` values, evenly spread. The first and the last are among them."""
     if count <= most:
         return np.arange(count)
     return np.unique(np.linspace(0, count - 1, most).round().astype(int))
 
 
-def worst_and_evenly(badness, most):
+def worst_and_evenly(badness: Array, most: int) -> Array:
     """Indices of at most `most` values, ascending: a quarter are the worst ones, the others are evenly spread."""
     count = len(badness)
     if count <= most:
@@ -34,12 +41,12 @@ def worst_and_evenly(badness, most):
     return np.sort(np.concatenate([worst, rest[evenly(len(rest), most - len(worst))]]))
 
 
-def numbers(values, digits):
+def numbers(values: Any, digits: int) -> list[Any]:
     """A rounded list for JSON. A value that is not a number becomes null."""
     rounded = np.round(np.asarray(values, dtype=float), digits)
     return [value if np.isfinite(value) else None for value in rounded.tolist()]
 
 
-def significant(values, digits=4):
+def significant(values: Any, digits: int = 4) -> list[Any]:
     """The same with a given number of significant digits, for values of any size."""
     return [float(f"{value:.{digits}g}") if np.isfinite(value) else None for value in np.asarray(values, dtype=float)]

@@ -1,9 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How far a run can be trusted, in plotly's form: verdict, refusals, learned noise, systematic errors, corrected path."""
+from __future__ import annotations
+
+from typing import Any, TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import NDArray
 
 from . import thin, trust
 from .curves import MOST, band, base_layout, line
+
+if TYPE_CHECKING:
+    from .trust import Health
+
+Array = NDArray[Any]
 
 BLUE, ORANGE, GREEN, BLACK = "#0072b2", "#d55e00", "#009e73", "#1c1b19"  # of Okabe and Ito, for the colour-blind
 PALE_BLUE, PALE_ORANGE = "rgba(0,114,178,0.16)", "rgba(213,94,0,0.16)"
@@ -11,12 +21,12 @@ VERDICT_COLOURS = [GREEN, "#e69f00", ORANGE]  # of trust.VERDICTS; their height 
 REASONS = {"nis": "innovations", "refusals": "refusals", "widened": "widened", "sensor_noise": "sensor noise",
            "motion_noise": "motion noise", "bias": "bias", "jump": "jump", "landmarks": "landmarks contradict",
            "closing": "closing contradicts", "blind": "blind direction", "definite": "covariance"}
-LEGEND = {"showlegend": True, "legend": {"orientation": "h", "x": 0, "y": 1, "yanchor": "bottom", "font": {"size": 12}}}
+LEGEND: dict[str, Any] = {"showlegend": True, "legend": {"orientation": "h", "x": 0, "y": 1, "yanchor": "bottom", "font": {"size": 12}}}
 MOST_STATES = 12
 PIXELS = 800  # of the time axis, about
 
 
-def spans(times, held):
+def spans(times: Array, held: Array) -> tuple[Array, Array]:
     """Begins and ends of the spans in which a condition holds. A span ends where the next step begins. It is long enough to
     be seen."""
     steps = np.flatnonzero(np.diff(np.concatenate([[False], held, [False]]).astype(int)))
@@ -28,16 +38,17 @@ def spans(times, held):
     return begins, np.maximum(ends, begins + least)
 
 
-def _bars(begins, ends, height, colour, name, width=12):
+def _bars(begins: Array, ends: Array, height: int, colour: str, name: str, width: int = 12) -> dict[str, Any]:
     """Thick horizontal lines at a height, one a span."""
     x = np.stack([begins, ends, np.full(len(begins), np.nan)], axis=1).ravel()
     return {"type": "scatter", "mode": "lines", "x": thin.numbers(x, 3), "y": [height, height, None] * len(begins),
             "name": name, "line": {"color": colour, "width": width}, "hoverinfo": "name+x"}
 
 
-def verdict(health):
+def verdict(health: Health) -> dict[str, Any]:
     """The verdict over time, and below it a row for each reason that occurs."""
-    traces, names = [], []
+    traces: list[Any] = []
+    names: list[Any] = []
     for level in reversed(range(len(trust.VERDICTS))):
         begins, ends = spans(health.times, health.level == level)
         names.append(trust.VERDICTS[level])
@@ -57,13 +68,13 @@ def verdict(health):
             "layout": layout}
 
 
-def _curve(health, name, colour, label, **more):
+def _curve(health: Health, name: str, colour: str, label: str, **more: Any) -> dict[str, Any]:
     values = health.column(name)
     kept = thin.envelope(values, MOST)
     return line(health.times[kept], values[kept], colour, label, **more)
 
 
-def refusals(health):
+def refusals(health: Health) -> Any:
     """Share of refused observations. A triangle marks a step whose pose was widened."""
     share = health.column("refused_share")
     if share is None:
@@ -85,9 +96,12 @@ def refusals(health):
     return {"title": "Refused observations of known landmarks", "note": note, "data": traces, "layout": layout}
 
 
-def learned_noise(health):
+def learned_noise(health: Health) -> Any:
     """Factors on the stated standard deviations that explain the innovations, with two of their own standard deviations."""
-    bands, lines, notes, top = [], [], [], 2.0
+    bands: list[Any] = []
+    lines: list[Any] = []
+    notes: list[str] = []
+    top = 2.0
     for name, label, colour, fill in (("motion_scale", "motion", BLUE, PALE_BLUE),
                                       ("sensor_scale", "sensors", ORANGE, PALE_ORANGE)):
         scale, sigma = health.column(name), health.column(name + "_sigma")
@@ -114,12 +128,12 @@ def learned_noise(health):
             "data": bands + lines, "layout": layout}
 
 
-def _level(height):
+def _level(height: int) -> dict[str, Any]:
     return {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": height, "y1": height, "layer": "below",
             "line": {"color": "#9a968c", "width": 1, "dash": "dot"}}
 
 
-def recent_innovations(health):
+def recent_innovations(health: Health) -> Any:
     """NIS of a window for each row, with its band."""
     value, low, high = (health.column(name) for name in ("nis_per_row", "nis_lower", "nis_upper"))
     if value is None or low is None or high is None:
@@ -128,13 +142,13 @@ def recent_innovations(health):
     if not known.any():
         return None
     at = np.flatnonzero(known)[thin.evenly(int(known.sum()), MOST)]
-    inside = np.mean((value[known] >= low[known]) & (value[known] <= high[known]))
+    inside = np.count_nonzero(known & (value >= low) & (value <= high)) / np.count_nonzero(known)
     return {"title": "Recent innovations (NIS for each row)", "note": f"{100 * inside:.1f} % of the steps in the band; 1 is "
             "expected", "data": [band(health.times[at], low[at], high[at], PALE_BLUE, "band"),
                                  _curve(health, "nis_per_row", BLUE, "NIS")], "layout": base_layout(280, "NIS / rows")}
 
 
-def contradictions(health):
+def contradictions(health: Health) -> Any:
     """Bias and jump of the pose in their own standard deviations."""
     traces = [_curve(health, name, colour, label, line={"color": colour, "width": 1.4, "dash": dash})
               for name, label, colour, dash in (("bias_sigmas", "bias of the corrections", BLUE, "solid"),
@@ -148,7 +162,7 @@ def contradictions(health):
             "layout": layout}
 
 
-def persistence(health):
+def persistence(health: Health) -> Any:
     values = health.column("persistence")
     if values is None:
         return None
@@ -159,15 +173,15 @@ def persistence(health):
             "data": [_curve(health, "persistence", BLUE, "correlation")], "layout": layout}
 
 
-def of_health(health):
+def of_health(health: Health) -> list[Any]:
     """The figures besides the verdict."""
     made = [refusals(health), learned_noise(health), recent_innovations(health), contradictions(health), persistence(health)]
     return [figure for figure in made if figure]
 
 
-def systematic(states):
+def systematic(states: list[Any]) -> list[Any]:
     """Each estimated systematic error in its 3-sigma band."""
-    figures = []
+    figures: list[Any] = []
     for name, unit, times, value, sigma in states[:MOST_STATES]:
         at = thin.evenly(len(times), MOST)
         data = [band(times[at], value[at] - 3 * sigma[at], value[at] + 3 * sigma[at], PALE_BLUE, "3 σ")]
