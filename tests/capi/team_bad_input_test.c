@@ -107,7 +107,7 @@ static void options_that_do_not_go_together(void** state) {
     bad.T_body_sensor = pose_at(0, 0, 0, 0.1, 0, 0);
     assert_status(try_create(&o, &good, &bad), CAIRN_ERROR_ARGUMENT);
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options", try_create(NULL, &good, &radar));
-    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "options", try_create(&o, NULL, &radar));
+    assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "filter", try_create(&o, NULL, &radar));
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "NULL", try_create(&o, &good, NULL));
     assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "team", cairn_team_create(&o, &good, &radar, NULL, NULL));
   }

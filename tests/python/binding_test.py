@@ -250,6 +250,14 @@ class FunctionsTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "T_a_b.quaternion: shape 4"):
             cairn.pose_apply(([1, 0, 0], [1, 0, 0]), [2, 0, 0])
 
+    def test_constants_keep_their_names_of_version_0_1(self):
+        for old, new in ((cairn.REJECTED, cairn.Result.REJECTED), (cairn.ERROR_STATE, cairn.Status.ERROR_STATE),
+                         (cairn.LOSS_CAUCHY, cairn.Loss.CAUCHY), (cairn.TEAM_JOINT, cairn.TeamMode.JOINT),
+                         (cairn.NOISE_APPLIED, cairn.NoiseLearning.APPLIED), (cairn.DOUBT_BIAS, cairn.Doubts.BIAS)):
+            self.assertIs(old, new)
+        with self.assertRaises(AttributeError):
+            cairn.NOTHING
+
     def test_words(self):
         self.assertEqual(cairn.verdict_text(cairn.Verdict.LOST), "lost")
         self.assertEqual(cairn.verdict_text(99), "unknown")

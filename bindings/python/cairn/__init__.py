@@ -12,9 +12,12 @@ use of one of these names, so that cairn.report works without it.
 
 from __future__ import annotations
 
+import enum
 import importlib
+import re
 from typing import TYPE_CHECKING
 
+from . import constants
 from ._declarations import VERSION as __version__
 from .constants import *
 from .layouts import *
@@ -63,10 +66,29 @@ _HOMES = {"_library": ("ffi", "lib"), "_frames": ("observations",), "error": ("C
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 
+def _constant(name: str) -> object:
+    """A constant by the name that it had in version 0.1: cairn.REJECTED, cairn.ERROR_STATE, cairn.TEAM_JOINT."""
+    for kind in vars(constants).values():
+        if not (isinstance(kind, type) and issubclass(kind, enum.Enum)) or kind.__module__ != constants.__name__:
+            continue
+        words = re.findall("[A-Z][a-z]*", kind.__name__)  # the prefix was that of the type or its first word
+        prefixes = {"_".join(words).upper() + "_", words[0].upper().removesuffix("S") + "_"}
+        if kind.__name__ in ("Status", "Result"):
+            prefixes.add("")
+        for member in kind:
+            if any(name == prefix + member.name for prefix in prefixes):
+                return member
+    raise AttributeError(f"module 'cairn' has no attribute '{name}'")
+
+
 def __getattr__(name: str) -> object:
-    if name not in _HOME_OF:
+    value: object
+    if name in _HOME_OF:
+        value = getattr(importlib.import_module(f".{_HOME_OF[name]}", __name__), name)
+    elif name.isupper():
+        value = _constant(name)
+    else:
         raise AttributeError(f"module 'cairn' has no attribute '{name}'")
-    value: object = getattr(importlib.import_module(f".{_HOME_OF[name]}", __name__), name)
     globals()[name] = value
     return value
 
