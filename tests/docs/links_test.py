@@ -2,8 +2,9 @@
 """Links of the documentation site lead somewhere: links_test.py HTML checks a folder that Doxygen made.
 
 Checked are the links, pictures, styles and scripts of all pages, and the addresses in the scripts of navigation and
-search: the file exists inside the folder, and so does the place in it. Links to other sites are not opened; --external
-prints them. Without a folder the tests of this file run.
+search: the file exists inside the folder, and so does the place in it. No command of Doxygen may stand in the text: it
+does when Doxygen lost its way in a page. Links to other sites are not opened; --external prints them. Without a folder
+the tests of this file run.
 """
 import argparse
 import collections
@@ -18,15 +19,16 @@ import urllib.parse
 
 ADDRESS = {"a": "href", "area": "href", "link": "href", "img": "src", "script": "src", "iframe": "src",
            "object": "data"}
+COMMAND = re.compile(r"(?:^|\s)[@\\](?:ref|subpage|section|subsection|page)\s")
 IN_SCRIPT = re.compile(r"""["']((?:\.\./)?[\w.-]+\.html(?:#[^"'\\]*)?)["']""")
 
 
 class Page(html.parser.HTMLParser):
-    """The places of a page, and what it refers to: (line, address)."""
+    """The places of a page, what it refers to and the commands in its text: (line, address or command)."""
 
     def __init__(self, text):
         super().__init__()
-        self.places, self.addresses = set(), []
+        self.places, self.addresses, self.commands = set(), [], []
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
@@ -35,6 +37,9 @@ class Page(html.parser.HTMLParser):
         address = values.get(ADDRESS.get(tag))
         if address is not None and not address.startswith("javascript:"):
             self.addresses.append((self.getpos()[0], address))
+
+    def handle_data(self, data):
+        self.commands += [(self.getpos()[0], command.strip()) for command in COMMAND.findall(data)]
 
 
 def read(path):
@@ -81,6 +86,8 @@ class Site:
             for line, address in self.page(path).addresses:
                 if cause := self.wrong(path, os.path.dirname(path), address):
                     yield f"{os.path.relpath(path, self.root)}:{line}: {address}: {cause}"
+            for line, command in self.page(path).commands:
+                yield f"{os.path.relpath(path, self.root)}:{line}: {command}: a command of Doxygen in the text"
         for path in self.files(".js"):  # the tree and the search
             for address in sorted(set(IN_SCRIPT.findall(read(path)))):
                 # Every script stands beside the page that loads it; those of the tree name pages of the root.
@@ -113,6 +120,10 @@ class LinksTest(unittest.TestCase):
                             ('<a href="/etc/passwd">', "it leads out of the site"),
                             ('<a href="file:///etc/passwd">', "it names a file of the machine that made the page")):
             self.assertEqual(self.problems({"index.html": text}), [cause], text)
+
+    def test_commands_in_the_text(self):
+        self.assertEqual(self.problems({"index.html": "<p>see\n@ref somewhere and more</p>"}),
+                         ["a command of Doxygen in the text"])
 
     def test_wrong_addresses_in_scripts(self):
         self.assertEqual(self.problems({"tree.js": '["A", "nothing.html", null]'}), ["there is no such file"])

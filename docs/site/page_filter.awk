@@ -4,7 +4,19 @@
 # - a link to a page, or to a heading of a page, becomes a reference to a label; its words come into one line;
 # - a heading gets its label: the name of the page, and the words of the heading;
 # - in the pages that list others, an item becomes a child of the page in the tree of navigation;
-# - a link to a file that is no page becomes the name of the file, because the site does not contain it.
+# - a link to a file that is no page becomes the name of the file, because the site does not contain it;
+# - the name of a function becomes a link to it. Doxygen by itself links only the names of structs and headers.
+# The variable headers is the folder of the C headers, which tell the functions.
+
+BEGIN {
+  list = "cat '" headers "'/*.h"
+  while ((list | getline line) > 0)
+    while (match(line, /cairn_[a-z0-9_]+\(/)) {
+      functions[substr(line, RSTART, RLENGTH - 1)] = 1
+      line = substr(line, RSTART + RLENGTH)
+    }
+  close(list)
+}
 
 # From the text of a heading, as the usual viewers of Markdown do it.
 function slug(text) {
@@ -43,6 +55,16 @@ function named(line,    text, path) {
   return line
 }
 
+function linked(line,    done, name) {
+  done = ""
+  while (match(line, /`cairn_[a-z0-9_]+`/)) {
+    name = substr(line, RSTART + 1, RLENGTH - 2)
+    done = done substr(line, 1, RSTART - 1) (name in functions ? "<code>@ref " name "</code>" : "`" name "`")
+    line = substr(line, RSTART + RLENGTH)
+  }
+  return done line
+}
+
 FNR == 1 {
   page = FILENAME
   sub(/.*\//, "", page)
@@ -59,6 +81,10 @@ FNR == 1 {
 /^ *```/ { in_code = !in_code }
 in_code { print; next }
 /\[[^]]*$/ { held = $0; next }
+lists && sub(/^## /, "") {  # these pages are short: their headings need no places in the tree
+  print "<h2>" $0 "</h2>"
+  next
+}
 /^##/ && !/\{#/ {
   heading = $0
   sub(/^#+ */, "", heading)
@@ -77,5 +103,5 @@ lists && match($0, /^- \[[^]]*\]\([a-z_]+\.md\)/) {
 }
 # The rules stand in a header, as a page of their own.
 lists && sub(/^- \[Rules for every function\]\([^)]*\)/, "- @subpage rules \"Rules for every function\"") { print; next }
-{ print referenced(named($0)) }
-END { if (held != "") print referenced(named(held)) }
+{ print linked(referenced(named($0))) }
+END { if (held != "") print linked(referenced(named(held))) }
