@@ -29,7 +29,8 @@ fi
 # A binding that is not in this tree has no package: the profile leaves it out of debian/control.
 profiles=()
 packages=(build-essential dpkg-dev debhelper lintian fakeroot chrpath cmake=cmake ninja-build=ninja pkgconf=pkg-config
-  libeigen3-dev libnanoflann-dev libmatio-dev doxygen=doxygen)
+  libeigen3-dev libnanoflann-dev libmatio-dev doxygen=doxygen doxygen-awesome-css
+  python3)
 if [[ -d $root/bindings/python ]]; then
   packages+=(dh-python pybuild-plugin-pyproject python3-all python3-setuptools python3-wheel python3-cffi python3-numpy)
 else

@@ -33,7 +33,7 @@ trap summary EXIT
 begin "Packages"
 need_packages cmake=cmake g++=g++ ninja-build=ninja pkgconf=pkg-config libeigen3-dev libnanoflann-dev libmatio-dev \
   libcmocka-dev doctest-dev nlohmann-json3-dev python3 python3-cffi python3-numpy python3-clang-14 \
-  doxygen=doxygen shellcheck=shellcheck binutils=nm groff-base=groff mosquitto libmosquitto-dev
+  doxygen=doxygen doxygen-awesome-css shellcheck=shellcheck binutils=nm groff-base=groff mosquitto libmosquitto-dev
 launcher=()
 if command -v ccache >/dev/null; then
   launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
@@ -63,8 +63,9 @@ bash "$root/bindings/rust/test.sh" "$root/build/check"
 begin "Other tools read trajectories, maps and a mission"
 bash "$root/tests/program/check_other_tools.sh" "$root/build/check"
 
-begin "Documentation: warnings are errors"
+begin "Documentation: warnings and broken links are errors"
 cmake --build "$root/build/check" --target docs
+/usr/bin/python3 -B "$root/tests/docs/links_test.py" "$root/build/check/docs/html"
 
 begin "Build: sanitizers (build/sanitize)"
 configure "$root/build/sanitize" --preset sanitize "${launcher[@]}" -DCAIRN_SANITIZE_ACCESSES=OFF \

@@ -1,11 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** \file
  *  Includes all headers of libcairn. */
-/** \mainpage Cairn
- *  Landmark SLAM behind a C ABI. A vehicle tells the library how it moved and where it saw landmarks. The library
- *  returns the vehicle's pose, a map of the landmarks, and covariances that say how far to trust both.
- *
- *  \section rules Rules that hold for every function
+/** \page rules Rules for every function
  *  - **Units** are SI units; angles are in radians. **Frames** are right-handed. The body frame has x forward, y left,
  *    z up. The map frame is the frame of the initial pose.
  *  - **Errors**: a call that fails returns a negative \ref cairn_status, and fills in the caller's \ref cairn_error, if

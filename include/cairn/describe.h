@@ -8,15 +8,21 @@
 #ifndef CAIRN_DESCRIBE_H
 #define CAIRN_DESCRIBE_H
 
+/* Comments stand above the macros: Doxygen would take one behind a macro for a comment on each use of it. */
+
 #ifdef CAIRN_DESCRIBE
 #define CAIRN_MARK(text) __attribute__((annotate(text)))
 #else
-#define CAIRN_MARK(text) /**< any of the marks below: an annotation if CAIRN_DESCRIBE is defined, otherwise nothing */
+/** Any of the marks below: an annotation if CAIRN_DESCRIBE is defined, otherwise nothing. */
+#define CAIRN_MARK(text)
 #endif
 
-#define CAIRN_IN CAIRN_MARK("in")       /**< points to one value that the function reads */
-#define CAIRN_OUT CAIRN_MARK("out")     /**< points to one value, or the array, that the function writes */
-#define CAIRN_INOUT CAIRN_MARK("inout") /**< points to one value that the function reads and writes */
+/** Points to one value that the function reads. */
+#define CAIRN_IN CAIRN_MARK("in")
+/** Points to one value, or the array, that the function writes. */
+#define CAIRN_OUT CAIRN_MARK("out")
+/** Points to one value that the function reads and writes. */
+#define CAIRN_INOUT CAIRN_MARK("inout")
 
 /** Points to an array that the function reads. Its length is an expression of other parameters, or of fields of a
  *  struct: `3 * count`, `cairn_custom.rows`. */
@@ -26,7 +32,8 @@
  *  gives with `*needed` for `capacity`. */
 #define CAIRN_OUT_ARRAY(...) CAIRN_MARK("out") CAIRN_MARK("length=" #__VA_ARGS__)
 
-#define CAIRN_OPTIONAL CAIRN_MARK("optional") /**< may be NULL */
+/** May be NULL. */
+#define CAIRN_OPTIONAL CAIRN_MARK("optional")
 
 /** Unit of a double: SI units, `1` for a plain number, `pose` for the error [dp; dtheta] of a pose (m, rad), `sensor`
  *  for the units of a sensor's values. */
@@ -39,7 +46,9 @@
  *  call of this thread that fails. */
 #define CAIRN_BORROWED(owner) CAIRN_MARK("borrowed=" #owner)
 
-#define CAIRN_VALUES(type) CAIRN_MARK("values=" #type) /**< the constants of a type */
-#define CAIRN_BITS(type) CAIRN_MARK("bits=" #type)     /**< the bits of a type, each a constant */
+/** The constants of a type. */
+#define CAIRN_VALUES(type) CAIRN_MARK("values=" #type)
+/** The bits of a type, each a constant. */
+#define CAIRN_BITS(type) CAIRN_MARK("bits=" #type)
 
 #endif

@@ -25,6 +25,7 @@ ALLOWED = {
     "CAIRN_REJECTED": "a name of 0.1, in the changelog",
     "add_subdirectory": "a command of cmake",
     "find_package": "a command of cmake",
+    "print_verdict": "a function of the guides",
     "Exp": "a symbol of formulas",
     "Log": "a symbol of formulas",
     "Sigma": "a symbol of formulas",
