@@ -59,6 +59,11 @@ for header in "${headers[@]}"; do
   "$cxx" -std=c++17 -x c++ "${strict[@]}" "$work/alone.c" || fail "$header alone as C++17"
 done
 pass "${#headers[@]} headers, each alone as C99 and as C++17"
+for header in cairn/cairn.hpp cairn/sim.hpp; do
+  printf '#include <%s>\n#include <%s>\nint main() {}\n' "$header" "$header" >"$work/alone.cpp"
+  "$cxx" -std=c++17 "${strict[@]}" "$work/alone.cpp" || fail "$header alone as C++17"
+done
+pass "the headers of C++"
 
 # The lines of C that the README opens with are true.
 awk '/^```c$/ {on = 1; next} /^```$/ && on {exit} on' "$prefix/share/doc/cairn/README.md" >"$work/readme.txt"
@@ -72,6 +77,15 @@ awk '/^```c$/ {on = 1; next} /^```$/ && on {exit} on' "$prefix/share/doc/cairn/R
 } >"$work/readme.c"
 "$cc" -std=c99 "${strict[@]}" -Wno-unused-but-set-parameter "$work/readme.c" || fail "the README's lines of C"
 pass "the README's lines of C compile"
+awk '/^```cpp$/ {on = 1; next} /^```$/ && on {exit} on' "$prefix/share/doc/cairn/README.md" >"$work/readme.txt"
+{
+  grep '^#include' "$work/readme.txt"
+  echo 'int main() {'
+  grep -v '^#include' "$work/readme.txt"
+  echo 'static_cast<void>(pose), static_cast<void>(covariance); }'
+} >"$work/readme.cpp"
+"$cxx" -std=c++17 "${strict[@]}" -Wno-unused-variable "$work/readme.cpp" || fail "the README's lines of C++"
+pass "the README's lines of C++ compile"
 
 # The symbols: what the headers promise, what the committed list says, and nothing else.
 symbols() { nm -D --defined-only "$1" | awk '$2 != "A" {print $3}' | LC_ALL=C sort; }
