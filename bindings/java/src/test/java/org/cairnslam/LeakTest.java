@@ -59,7 +59,9 @@ class LeakTest {
     System.out.printf("leak: %d filters of %d KiB, %s: memory grew by %d KiB%n", FILTERS, each,
         close ? "closed" : "left to the garbage collector", grown);
     assertEquals(known, Registration.count(), "functions that C still knows");
-    assertTrue(grown < TOLERATED_KIB, "memory grew by " + grown + " KiB");
+    // The collector frees in bursts, and C's allocator keeps the memory of a burst: a tenth of what a leak would take.
+    final long tolerated = close ? TOLERATED_KIB : FILTERS * each / 10;
+    assertTrue(grown < tolerated, "memory grew by " + grown + " KiB");
   }
 
   @Test
