@@ -146,18 +146,15 @@ cairn_world_step next(cairn_world* world) {
   return step;
 }
 
-std::vector<cairn_world_motion> motions_of(const cairn_world* world, const cairn_world_step& step) {
-  std::vector<cairn_world_motion> motions(step.motion_count);
+// An array of the last step: `query` is the function that copies it, `count` its length.
+template <class Element>
+std::vector<Element> array_of(const cairn_world* world, std::uint64_t count,
+                              cairn_status (*query)(const cairn_world*, Element*, std::size_t, std::size_t*,
+                                                    cairn_error*)) {
+  std::vector<Element> elements(count);
   std::size_t needed = 0;
-  CHECK(cairn_world_motions(world, motions.data(), motions.size(), &needed, nullptr));
-  return motions;
-}
-
-std::vector<cairn_observation> observations_of(const cairn_world* world, const cairn_world_step& step) {
-  std::vector<cairn_observation> observations(step.observation_count);
-  std::size_t needed = 0;
-  CHECK(cairn_world_observations(world, observations.data(), observations.size(), &needed, nullptr));
-  return observations;
+  CHECK(query(world, elements.data(), elements.size(), &needed, nullptr));
+  return elements;
 }
 
 }  // namespace
@@ -179,8 +176,8 @@ void drive(const Rover& rover, const Follower& follower, int seed, Score& score)
   for (std::size_t k = 0; k < steps; ++k) {
     state_noise(next(stated.get()), filter.get());
     const cairn_world_step step = next(world.get());
-    predict(rover, motions_of(world.get(), step), filter.get());
-    const std::vector<cairn_observation> seen = observations_of(world.get(), step);
+    predict(rover, array_of(world.get(), step.motion_count, &cairn_world_motions), filter.get());
+    const auto seen = array_of(world.get(), step.observation_count, &cairn_world_observations);
     if (!seen.empty()) CHECK(cairn_filter_update(filter.get(), sensor, seen.data(), seen.size(), nullptr, nullptr));
     if (k == 0) continue;
     double nees = 0.0, covariance[36], turn[3];

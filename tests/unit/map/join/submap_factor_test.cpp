@@ -6,9 +6,11 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "map/join/submap_hessian.hpp"
+#include "map/submap_innovation.hpp"
 #include "numerical.hpp"
 
 namespace {
@@ -288,6 +290,31 @@ TEST_CASE_TEMPLATE("submap factor: covariances of private landmarks against the 
         for (Index d = 0; d < Pose::kDim; ++d) of_privates.push_back(in_factor<Pose>(i) + d);
       CHECK(difference(A * of_others * A.transpose() + W, P(of_privates, of_privates)) <= 1e-8);
       CHECK(difference(A * of_others, P(of_privates, of_part)) <= 1e-8);
+    }
+}
+
+// A submap that is precise in itself, and whose base was widened by hundreds of metres: its covariance is regular only
+// with the small noise. Another map knows a shared landmark, and so, nearly, everything else.
+TEST_CASE_TEMPLATE("submap factor: no negative variance after the base was widened", Pose, SE3, SE2) {
+  Random random(11);
+  for (const ErrorKind error : kKinds)
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      Submap<Pose> submap = random_submap<Pose>(random, error, 6);
+      submap.covariance *= std::pow(10.0, -0.3 * repeat);
+      const typename Pose::Tangent motion = 300 * Pose::Tangent::Unit(0) + 0.1 * Pose::Tangent::Unit(Pose::kDof - 1);
+      widen(submap, typename Pose::Square(motion * motion.transpose()));
+      const Numbers shared = {1, 3}, privates = {4, 0, 2, 5};
+      const SubmapFactor<Pose> factor(std::make_shared<const SubmapData<Pose>>(submap), shared);
+      const FactorValues<Pose> values = own_values(submap, shared, Pose());
+      Matrix H = whole_hessian(factor, values);
+      H.topLeftCorner<Pose::kDof, Pose::kDof>() += 1e8 * Pose::Square::Identity();  // the base, and a landmark
+      H.template block<Pose::kDim, Pose::kDim>(in_factor<Pose>(0), in_factor<Pose>(0)) +=
+          1e4 * Pose::Point::UnitX().asDiagonal().toDenseMatrix();
+      const Matrix of_others = H.ldlt().solve(Matrix::Identity(H.rows(), H.rows()));
+      Matrix A, W;
+      factor.express_private(privates, values, A, W);
+      const Matrix P = A * of_others * A.transpose() + W;
+      CHECK(P.diagonal().minCoeff() > 0.0);
     }
 }
 

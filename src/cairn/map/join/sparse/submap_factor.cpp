@@ -70,9 +70,9 @@ SubmapData<Pose>::SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>
     given = given_errors(submap.covariance, submap.errors);
     errors = factor_errors(submap.errors, points, given);
   }
-  // Tests the whole covariance, so that no private landmark can make a later closing fail that shares it. The noise that
-  // makes it regular stays in it: the factor of the shared landmarks and what the private ones are given them have to
-  // come from one matrix, or a private landmark gets a negative variance.
+  // Tests the whole covariance, so that no private landmark can make a later closing fail that shares it. The noise
+  // that makes it regular stays in it: the factor of the shared landmarks and what the private ones are given them have
+  // to come from one matrix, or a private landmark gets a negative variance.
   const double grain = factor<Pose>(given.covariance).grain;
   if (grain > 0.0) given.covariance.diagonal() *= 1.0 + grain;
   covariance = Packed(given.covariance);
@@ -317,8 +317,15 @@ void SubmapFactor<Pose>::express_private(const std::vector<Index>& landmarks, co
   const Matrix cross = data_->covariance.block(rows_of, chosen);
   Matrix K = cross * information;
   const Matrix by_errors = K * error_jacobian();
-  W = data_->covariance.block(rows_of, rows_of);
-  W -= K * cross.transpose();
+  // What is left of the private landmarks' covariance, from one Cholesky factor: a difference of large covariances, as
+  // those of a submap whose base was widened, would lose its sign.
+  std::vector<Index> joint = chosen;
+  joint.insert(joint.end(), rows_of.begin(), rows_of.end());
+  const ScaledFactor whole = factor<Pose>(data_->covariance.block(joint, joint));
+  const auto m = static_cast<Index>(rows_of.size());
+  const Matrix rest = whole.scale.tail(m).cwiseInverse().asDiagonal() *
+                      Matrix(whole.llt.matrixLLT().bottomRightCorner(m, m).template triangularView<Eigen::Lower>());
+  W = rest * rest.transpose();
   const PointSquare R = values.base.rotation().matrix();
   const Points placed = place_private(values, xi, weight);
   std::vector<Point> arms;
