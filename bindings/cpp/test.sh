@@ -107,10 +107,10 @@ cp "$root/examples/cpp/rover.cpp" "$work/fresh/rover.cpp"
 cat >"$work/fresh/CMakeLists.txt" <<'CMAKE'
 cmake_minimum_required(VERSION 3.22)
 project(rover LANGUAGES CXX)
-find_package(cairn ${wanted} REQUIRED)
+find_package(cairn ${wanted} REQUIRED COMPONENTS sim)
 add_executable(rover rover.cpp)
 target_compile_features(rover PRIVATE cxx_std_17)
-target_link_libraries(rover PRIVATE cairn::cairn cairn::cairn_sim)
+target_link_libraries(rover PRIVATE cairn::cairn cairn::sim)
 CMAKE
 # find_cairn VERSIONS
 find_cairn() {
