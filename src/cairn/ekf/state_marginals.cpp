@@ -259,6 +259,9 @@ double State<Pose>::smallest_pivot() {
   // needed.
   apply_pending();
   const Index n = states();
+  // On the scaled diagonal: without it, the rest of a row behind a pivot of rounding size, which is rounding, too, would
+  // be divided by almost nothing, and a covariance of low rank would look indefinite.
+  const double shift = 16.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
   double smallest = 1.0;
   double* const diagonal = workspace_.diagonal;
   double* const pivots = workspace_.error_state;
@@ -266,7 +269,7 @@ double State<Pose>::smallest_pivot() {
   for (Index j = 0; j < n; ++j) {
     double* column = P_.column(j);  // rows 0..j-1: R
     const double variance = diagonal[j];
-    double pivot = 1.0;
+    double pivot = 1.0 + shift;
     if (variance > 0.0) {
       for (Index i = 0; i < j; ++i) {
         const double* other = P_.column(i);
@@ -279,8 +282,8 @@ double State<Pose>::smallest_pivot() {
         column[i] = sum;
         pivot -= sum * sum;
       }
-      smallest = std::min(smallest, pivot);
-      if (!(pivot > 0.0)) return pivot;
+      smallest = std::min(smallest, pivot - shift);
+      if (!(pivot > 0.0)) return pivot - shift;
     } else {
       std::fill(column, column + j, 0.0);  // exactly known: left out
       if (variance < 0.0) return variance;

@@ -235,7 +235,25 @@ TEST_CASE("state: the smallest pivot is that of the scaled covariance, and looki
   Matrix6 indefinite = Matrix6::Identity();
   indefinite(1, 0) = indefinite(0, 1) = 2;
   bare.state.start(SE3(), indefinite);
-  CHECK(bare.state.smallest_pivot() == -3);
+  CHECK(bare.state.smallest_pivot() == doctest::Approx(-3));
+}
+
+TEST_CASE("state: rounding of a covariance of low rank is not taken for a negative pivot") {
+  Random random(6);
+  double smallest = 1;
+  for (int n = 0; n < 20000; ++n) {
+    const Eigen::Matrix<double, 6, Eigen::Dynamic> J =
+        Eigen::Matrix<double, 6, Eigen::Dynamic>::NullaryExpr(6, 1 + n % 5, [&] { return random.normal(); });
+    Bare bare(ErrorKind::standard, SE3(), J * J.transpose());
+    smallest = std::min(smallest, bare.state.smallest_pivot());
+  }
+  CHECK(smallest > -1e-12);
+  // A negative eigenvalue behind a pivot of zero is found all the same.
+  Matrix6 indefinite = Matrix6::Identity();
+  indefinite(0, 1) = indefinite(1, 0) = 1;
+  indefinite(0, 2) = indefinite(2, 0) = 1e-4;
+  Bare bare(ErrorKind::standard, SE3(), indefinite);
+  CHECK(bare.state.smallest_pivot() < -1);
 }
 
 TEST_CASE("state: what is not finite is refused, with nothing changed") {
