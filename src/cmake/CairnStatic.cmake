@@ -14,7 +14,8 @@ function(cairn_add_static name output export patterns)
   set(object ${CMAKE_CURRENT_BINARY_DIR}/${name}.o)
   set(inputs)
   foreach(objects IN LISTS ARGN)
-    list(APPEND inputs $<TARGET_OBJECTS:${objects}>)
+    # A precompiled header counts as an object of its target.
+    list(APPEND inputs $<FILTER:$<TARGET_OBJECTS:${objects}>,EXCLUDE,[.][gp]ch$>)
   endforeach()
   list(TRANSFORM patterns PREPEND --keep-global-symbol=)
   add_custom_command(OUTPUT ${object}
