@@ -84,6 +84,7 @@ cairn_status cairn_map_landmark(const cairn_map* map, uint64_t id, cairn_landmar
     std::size_t index = 0;
     if (!source.find(id, index))
       throw Error(ErrorCode::not_found, "id: the map has no landmark %llu", static_cast<unsigned long long>(id));
+    source.prepare_covariances({index});
     *landmark = landmark_at(source, index);
   });
 }

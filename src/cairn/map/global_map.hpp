@@ -2,6 +2,7 @@
 // The map that closed submaps join, in one of two ways: dense (dense_map.hpp) or sparse (sparse_map.hpp).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -66,6 +67,8 @@ template <class Pose>
 class GlobalMap : public Landmarks {
  public:
   bool planar() const final { return Pose::kDim == 2; }
+  // Two answers of the map at one revision are equal.
+  std::uint64_t revision() const { return revision_; }
 
   virtual std::unique_ptr<MapTransaction<Pose>> begin() = 0;
   // A transaction with one step.
@@ -95,6 +98,12 @@ class GlobalMap : public Landmarks {
   virtual std::size_t submap_count() const = 0;
   virtual Pose submap_base(std::size_t submap) const = 0;
   virtual const std::vector<std::uint64_t>& submap_ids(std::size_t submap) const = 0;
+
+ protected:
+  void change() { ++revision_; }  // to be called by all that may change an answer
+
+ private:
+  std::uint64_t revision_ = 0;
 };
 
 }  // namespace cairn

@@ -1,37 +1,91 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map/submap_innovation.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
+#include <numeric>
 
 #include "sensor/sensor.hpp"
 
 namespace cairn {
 
 template <class Pose>
-SubmapInnovation<Pose>::SubmapInnovation(const Pose& base, const Eigen::MatrixXd& P,
-                                         const std::vector<typename Pose::Point>& points, const Submap<Pose>& submap,
-                                         const std::vector<Eigen::Index>& locals, const Eigen::MatrixXd& noise) {
-  constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
-  const auto known = static_cast<Eigen::Index>(locals.size()), m = kDim * known;
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, kDof + m);
-  residual.resize(m);
-  sigma.resize(m, m);
-  for (Eigen::Index a = 0; a < known; ++a) {
-    const std::size_t number = static_cast<std::size_t>(a);
-    Prediction<Pose> prediction;
-    map_jacobians(base, points[number], Prediction<Pose>::ByLandmark::Identity(), prediction);
-    by_base.push_back(prediction.J_z_pose.template topRows<kDim>());
-    H.template block<kDim, kDof>(kDim * a, 0) = by_base.back();
-    H.template block<kDim, kDim>(kDim * a, kDof + kDim * a) = prediction.J_z_landmark.template topRows<kDim>();
-    residual.template segment<kDim>(kDim * a) =
-        submap.landmarks[static_cast<std::size_t>(locals[number])] - base.inverse() * points[number];
-    for (Eigen::Index b = 0; b < known; ++b)
-      sigma.template block<kDim, kDim>(kDim * a, kDim * b) = noise.template block<kDim, kDim>(
-          kDof + kDim * locals[number], kDof + kDim * locals[static_cast<std::size_t>(b)]);
+SubmapInnovation<Pose>::SubmapInnovation(const Pose& base, const Eigen::MatrixXd& P, const std::vector<Point>& points,
+                                         const Submap<Pose>& submap, const std::vector<Eigen::Index>& locals,
+                                         const Eigen::MatrixXd& noise) {
+  std::vector<Point> seen;
+  std::vector<Eigen::Index> rows;
+  for (const Eigen::Index i : locals) {
+    seen.push_back(submap.landmarks[static_cast<std::size_t>(i)]);
+    for (Eigen::Index d = 0; d < Pose::kDim; ++d) rows.push_back(Pose::kDof + Pose::kDim * i + d);
   }
+  sigma = noise(rows, rows);
+  linearise(base, points, seen);
+  spread(P);
+}
+
+template <class Pose>
+void SubmapInnovation<Pose>::linearise(const Pose& base, const std::vector<Point>& points,
+                                       const std::vector<Point>& seen) {
+  constexpr int kDim = Pose::kDim;
+  residual.resize(static_cast<Eigen::Index>(kDim * points.size()));
+  by_base.clear();
+  const Pose T_base_map = base.inverse();
+  for (std::size_t a = 0; a < points.size(); ++a) {
+    Prediction<Pose> prediction;
+    map_jacobians(base, points[a], Prediction<Pose>::ByLandmark::Identity(), prediction);
+    by_base.push_back(prediction.J_z_pose.template topRows<kDim>());
+    by_point = prediction.J_z_landmark.template topRows<kDim>();
+    residual.template segment<kDim>(static_cast<Eigen::Index>(kDim * a)) = seen[a] - T_base_map * points[a];
+  }
+}
+
+template <class Pose>
+void SubmapInnovation<Pose>::spread(const Eigen::MatrixXd& P) {
+  constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  cross.resize(P.rows(), sigma.cols());
   S = sigma;
-  S += H * P * H.transpose();
+  for (Eigen::Index a = 0; a < count(); ++a)
+    cross.template middleCols<kDim>(kDim * a) =
+        P.template leftCols<kDof>() * by_base[static_cast<std::size_t>(a)].transpose() +
+        P.template middleCols<kDim>(kDof + kDim * a) * by_point.transpose();
+  for (Eigen::Index a = 0; a < count(); ++a)
+    S.template middleRows<kDim>(kDim * a) += by_base[static_cast<std::size_t>(a)] * cross.template topRows<kDof>() +
+                                             by_point * cross.template middleRows<kDim>(kDof + kDim * a);
+}
+
+template <class Pose>
+InnovationBatch<Pose>::InnovationBatch(const SubmapInnovation<Pose>& innovation)
+    : innovation_(innovation),
+      numbers_(static_cast<std::size_t>(innovation.count())),
+      kept_(numbers_.size()),
+      refused_(new bool[numbers_.size()]) {
+  std::iota(numbers_.begin(), numbers_.end(), Eigen::Index{0});
+}
+
+template <class Pose>
+void InnovationBatch<Pose>::keep(const Eigen::Index* blocks, Eigen::Index count) {
+  for (Eigen::Index k = 0; k < count; ++k) numbers_[static_cast<std::size_t>(k)] = number(blocks[k]);
+  numbers_.resize(static_cast<std::size_t>(count));
+}
+
+template <class Pose>
+double InnovationBatch<Pose>::joint_distance() {
+  std::vector<Eigen::Index> rows;
+  for (const Eigen::Index i : numbers_)
+    for (Eigen::Index d = 0; d < kDim; ++d) rows.push_back(kDim * i + d);
+  const Eigen::VectorXd residual = innovation_.residual(rows);
+  factor_.compute(innovation_.S(rows, rows));
+  u_ = factor_.solve(residual);
+  distance_ = residual.dot(u_);
+  return distance_;
+}
+
+template <class Pose>
+InverseInnovation InnovationBatch<Pose>::invert() {
+  const Eigen::Index m = u_.size();
+  inverse_ = factor_.solve(Eigen::MatrixXd::Identity(m, m));
+  workspace_.resize(static_cast<std::size_t>(kDim * (kDim + m)));
+  return {inverse_.data(), u_.data(), distance_, workspace_.data()};
 }
 
 template <class Pose>
@@ -102,6 +156,8 @@ void widen(Submap<Pose>& submap, const typename Pose::Square& covariance) {
 
 template struct SubmapInnovation<SE2>;
 template struct SubmapInnovation<SE3>;
+template class InnovationBatch<SE2>;
+template class InnovationBatch<SE3>;
 template std::vector<double> noise_factors(const SubmapInnovation<SE2>&, const RobustLoss&);
 template std::vector<double> noise_factors(const SubmapInnovation<SE3>&, const RobustLoss&);
 template void inflate(Submap<SE2>&, Eigen::Index, double);

@@ -3,8 +3,11 @@
 // widening of the motion that led to it (docs/submaps.md).
 #pragma once
 
+#include <Eigen/Cholesky>
+#include <memory>
 #include <vector>
 
+#include "linear/joint_gate.hpp"
 #include "linear/robust_loss.hpp"
 #include "map/landmarks.hpp"
 #include "map/submap.hpp"
@@ -14,17 +17,67 @@ namespace cairn {
 // nu = y - R^T (l - p) of the known landmarks, y their estimates in the submap, and S = H P H^T + Sigma.
 template <class Pose>
 struct SubmapInnovation {
+  using Point = typename Pose::Point;
   using ByBase = Eigen::Matrix<double, Pose::kDim, Pose::kDof>;
+  using ByPoint = Eigen::Matrix<double, Pose::kDim, Pose::kDim>;
 
+  SubmapInnovation() = default;
   // `locals` are the known landmarks in the submap, `points` their places in the map, `P` the joint covariance of
   // [base; points] and `noise` the submap's covariance with ordinary errors of the known landmarks.
-  SubmapInnovation(const Pose& base, const Eigen::MatrixXd& P, const std::vector<typename Pose::Point>& points,
+  SubmapInnovation(const Pose& base, const Eigen::MatrixXd& P, const std::vector<Point>& points,
                    const Submap<Pose>& submap, const std::vector<Eigen::Index>& locals, const Eigen::MatrixXd& noise);
+
+  // Residual and Jacobians of landmarks that the submap has `seen` at these places.
+  void linearise(const Pose& base, const std::vector<Point>& points, const std::vector<Point>& seen);
+  // P H^T and S, from sigma and the joint covariance of [base; points; anything else].
+  void spread(const Eigen::MatrixXd& P);
 
   Eigen::Index count() const { return static_cast<Eigen::Index>(by_base.size()); }
   Eigen::VectorXd residual;
   Eigen::MatrixXd S, sigma;     // sigma: of y
+  Eigen::MatrixXd cross;        // P H^T
   std::vector<ByBase> by_base;  // of the predicted y, by the error [dp; dtheta] of the base
+  ByPoint by_point;             // and by the error of its own place in the map
+};
+
+// The known landmarks as a batch for gate_blocks().
+template <class Pose>
+class InnovationBatch {
+ public:
+  explicit InnovationBatch(const SubmapInnovation<Pose>& innovation);
+
+  Eigen::Index number(Eigen::Index block) const { return numbers_[static_cast<std::size_t>(block)]; }  // in innovation
+  const std::vector<Eigen::Index>& numbers() const { return numbers_; }  // of those that are left
+
+  Eigen::Index count() const { return static_cast<Eigen::Index>(numbers_.size()); }
+  double distance(Eigen::Index block) const {
+    const Eigen::Index m = innovation_.S.rows(), at = kDim * number(block);
+    return squared_distance(innovation_.residual.data() + at, innovation_.S.data() + at * (m + 1), m, kDim);
+  }
+  void keep(const Eigen::Index* blocks, Eigen::Index count);
+  template <class Bound>
+  bool consistent(Bound&& bound) {
+    return numbers_.empty() || joint_distance() <= bound(kDim * count());
+  }
+  InverseInnovation invert();
+  void refactor() {}  // S is not needed again
+  Eigen::Index* kept() { return kept_.data(); }
+  bool* refused() { return refused_.get(); }
+
+ private:
+  static constexpr int kDim = Pose::kDim;
+
+  double joint_distance();
+
+  const SubmapInnovation<Pose>& innovation_;
+  std::vector<Eigen::Index> numbers_;
+  Eigen::LDLT<Eigen::MatrixXd> factor_;  // of what is left of S
+  Eigen::VectorXd u_;                    // S^-1 nu
+  Eigen::MatrixXd inverse_;
+  double distance_ = 0.0;
+  std::vector<double> workspace_;
+  std::vector<Eigen::Index> kept_;
+  std::unique_ptr<bool[]> refused_;
 };
 
 // The factors of a robust loss, by which the variance of each known landmark's y is multiplied (L5).
@@ -42,6 +95,8 @@ void widen(Submap<Pose>& submap, const typename Pose::Square& covariance);
 
 extern template struct SubmapInnovation<SE2>;
 extern template struct SubmapInnovation<SE3>;
+extern template class InnovationBatch<SE2>;
+extern template class InnovationBatch<SE3>;
 extern template std::vector<double> noise_factors(const SubmapInnovation<SE2>&, const RobustLoss&);
 extern template std::vector<double> noise_factors(const SubmapInnovation<SE3>&, const RobustLoss&);
 

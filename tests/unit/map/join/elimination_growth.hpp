@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
 #include <vector>
@@ -106,32 +107,46 @@ template <class Pose>
 void check_tree(const EliminationTree<Pose>& tree, const Leaves<Pose>& leaves, Growth<Pose>& growth) {
   const Matrix inverse = leaves.inverse();
   const auto states = leaves.states();
-  std::vector<TreeTouch> all;
   std::vector<TreeKey> keys;
-  for (const LeafBlock& block : leaves.blocks) {
-    all.push_back(tree.touch(block.key));
-    keys.push_back(block.key);
-  }
-  const Matrix b = growth.columns(inverse.rows(), 3);
-  DenseColumns<Pose> whole(states, b, true);
-  tree.solve(all, 3, whole);
-  CHECK(difference(whole.solution_, inverse * b) <= 1e-9);
-  CHECK(whole.visited.size() == states.size());
+  for (const LeafBlock& block : leaves.blocks) keys.push_back(block.key);
 
-  // The columns of one variable, touched only where the variable was eliminated.
-  const LeafBlock& block = leaves.blocks[growth.below(leaves.blocks.size())];
-  const Variable v = block.variables[growth.below(block.variables.size())];
-  const Eigen::Index at = states.at(v), d = dimension<Pose>(v);
-  const Matrix unit = Matrix::Identity(inverse.rows(), inverse.rows()).middleCols(at, d);
-  DenseColumns<Pose> column(states, unit, true);
-  tree.solve({tree.touch(v, block.key)}, d, column);
-  CHECK(difference(column.solution_, inverse.middleCols(at, d)) <= 1e-9);
-  DenseColumns<Pose> path(states, unit, false);  // the variables that are visited in any case
-  tree.solve({tree.touch(v, block.key)}, d, path);
-  CHECK(path.visited.count(v) == 1);
-  for (const Variable u : path.visited)
-    CHECK(difference(path.solution_.middleRows(states.at(u), dimension<Pose>(u)),
-                     inverse.block(states.at(u), at, dimension<Pose>(u), d)) <= 1e-8);
+  // Combinations of the variables of three leaves and of single variables, which may be those of one leaf, too; in an
+  // order that is not that of the tree.
+  std::vector<TreeCombinations> combinations;
+  std::vector<Matrix> dense;
+  for (int i = 0; i < 6; ++i) {
+    const LeafBlock& block = leaves.blocks[growth.below(leaves.blocks.size())];
+    TreeCombinations own{tree.touch(block.key), block.variables, {}};
+    if (i % 2 == 1) {  // touched only where the variable was eliminated
+      const Variable v = block.variables[growth.below(block.variables.size())];
+      own.variables = {v};
+      own.touch = tree.touch(v, block.key);
+    }
+    own.weights = growth.columns(dimension<Pose>(own.variables), 1 + i % 3);
+    Matrix weights = Matrix::Zero(inverse.rows(), own.weights.cols());
+    Eigen::Index row = 0;
+    for (const Variable v : own.variables) {
+      const Index d = dimension<Pose>(v);
+      weights.middleRows(states.at(v), d) = own.weights.middleRows(row, d);
+      row += d;
+    }
+    dense.push_back(weights);
+    combinations.push_back(std::move(own));
+  }
+  const Matrix joint = tree.covariance(combinations);
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < dense.size(); ++i) {
+    Eigen::Index column = 0;
+    for (std::size_t k = 0; k < dense.size(); ++k) {
+      const Matrix expected = dense[i].transpose() * inverse * dense[k];
+      CHECK((joint.block(row, column, expected.rows(), expected.cols()) - expected).norm() <=
+            1e-9 * dense[i].norm() * dense[k].norm() * inverse.norm());
+      column += expected.cols();
+    }
+    row += dense[i].cols();
+  }
+  CHECK(joint == joint.transpose());
+  CHECK(Eigen::SelfAdjointEigenSolver<Matrix>(joint).eigenvalues()(0) > -1e-12 * joint.norm());
 
   Blocks<Pose> blocks;
   tree.covariances(keys, blocks);
@@ -141,9 +156,10 @@ void check_tree(const EliminationTree<Pose>& tree, const Leaves<Pose>& leaves, G
     CHECK(difference(blocks.of.at(i), inverse(own, own)) <= 1e-9);
   }
   Blocks<Pose> alone;
-  tree.covariances({block.key}, alone);
+  const TreeKey& key = keys[growth.below(keys.size())];
+  tree.covariances({key}, alone);
   REQUIRE(alone.of.size() == 1);
-  CHECK(alone.of.begin()->second == blocks.of.at(block.key.leaf));  // independent of the other requests
+  CHECK(alone.of.begin()->second == blocks.of.at(key.leaf));  // independent of the other requests
 
   const Eigen::Index newest = states.at(base_variable(leaves.blocks.size()));
   CHECK(difference(tree.last_covariance(), inverse.block<Pose::kDof, Pose::kDof>(newest, newest)) <= 1e-9);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Leaves of an elimination tree with a dense inverse, and receivers of the tree's solutions.
+// Leaves of an elimination tree with a dense inverse, and a receiver of the tree's covariances.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -7,7 +7,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -71,33 +70,6 @@ class Leaves final : public LeafSource {
       count += std::binary_search(block.variables.begin(), block.variables.end(), v) ? 1 : 0;
     return count;
   }
-};
-
-// Right-hand sides and solutions as dense columns.
-template <class Pose>
-class DenseColumns final : public EliminationTree<Pose>::System {
- public:
-  DenseColumns(std::map<Variable, Eigen::Index> states, Matrix b, bool go_on)
-      : solution_(Matrix::Zero(b.rows(), b.cols())), states_(std::move(states)), b_(std::move(b)), go_on_(go_on) {}
-
-  void right_hand_side(Variable v, double* b, Index ld) const override {
-    for (Eigen::Index c = 0; c < b_.cols(); ++c)
-      for (Index d = 0; d < dimension<Pose>(v); ++d) b[c * ld + d] += b_(states_.at(v) + d, c);
-  }
-  bool solution(Variable v, const double* x, Index ld) override {
-    for (Eigen::Index c = 0; c < b_.cols(); ++c)
-      for (Index d = 0; d < dimension<Pose>(v); ++d) solution_(states_.at(v) + d, c) = x[c * ld + d];
-    CHECK(visited.insert(v).second);  // once each
-    return go_on_;
-  }
-
-  Matrix solution_;
-  std::set<Variable> visited;
-
- private:
-  std::map<Variable, Eigen::Index> states_;
-  Matrix b_;
-  bool go_on_;
 };
 
 template <class Pose>

@@ -66,7 +66,7 @@ class Springs final : public EliminationTree<Pose>::Relaxation {
     return x;
   }
 
-  void right_hand_side(Variable v, double* b, Index) const override {
+  void right_hand_side(Variable v, double* b) const override {
     for (const auto& [leaf, force] : forces_) {
       Index at = 0;
       for (const Variable u : leaves_.blocks[leaf].variables) {
@@ -76,9 +76,8 @@ class Springs final : public EliminationTree<Pose>::Relaxation {
       }
     }
   }
-  bool solution(Variable v, const double* x, Index) override {
+  void solution(Variable v, const double* x) override {
     values.at(v) += Eigen::Map<const Matrix>(x, dimension<Pose>(v), 1);
-    return true;
   }
   bool matters(Variable v, const double* x) const override {
     return Eigen::Map<const Matrix>(x, dimension<Pose>(v), 1).norm() >= tolerance;

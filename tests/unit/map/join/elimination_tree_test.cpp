@@ -85,9 +85,9 @@ TEST_CASE_TEMPLATE("elimination tree: nothing to change, nothing to ask", Pose, 
   std::vector<std::uint32_t> assembled;
   CHECK(tree.update(none, {}, refactored, assembled));
   CHECK(tree.memory_bytes() == 0);
-  DenseColumns<Pose> columns({}, Matrix(0, 1), true);
-  tree.solve({}, 1, columns);
-  CHECK(columns.visited.empty());
+  Blocks<Pose> blocks;
+  tree.covariances({}, blocks);
+  CHECK(blocks.of.empty());
 }
 
 TEST_CASE_TEMPLATE("elimination tree: a change reaches one path", Pose, SE3, SE2) {

@@ -49,6 +49,7 @@ std::size_t DenseMap<Pose>::required_bytes(const MapOptions<Pose>& options) {
 
 template <class Pose>
 std::unique_ptr<MapTransaction<Pose>> DenseMap<Pose>::begin() {
+  this->change();
   return std::make_unique<DenseTransaction<Pose>>(*this);
 }
 
@@ -61,6 +62,7 @@ void DenseMap<Pose>::append(std::uint64_t id, std::uint64_t count, std::size_t i
 
 template <class Pose>
 void DenseMap<Pose>::remove(std::uint64_t id) {
+  this->change();
   const std::int32_t index = indices_.find(id);
   if (index != IdTable::kAbsent) remove_at(static_cast<std::size_t>(index));
 }
@@ -111,6 +113,7 @@ template <class Pose>
 void DenseMap<Pose>::look_from(std::uint64_t id) {
   if (id == vehicle_) return;
   const Index k = companion(id);
+  this->change();
   state_.activate(k);
   std::swap(companions_[static_cast<std::size_t>(k)], vehicle_);
 }

@@ -77,7 +77,7 @@ std::unique_ptr<TreePass> EliminationRelaxer<Pose>::forward(const TreeFront& fro
   }
   Index at = 0;
   for (const Variable v : front.eliminated) {
-    system_.right_hand_side(v, b.data() + at, front.e + front.b);
+    system_.right_hand_side(v, b.data() + at);
     if (slots_[v] >= 0) b.segment(at, dimension<Pose>(v)) += forces_[slots_[v]].head(dimension<Pose>(v));
     at += dimension<Pose>(v);
   }
@@ -103,7 +103,7 @@ void EliminationRelaxer<Pose>::backward(const TreeFront& front, const Vector& fo
     x << y, boundary;
     Index at = 0;
     for (const Variable v : front.eliminated) {
-      system_.solution(v, x.data() + at, front.e + front.b);
+      system_.solution(v, x.data() + at);
       at += dimension<Pose>(v);
     }
   }

@@ -2,28 +2,12 @@
 #include "map/join/sparse/elimination_solver.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace cairn {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
-
-std::vector<char> boundary_flags(const TreeFront& front, const TreeFront& child, const std::vector<char>& active) {
-  std::vector<char> flags(child.eliminated.size(), 0);
-  std::size_t j = 0;
-  for (const Variable v : child.boundary) {
-    const auto found = front.bit == TreeFront::kCrown
-                           ? std::find(front.eliminated.begin(), front.eliminated.end(), v)
-                           : std::lower_bound(front.eliminated.begin(), front.eliminated.end(), v);
-    if (found != front.eliminated.end() && *found == v) {
-      flags.push_back(active[static_cast<std::size_t>(found - front.eliminated.begin())]);
-      continue;
-    }
-    while (front.boundary[j] != v) ++j;
-    flags.push_back(active[front.eliminated.size() + j]);
-  }
-  return flags;
-}
 
 Matrix chosen(const Matrix& covariance, const std::vector<Index>& map) {
   const auto n = static_cast<Index>(map.size());
@@ -36,61 +20,71 @@ Matrix chosen(const Matrix& covariance, const std::vector<Index>& map) {
 }  // namespace
 
 template <class Pose>
-void EliminationSolver<Pose>::solve(const TreeFront& crown, const std::vector<TreeTouch>& touches) {
-  const auto pass = forward(crown, touches.begin(), touches.end());
-  Matrix x(crown.e, columns_);
-  std::vector<char> active(crown.eliminated.size(), 0);
-  backward(crown, pass.get(), x, active);
+CombinationSolver<Pose>::CombinationSolver(const std::vector<TreeCombinations>& combinations,
+                                           const std::vector<std::int16_t>& eliminated_at)
+    : combinations_(combinations), eliminated_at_(eliminated_at), order_(combinations.size()) {
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+    return combinations[a].touch.key < combinations[b].touch.key;
+  });
+  Index columns = 0;
+  for (const std::size_t i : order_) {
+    touches_.push_back(combinations[i].touch);
+    first_.push_back(columns);
+    columns += combinations[i].weights.cols();
+  }
+  first_.push_back(columns);
 }
 
 template <class Pose>
-std::unique_ptr<TreePass> EliminationSolver<Pose>::forward(const TreeFront& front, TouchIterator begin,
-                                                           TouchIterator end) const {
-  auto pass = std::make_unique<TreePass>();
-  Matrix b = Matrix::Zero(front.e + front.b, columns_);
+typename CombinationSolver<Pose>::Matrix CombinationSolver<Pose>::covariance(const TreeFront& crown) {
+  products_.setZero(first_.back(), first_.back());
+  forward(crown, touches_.begin(), touches_.end());
+  std::vector<Index> given;  // column in `products_`, by the order in which the combinations are given
+  std::vector<std::size_t> sorted(order_.size());
+  for (std::size_t i = 0; i < order_.size(); ++i) sorted[order_[i]] = i;
+  for (const std::size_t i : sorted)
+    for (Index c = first_[i]; c < first_[i + 1]; ++c) given.push_back(c);
+  Matrix covariance(products_.rows(), products_.cols());
+  for (Index c = 0; c < covariance.cols(); ++c)
+    for (Index r = 0; r < covariance.rows(); ++r)
+      covariance(r, c) = products_(std::max(given[r], given[c]), std::min(given[r], given[c]));
+  return covariance;
+}
+
+// Adds the products of the columns that touch the front or fronts below it. Returns what they leave at the boundary.
+template <class Pose>
+typename CombinationSolver<Pose>::Matrix CombinationSolver<Pose>::forward(const TreeFront& front, TouchIterator begin,
+                                                                          TouchIterator end) {
+  const Index first = first_[position(begin)], columns = first_[position(end)] - first;
+  Matrix b = Matrix::Zero(front.e + front.b, columns);
   const TouchHalves halves(front, begin, end);
   for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
     const TreeFront& child = *front.child[side];
     if (child.leaf() || !halves.touch(child, side)) continue;
-    pass->child[side] = forward(child, halves.bounds[side], halves.bounds[side + 1]);
-    pass->add_child(side, state_map<Pose>(child.boundary, front), b);
-  }
-  Index at = 0;
-  for (const Variable v : front.eliminated) {
-    system_.right_hand_side(v, b.data() + at, front.e + front.b);
-    at += dimension<Pose>(v);
-  }
-  pass->eliminate(front, b);
-  return pass;
-}
-
-// `x` holds the solution of the boundary in its lower rows; `active` tells for each of the front's variables whether it
-// is a reason to go on below.
-template <class Pose>
-void EliminationSolver<Pose>::backward(const TreeFront& front, const TreePass* pass, Matrix& x,
-                                       std::vector<char>& active) {
-  Matrix y = pass != nullptr ? pass->y : Matrix(Matrix::Zero(front.e, columns_));
-  substitute(front, x.bottomRows(front.b), y);
-  x.topRows(front.e) = y;
-  Index at = 0;
-  for (std::size_t i = 0; i < front.eliminated.size(); ++i) {
-    const Variable v = front.eliminated[i];
-    active[i] = system_.solution(v, x.data() + at, front.e + front.b);
-    at += dimension<Pose>(v);
-  }
-  for (int side = 0; side < 2 && front.child[side] != nullptr; ++side) {
-    const TreeFront& child = *front.child[side];
-    if (child.leaf()) continue;
-    const TreePass* below = pass != nullptr ? pass->child[side].get() : nullptr;
-    std::vector<char> child_active = boundary_flags(front, child, active);
-    if (below == nullptr && std::none_of(child_active.begin(), child_active.end(), [](char a) { return a != 0; }))
-      continue;
+    const Matrix up = forward(child, halves.bounds[side], halves.bounds[side + 1]);
     const std::vector<Index> map = state_map<Pose>(child.boundary, front);
-    Matrix x_child(child.e + child.b, columns_);
-    for (Index c = 0; c < columns_; ++c)
-      for (std::size_t i = 0; i < map.size(); ++i) x_child(child.e + static_cast<Index>(i), c) = x(map[i], c);
-    backward(child, below, x_child, child_active);
+    const Index to = first_[position(halves.bounds[side])] - first;
+    for (Index c = 0; c < up.cols(); ++c)
+      for (Index i = 0; i < up.rows(); ++i) b(map[i], to + c) += up(i, c);
   }
+  for (TouchIterator touch = begin; touch != end; ++touch) {
+    const TreeCombinations& own = combinations_[order_[position(touch)]];
+    const Index to = first_[position(touch)] - first;
+    Index row = 0;
+    for (const Variable v : own.variables) {
+      const Index d = dimension<Pose>(v);
+      if (eliminated_at_[v] == front.bit)
+        b.block(state_map<Pose>({v}, front)[0], to, d, own.weights.cols()) += own.weights.middleRows(row, d);
+      row += d;
+    }
+  }
+  Matrix above = b.bottomRows(front.b);
+  if (front.e == 0 || columns == 0) return above;  // Eigen's blocked products divide by the size
+  const Matrix y = front.eliminated_block().template triangularView<Eigen::Lower>().solve(b.topRows(front.e));
+  products_.block(first, first, columns, columns).template selfadjointView<Eigen::Lower>().rankUpdate(y.transpose());
+  above.noalias() -= front.boundary_block() * y;
+  return above;
 }
 
 // With K = L_BE L_EE^-1:  Sigma_BE = -Sigma_BB K,  Sigma_EE = (L_EE L_EE^T)^-1 + K^T Sigma_BB K.
@@ -120,8 +114,8 @@ void invert_selected(const TreeFront& front, const Matrix& boundary, TouchIterat
   }
 }
 
-template class EliminationSolver<SE2>;
-template class EliminationSolver<SE3>;
+template class CombinationSolver<SE2>;
+template class CombinationSolver<SE3>;
 template void invert_selected<SE2>(const TreeFront&, const Matrix&, TouchIterator, TouchIterator, TreeCovariances&);
 template void invert_selected<SE3>(const TreeFront&, const Matrix&, TouchIterator, TouchIterator, TreeCovariances&);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Solutions of H x = b, and covariances, from the fronts of an elimination tree.
+// Covariances from the fronts of an elimination tree.
 #pragma once
 
 #include "geometry/se2.hpp"
@@ -9,22 +9,32 @@
 
 namespace cairn {
 
+// The covariance of some combinations a^T e of the errors e of the variables. With H = L L^T it is Y^T Y, where
+// L Y = A, and only the fronts between the variables and the crown hold a part of Y: there is no way down. As a product
+// of Y with itself it is never negative.
 template <class Pose>
-class EliminationSolver {
+class CombinationSolver {
  public:
   using Matrix = Eigen::MatrixXd;
 
-  EliminationSolver(Index columns, TreeSystem& system) : columns_(columns), system_(system) {}
+  // `eliminated_at`: by variable, the bit of the front that eliminates it.
+  CombinationSolver(const std::vector<TreeCombinations>& combinations, const std::vector<std::int16_t>& eliminated_at);
 
-  // Solves with a whole tree; `touches` are sorted by key.
-  void solve(const TreeFront& crown, const std::vector<TreeTouch>& touches);
+  // Of all combinations, in the order in which they are given.
+  Matrix covariance(const TreeFront& crown);
 
  private:
-  std::unique_ptr<TreePass> forward(const TreeFront& front, TouchIterator begin, TouchIterator end) const;
-  void backward(const TreeFront& front, const TreePass* pass, Matrix& x, std::vector<char>& active);
+  Matrix forward(const TreeFront& front, TouchIterator begin, TouchIterator end);
+  std::size_t position(TouchIterator touch) const {
+    return static_cast<std::size_t>(touch - TouchIterator(touches_.begin()));
+  }
 
-  Index columns_;
-  TreeSystem& system_;
+  const std::vector<TreeCombinations>& combinations_;
+  const std::vector<std::int16_t>& eliminated_at_;
+  std::vector<TreeTouch> touches_;  // sorted by key, so that the columns of a subtree are neighbours
+  std::vector<std::size_t> order_;  // of `combinations_`, in the order of the touches
+  std::vector<Index> first_;        // column of each touch, and the number of all columns
+  Matrix products_;                 // Y^T Y, lower triangle
 };
 
 // Covariances of the leaves that are touched, by selected inversion. `boundary` is the covariance of the front's
@@ -33,7 +43,7 @@ template <class Pose>
 void invert_selected(const TreeFront& front, const Eigen::MatrixXd& boundary, TouchIterator begin, TouchIterator end,
                      TreeCovariances& visitor);
 
-extern template class EliminationSolver<SE2>;
-extern template class EliminationSolver<SE3>;
+extern template class CombinationSolver<SE2>;
+extern template class CombinationSolver<SE3>;
 
 }  // namespace cairn

@@ -58,10 +58,8 @@ void EliminationTree<Pose>::settle(const Changes& changes, Relaxation& system) {
 }
 
 template <class Pose>
-void EliminationTree<Pose>::solve(std::vector<Touch> touches, Index columns, System& system) const {
-  if (crown_ == nullptr) return;
-  sort_by_key(touches);
-  EliminationSolver<Pose>(columns, system).solve(*crown_, touches);
+Eigen::MatrixXd EliminationTree<Pose>::covariance(const std::vector<TreeCombinations>& combinations) const {
+  return CombinationSolver<Pose>(combinations, eliminated_at_).covariance(*crown_);
 }
 
 template <class Pose>

@@ -36,7 +36,6 @@ class EliminationTree {
  public:
   using Changes = TreeChanges;
   using Touch = TreeTouch;
-  using System = TreeSystem;
   using Relaxation = TreeRelaxation<Pose>;
   using RigidMotion = cairn::RigidMotion<Pose>;
   using Covariances = TreeCovariances;
@@ -50,11 +49,11 @@ class EliminationTree {
   bool update(const LeafSource& source, const Changes& changes, std::size_t& refactored,
               std::vector<std::uint32_t>& assembled);
 
-  // Solves H x = b, several columns at a time. `touch` names the leaves or eliminated variables where b may be nonzero,
-  // and where x is required in any case.
+  // Where a path to the crown begins: at a leaf, or where a variable was eliminated.
   Touch touch(const TreeKey& leaf) const { return {leaf, TreeKey::kBits}; }
   Touch touch(Variable v, const TreeKey& leaf_that_holds_it) const { return {leaf_that_holds_it, eliminated_at(v)}; }
-  void solve(std::vector<Touch> touches, Index columns, System& system) const;
+  // Joint covariance of combinations of errors, in the order in which they are given.
+  Eigen::MatrixXd covariance(const std::vector<TreeCombinations>& combinations) const;
 
   // One step of an iteration whose right-hand side is the force at the values that each leaf was evaluated at. A front
   // is not visited if its boundary hardly moves and the forces inside hardly move it. The front keeps the motion and

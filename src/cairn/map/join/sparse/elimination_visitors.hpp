@@ -21,16 +21,6 @@ class LeafSource {
   virtual bool absolute(std::uint32_t leaf) const = 0;
 };
 
-// The right-hand side of H x = b, and its solution; several columns at a time.
-class TreeSystem {
- public:
-  virtual ~TreeSystem() = default;
-  // Adds to the right-hand side of a variable, dimension<Pose>(v) x columns.
-  virtual void right_hand_side(Variable v, double* b, Index ld) const = 0;
-  // Receives the solution of a variable. False: everything that depends only on this variable needs no visit.
-  virtual bool solution(Variable v, const double* x, Index ld) = 0;
-};
-
 // A point p moves by move + turn x (p - centre), to first order.
 template <class Pose>
 struct RigidMotion {
@@ -40,8 +30,13 @@ struct RigidMotion {
 
 // One step of an iteration; see EliminationTree::relax().
 template <class Pose>
-class TreeRelaxation : public TreeSystem {
+class TreeRelaxation {
  public:
+  virtual ~TreeRelaxation() = default;
+  // Adds the force on a variable to the right-hand side.
+  virtual void right_hand_side(Variable v, double* b) const = 0;
+  // Receives the motion of a variable.
+  virtual void solution(Variable v, const double* x) = 0;
   // Whether a motion of this variable is large enough to be handed down.
   virtual bool matters(Variable v, const double* x) const = 0;
   // The rigid motion nearest to that of some variables; subtracts it from their motion.
@@ -53,6 +48,13 @@ class TreeRelaxation : public TreeSystem {
   virtual void carry_leaf(std::uint32_t leaf, const RigidMotion<Pose>& motion) = 0;
   // All of the leaf's variables have their new values now.
   virtual void visit(std::uint32_t leaf) = 0;
+};
+
+// Combinations of the errors of variables that one leaf holds, or of one variable.
+struct TreeCombinations {
+  TreeTouch touch;
+  std::vector<Variable> variables;
+  Eigen::MatrixXd weights;  // by state of the variables; a column for each combination
 };
 
 // Receives covariances: of all variables of a leaf, in their order.

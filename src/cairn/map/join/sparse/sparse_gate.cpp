@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map/join/sparse/sparse_gate.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "core/chi_square.hpp"
-#include "linear/joint_gate.hpp"
 #include "map/join/sparse/sparse_queries.hpp"
 #include "map/submap_innovation.hpp"
 
@@ -42,109 +39,37 @@ bool may_contradict(const SparseState<Pose>& state, std::uint32_t number, const 
   return false;
 }
 
-namespace {
-
-// The submap's known landmarks against the map as it is, as a batch for gate_blocks(): nu = y_submap - R^T (l - p) and
-// S = H P H^T + Sigma_DD.
-template <class Pose>
-class KnownLandmarks {
- public:
-  KnownLandmarks(const SparseState<Pose>& state, const Submap<Pose>& submap) : state_(state), submap_(submap) {
-    for (Index i = 0; i < submap.size(); ++i) {
-      std::size_t index = 0;
-      if (state.find(submap.ids[i], index)) known_.push_back({i, index});
-    }
-    noise_ = submap.covariance;
-    std::vector<Index> locals;
-    for (const Known& known : known_) locals.push_back(known.local);
-    to_ordinary(submap, locals, noise_);
-    kept_.resize(known_.size());
-    refused_.reset(new bool[known_.size()]);
-    form();
-  }
-
-  Index local(Index block) const { return known_[block].local; }  // in the submap
-
-  Index count() const { return static_cast<Index>(known_.size()); }
-  double distance(Index block) const {
-    const Index m = kDim * count();
-    return squared_distance(residual_.data() + kDim * block, S_.data() + kDim * block * (m + 1), m, kDim);
-  }
-  void keep(const Index* blocks, Index count) {
-    for (Index k = 0; k < count; ++k) known_[k] = known_[blocks[k]];
-    known_.resize(static_cast<std::size_t>(count));
-    formed_ = false;
-  }
-  template <class Bound>
-  bool consistent(Bound&& bound) {
-    if (known_.empty()) return true;
-    if (!formed_) form();
-    const Index m = kDim * count();
-    inverse_ = S_.template selfadjointView<Eigen::Lower>().ldlt().solve(Eigen::MatrixXd::Identity(m, m));
-    u_ = inverse_ * residual_;
-    workspace_.resize(static_cast<std::size_t>(kDim * (kDim + m)));
-    return residual_.dot(u_) <= bound(m);
-  }
-  InverseInnovation invert() { return {inverse_.data(), u_.data(), residual_.dot(u_), workspace_.data()}; }
-  void refactor() {}  // S is not needed again
-  Index* kept() { return kept_.data(); }
-  bool* refused() { return refused_.get(); }
-
- private:
-  static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
-  struct Known {
-    Index local;        // in the submap
-    std::size_t index;  // in the map
-  };
-
-  void form() {
-    formed_ = true;
-    if (known_.empty()) return;
-    std::vector<std::size_t> indices;
-    std::vector<Index> locals;
-    std::vector<typename Pose::Point> points;
-    for (const Known& known : known_) {
-      indices.push_back(known.index);
-      locals.push_back(known.local);
-      points.push_back(state_.point(known.index));
-    }
-    Eigen::MatrixXd P(kDof + kDim * count(), kDof + kDim * count());
-    joint_covariance_of_base(state_, indices.data(), indices.size(), P.data());
-    SubmapInnovation<Pose> innovation(state_.bases.back(), P, points, submap_, locals, noise_);
-    residual_ = std::move(innovation.residual);
-    S_ = std::move(innovation.S);
-  }
-
-  const SparseState<Pose>& state_;
-  const Submap<Pose>& submap_;
-  std::vector<Known> known_;
-  Eigen::MatrixXd noise_;  // of the whole submap, ordinary errors of the known landmarks
-  bool formed_ = false;    // residual_ and S_ belong to known_
-  Eigen::VectorXd residual_;
-  Eigen::MatrixXd S_;
-  Eigen::MatrixXd inverse_;
-  Eigen::VectorXd u_;
-  std::vector<double> workspace_;
-  std::vector<Index> kept_;
-  std::unique_ptr<bool[]> refused_;
-};
-
-}  // namespace
-
 template <class Pose>
 Contradicting find_contradicting(const SparseState<Pose>& state, const Submap<Pose>& submap) {
-  Contradictions contradictions(Pose::kDim);
-  KnownLandmarks<Pose> landmarks(state, submap);
-  const Index known = landmarks.count();
+  constexpr int kDim = Pose::kDim;
+  std::vector<Index> locals;  // in the submap
+  std::vector<std::size_t> indices;
+  std::vector<typename Pose::Point> points;
+  for (Index i = 0; i < submap.size(); ++i) {
+    std::size_t index = 0;
+    if (!state.find(submap.ids[i], index)) continue;
+    locals.push_back(i);
+    indices.push_back(index);
+    points.push_back(state.point(index));
+  }
+  Eigen::MatrixXd noise = submap.covariance;
+  to_ordinary(submap, locals, noise);
+  const auto size = static_cast<Index>(Pose::kDof + kDim * locals.size());
+  Eigen::MatrixXd P(size, size);
+  joint_covariance_of_base(state, indices.data(), indices.size(), P.data());
+  const SubmapInnovation<Pose> innovation(state.bases.back(), P, points, submap, locals, noise);
+
+  Contradictions contradictions(kDim);
+  InnovationBatch<Pose> batch(innovation);
   const auto bound = [&](Index rows) {
     return chi_square_quantile(static_cast<double>(rows), state.options.joint_gate_probability);
   };
-  gate_blocks(landmarks, Pose::kDim, chi_square_quantile(Pose::kDim, state.options.gate_probability), bound,
+  gate_blocks(batch, kDim, chi_square_quantile(kDim, state.options.gate_probability), bound,
               [&](Gate gate, Index block, double distance, double most) {
-                contradictions.add(gate, landmarks.local(block), distance, most);
+                contradictions.add(gate, locals[batch.number(block)], distance, most);
               });
   const auto in_map = [&](Index i) { return state.landmarks[state.ids.find(submap.ids[i])->second].count; };
-  return {contradictions.decide(known, in_map, submap.counts), contradictions.worst()};
+  return {contradictions.decide(static_cast<Index>(locals.size()), in_map, submap.counts), contradictions.worst()};
 }
 
 template bool may_contradict(const SparseState<SE2>&, std::uint32_t, const JoinReport&);

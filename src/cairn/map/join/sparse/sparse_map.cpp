@@ -19,6 +19,7 @@ SparseMap<Pose>::SparseMap(const SparseMap& other)
 
 template <class Pose>
 std::unique_ptr<MapTransaction<Pose>> SparseMap<Pose>::begin() {
+  this->change();
   return std::make_unique<SparseTransaction<Pose>>(state_, index_);
 }
 
@@ -34,6 +35,7 @@ template <class Pose>
 void SparseMap<Pose>::remove(std::uint64_t id) {
   const auto found = state_.ids.find(id);
   if (found == state_.ids.end()) return;
+  this->change();
   const auto slot = state_.hide(found);
   index_.remove(state_.visible.size());
   if (slot < state_.visible.size()) index_.moved(slot);
@@ -45,6 +47,7 @@ void SparseMap<SE3>::append(const SparseMap& other, const MergePlan& plan, const
   if (state_.error_points.count() + other.state_.error_points.count() > 0)
     throw Error(ErrorCode::argument,
                 "map: its submaps share systematic errors, and such sparse maps cannot be merged; use dense joining");
+  this->change();
   SparseMerger(state_, index_, other.state_, plan, options).append(report);
 }
 

@@ -2,21 +2,22 @@
 #include "map/join/sparse/sparse_queries.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <utility>
 
 namespace cairn {
 namespace {
 
-// Fills the cache, leaf by leaf.
+// Hands over the covariances of landmarks, leaf by leaf.
 template <class Pose>
 class CovarianceVisitor final : public TreeCovariances {
  public:
   using State = SparseState<Pose>;
   using PointSquare = typename Pose::Rotation::Matrix;
+  using Keep = std::function<void(std::uint32_t, const PointSquare&)>;
 
-  CovarianceVisitor(const SparseState<Pose>& state, std::vector<PointSquare>& covariances,
-                    std::vector<std::uint32_t>& covariance_of)
-      : state_(state), covariances_(covariances), covariance_of_(covariance_of) {}
+  CovarianceVisitor(const SparseState<Pose>& state, Keep keep) : state_(state), keep_(std::move(keep)) {}
 
   void leaf(std::uint32_t number, const Eigen::MatrixXd& in_own_axes) override {
     const typename State::Leaf& leaf = state_.leaves[number];
@@ -48,56 +49,79 @@ class CovarianceVisitor final : public TreeCovariances {
 
  private:
   void keep(std::uint32_t landmark, const PointSquare& covariance) {
-    covariances_[landmark] = 0.5 * (covariance + covariance.transpose());
-    covariance_of_[landmark] = state_.change;
+    keep_(landmark, 0.5 * (covariance + covariance.transpose()));
   }
 
   static constexpr int kDim = Pose::kDim;
 
   const State& state_;
-  std::vector<PointSquare>& covariances_;
-  std::vector<std::uint32_t>& covariance_of_;
+  Keep keep_;
 };
 
-// Columns of the covariance for chosen variables; only their rows of the solution.
+// Chosen errors in map axes, each a combination of variables' errors plus a rest that is independent of all variables.
 template <class Pose>
-class CovarianceColumns final : public TreeSystem {
+class ChosenErrors {
  public:
-  explicit CovarianceColumns(std::vector<Variable> variables) : variables_(std::move(variables)) {
-    Index state = 0;
-    for (const Variable v : variables_) {
-      states_.push_back(state);
-      state += dimension<Pose>(v);
+  using State = SparseState<Pose>;
+  using Number = typename State::Number;
+
+  ChosenErrors(const State& state, Index size) : state_(state), rest_(Eigen::MatrixXd::Zero(size, size)) {}
+
+  // The error of a variable, from this row on. `leaf` holds the variable.
+  void add(Variable v, Number leaf, Index row) {
+    const Index d = dimension<Pose>(v);
+    add(state_.solution.tree.touch(v, state_.leaves[leaf].key), {v}, Eigen::MatrixXd::Identity(d, d));
+    for (Index i = 0; i < d; ++i) rows_.push_back(row + i);
+  }
+  // The errors of landmarks, by index, from these rows on.
+  void add_landmarks(const std::size_t* indices, std::size_t count, Index row) {
+    std::map<Number, std::vector<std::size_t>> privates;  // by leaf: which of them
+    for (std::size_t i = 0; i < count; ++i) {
+      const Number landmark = state_.visible[indices[i]], leaf = state_.landmarks[landmark].submaps[0];
+      if (state_.shared(landmark))
+        add(landmark_variable(landmark), leaf, row + static_cast<Index>(kDim * i));
+      else
+        privates[leaf].push_back(i);
     }
-    covariance.resize(state, state);
+    for (const auto& [leaf, chosen] : privates) add_private(leaf, indices, chosen, row);
   }
-  Index columns() const { return covariance.cols(); }
-  Index state(Variable v) const { return states_[position(v)]; }
-
-  void right_hand_side(Variable v, double* b, Index ld) const override {
-    const std::size_t at = position(v);
-    if (at == variables_.size()) return;
-    for (Index d = 0; d < dimension<Pose>(v); ++d) b[(states_[at] + d) * ld + d] += 1.0;
+  Eigen::MatrixXd covariance() const {
+    Eigen::MatrixXd sum = rest_;
+    const Eigen::MatrixXd part = state_.solution.tree.covariance(combinations_);
+    for (Index c = 0; c < part.cols(); ++c)
+      for (Index r = 0; r < part.rows(); ++r) sum(rows_[r], rows_[c]) += part(r, c);
+    return sum;
   }
-  bool solution(Variable v, const double* x, Index ld) override {
-    const std::size_t at = position(v);
-    if (at == variables_.size()) return false;
-    for (Index c = 0; c < covariance.cols(); ++c)
-      for (Index d = 0; d < dimension<Pose>(v); ++d) covariance(states_[at] + d, c) = x[c * ld + d];
-    return false;
-  }
-
-  Eigen::MatrixXd covariance;
 
  private:
-  std::size_t position(Variable v) const {
-    const auto found = std::lower_bound(variables_.begin(), variables_.end(), v);
-    return found != variables_.end() && *found == v ? static_cast<std::size_t>(found - variables_.begin())
-                                                    : variables_.size();
+  static constexpr int kDim = Pose::kDim;
+
+  void add(const TreeTouch& touch, const std::vector<Variable>& variables, Eigen::MatrixXd A) {
+    state_.by_own_axes(variables, A);
+    combinations_.push_back({touch, variables, A.transpose()});
+  }
+  // Private landmarks of one submap share their rest.
+  void add_private(Number number, const std::size_t* indices, const std::vector<std::size_t>& chosen, Index row) {
+    const typename State::Leaf& leaf = state_.leaves[number];
+    std::vector<Index> local;
+    for (const std::size_t i : chosen)
+      local.push_back(std::find(leaf.landmarks.begin(), leaf.landmarks.end(), state_.visible[indices[i]]) -
+                      leaf.landmarks.begin());
+    Eigen::MatrixXd own, noise, sorted(kDim * static_cast<Index>(local.size()), static_cast<Index>(leaf.order.size()));
+    leaf.factor->express_private(local, state_.values(number), own, noise);
+    for (Index c = 0; c < own.cols(); ++c) sorted.col(leaf.order[c]) = own.col(c);
+    add(state_.solution.tree.touch(leaf.key), leaf.variables, std::move(sorted));
+    std::vector<Index> rows;
+    for (const std::size_t i : chosen)
+      for (Index d = 0; d < kDim; ++d) rows.push_back(row + static_cast<Index>(kDim * i) + d);
+    rest_(rows, rows) = noise;
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
   }
 
-  std::vector<Variable> variables_;  // ascending
-  std::vector<Index> states_;
+  const State& state_;
+  std::vector<TreeCombinations> combinations_;
+  std::vector<Index> rows_;  // by column of the combinations
+  Eigen::MatrixXd rest_;
 };
 
 }  // namespace
@@ -105,33 +129,55 @@ class CovarianceColumns final : public TreeSystem {
 template <class Pose>
 void SparseCovariances<Pose>::prepare(const SparseState<Pose>& state, const std::vector<std::size_t>& indices) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  fill(state, indices);
+  resize(state);
+  if (indices.size() > kFew) return invert(state, indices);
+  for (const std::size_t index : indices)
+    if (found_[state.visible[index]] != Found{state.change, By::path}) follow(state, index);
 }
 
 template <class Pose>
-void SparseCovariances<Pose>::fill(const SparseState<Pose>& state, const std::vector<std::size_t>& indices) {
+void SparseCovariances<Pose>::resize(const SparseState<Pose>& state) {
   covariances_.resize(state.landmarks.size());
-  covariance_of_.resize(state.landmarks.size(), 0);
+  found_.resize(state.landmarks.size());
+}
+
+template <class Pose>
+void SparseCovariances<Pose>::invert(const SparseState<Pose>& state, const std::vector<std::size_t>& indices) {
   std::vector<std::uint32_t> wanted;
+  const Found inverted{state.change, By::inversion};
   for (const std::size_t index : indices) {
     const std::uint32_t landmark = state.visible[index];
-    if (covariance_of_[landmark] != state.change) wanted.push_back(state.landmarks[landmark].submaps[0]);
+    if (found_[landmark] != inverted) wanted.push_back(state.landmarks[landmark].submaps[0]);
   }
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   if (wanted.empty()) return;
   std::vector<TreeKey> keys;
   for (const std::uint32_t leaf : wanted) keys.push_back(state.leaves[leaf].key);
-  CovarianceVisitor<Pose> visitor(state, covariances_, covariance_of_);
+  CovarianceVisitor<Pose> visitor(state, [&](std::uint32_t landmark, const PointSquare& covariance) {
+    covariances_[landmark] = covariance;
+    found_[landmark] = inverted;
+  });
   state.solution.tree.covariances(std::move(keys), visitor);
+}
+
+template <class Pose>
+void SparseCovariances<Pose>::follow(const SparseState<Pose>& state, std::size_t index) {
+  ChosenErrors<Pose> chosen(state, Pose::kDim);
+  chosen.add_landmarks(&index, 1, 0);
+  const std::uint32_t landmark = state.visible[index];
+  covariances_[landmark] = chosen.covariance();
+  found_[landmark] = {state.change, By::path};
 }
 
 template <class Pose>
 typename SparseCovariances<Pose>::PointSquare SparseCovariances<Pose>::of(const SparseState<Pose>& state,
                                                                           std::size_t index) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  fill(state, {index});
-  return covariances_[state.visible[index]];
+  resize(state);
+  const std::uint32_t landmark = state.visible[index];
+  if (found_[landmark].by == By::nothing || found_[landmark].change != state.change) follow(state, index);
+  return covariances_[landmark];
 }
 
 template <class Pose>
@@ -149,64 +195,13 @@ void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t*
     joint.template topLeftCorner<kDof, kDof>() = state.solution.base_covariance;
     return;
   }
-  // The requested errors are A e + w, where e are the errors of some variables; private landmarks of one submap share
-  // w.
-  const Variable newest = base_variable(state.bases.size() - 1);
-  std::vector<Variable> variables{newest};
-  std::vector<TreeTouch> touches{state.solution.tree.touch(newest, state.leaves.back().key)};
-  std::map<Number, std::vector<std::size_t>> privates;  // by leaf: which of the requested ones
-  const auto want = [&](Variable v, Number leaf) {
-    variables.push_back(v);
-    touches.push_back(state.solution.tree.touch(v, state.leaves[leaf].key));
-  };
-  for (const Number point : error_points) want(landmark_variable(point), static_cast<Number>(state.leaves.size() - 1));
-  for (std::size_t i = 0; i < count; ++i) {
-    const Number landmark = state.visible[indices[i]], leaf = state.landmarks[landmark].submaps[0];
-    if (state.shared(landmark))
-      want(landmark_variable(landmark), leaf);
-    else
-      privates[leaf].push_back(i);
-  }
-  for (const auto& [leaf, asked] : privates)
-    for (const Variable v : state.leaves[leaf].variables) want(v, leaf);
-  std::sort(variables.begin(), variables.end());
-  variables.erase(std::unique(variables.begin(), variables.end()), variables.end());
-  CovarianceColumns<Pose> columns(variables);
-  state.solution.tree.solve(std::move(touches), columns.columns(), columns);
-  state.to_map_axes(variables, columns.covariance);
-
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, columns.columns()), W = Eigen::MatrixXd::Zero(size, size);
-  A.block<kDof, kDof>(0, columns.state(newest)).setIdentity();
+  ChosenErrors<Pose> chosen(state, size);
+  const auto last = static_cast<Number>(state.leaves.size() - 1);
+  chosen.add(base_variable(state.bases.size() - 1), last, 0);
   for (std::size_t i = 0; i < error_points.size(); ++i)
-    A.block<kDim, kDim>(static_cast<Index>(kDof + kDim * i), columns.state(landmark_variable(error_points[i])))
-        .setIdentity();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Number landmark = state.visible[indices[i]];
-    if (state.shared(landmark))
-      A.block<kDim, kDim>(first + static_cast<Index>(kDim * i), columns.state(landmark_variable(landmark)))
-          .setIdentity();
-  }
-  for (const auto& [number, asked] : privates) {
-    const typename SparseState<Pose>::Leaf& leaf = state.leaves[number];
-    std::vector<Index> local;
-    for (const std::size_t i : asked)
-      local.push_back(std::find(leaf.landmarks.begin(), leaf.landmarks.end(), state.visible[indices[i]]) -
-                      leaf.landmarks.begin());
-    Eigen::MatrixXd own, noise, sorted(kDim * static_cast<Index>(local.size()), static_cast<Index>(leaf.order.size()));
-    leaf.factor->express_private(local, state.values(number), own, noise);
-    for (Index c = 0; c < own.cols(); ++c) sorted.col(leaf.order[c]) = own.col(c);
-    for (std::size_t a = 0; a < asked.size(); ++a) {
-      const auto row = first + static_cast<Index>(kDim * asked[a]), from = kDim * static_cast<Index>(a);
-      for (std::size_t v = 0; v < leaf.variables.size(); ++v) {
-        const Index d = dimension<Pose>(leaf.variables[v]);
-        A.block(row, columns.state(leaf.variables[v]), kDim, d) = sorted.block(from, leaf.states[v], kDim, d);
-      }
-      for (std::size_t b = 0; b < asked.size(); ++b)
-        W.block<kDim, kDim>(row, first + static_cast<Index>(kDim * asked[b])) =
-            noise.block<kDim, kDim>(from, kDim * static_cast<Index>(b));
-    }
-  }
-  joint = A * columns.covariance * A.transpose() + W;
+    chosen.add(landmark_variable(error_points[i]), last, static_cast<Index>(kDof + kDim * i));
+  chosen.add_landmarks(indices, count, first);
+  joint = chosen.covariance();
   for (Index c = 0; c < size; ++c)  // both triangles, bit for bit
     for (Index r = c + 1; r < size; ++r) joint(c, r) = joint(r, c);
 }

@@ -16,16 +16,29 @@ class SparseCovariances {
  public:
   using PointSquare = typename Pose::Rotation::Matrix;
 
-  // Computes the covariances of several landmarks together, which is cheaper.
+  // Computes the covariances of several landmarks: of a few one by one, each on its path to the crown; of many
+  // together, by selected inversion. Both differ in the last bits, and of() returns what was prepared last. So a query
+  // that prepares what it asks for has an answer that does not depend on earlier queries.
   void prepare(const SparseState<Pose>& state, const std::vector<std::size_t>& indices);
   PointSquare of(const SparseState<Pose>& state, std::size_t index);
 
  private:
-  void fill(const SparseState<Pose>& state, const std::vector<std::size_t>& indices);
+  static constexpr std::size_t kFew = 8;
 
-  std::mutex mutex_;  // guards the members below
+  enum class By : std::uint8_t { nothing, path, inversion };
+  struct Found {
+    std::uint32_t change = 0;  // to which the covariance belongs
+    By by = By::nothing;
+    bool operator!=(const Found& other) const { return change != other.change || by != other.by; }
+  };
+
+  void resize(const SparseState<Pose>& state);
+  void follow(const SparseState<Pose>& state, std::size_t index);
+  void invert(const SparseState<Pose>& state, const std::vector<std::size_t>& indices);
+
+  std::mutex mutex_;  // guards the members below, by landmark
   std::vector<PointSquare> covariances_;
-  std::vector<std::uint32_t> covariance_of_;  // by landmark: number of the change to which the covariance belongs
+  std::vector<Found> found_;
 };
 
 // GlobalMap::base_joint_covariance(); with `errors` the points of the systematic errors at the base follow the base.

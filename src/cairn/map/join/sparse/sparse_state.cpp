@@ -116,6 +116,20 @@ void SparseState<Pose>::to_map_axes(const std::vector<Variable>& variables, Eige
 }
 
 template <class Pose>
+void SparseState<Pose>::by_own_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& columns) const {
+  Index state = 0;
+  const auto turn = [&](const auto& R) {
+    constexpr int n = std::decay_t<decltype(R)>::RowsAtCompileTime;
+    columns.middleCols<n>(state) = (columns.middleCols<n>(state) * R).eval();
+    state += n;
+  };
+  for (const Variable v : variables) {
+    turn(axes(v).matrix());
+    if (!is_landmark(v)) turn(axes(v).adjoint());
+  }
+}
+
+template <class Pose>
 void SparseState<Pose>::note_linearisation(Number number) {
   Leaf& leaf = leaves[number];
   const Pose T_base_map = bases[number].inverse();

@@ -118,6 +118,8 @@ struct SparseState {
     return is_landmark(v) ? landmarks[number].position : bases[number].translation();
   }
   void to_map_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& covariance) const;
+  // From columns by errors in map axes to columns by errors in the variables' own axes.
+  void by_own_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& columns) const;
   void refresh_base_covariance();
 
   // Leaves

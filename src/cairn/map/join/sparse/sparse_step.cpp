@@ -24,7 +24,7 @@ void for_leaves_of(const SparseState<Pose>& state, Variable v, Visit&& visit) {
 
 // The descent, in the variable's axes.
 template <class Pose>
-void SparseStep<Pose>::right_hand_side(Variable v, double* b, Index) const {
+void SparseStep<Pose>::right_hand_side(Variable v, double* b) const {
   const Rotation own = state_.axes(v).inverse();
   for_leaves_of(state_, v, [&](Number number) {
     const typename State::Leaf& leaf = state_.leaves[number];
@@ -40,7 +40,7 @@ void SparseStep<Pose>::right_hand_side(Variable v, double* b, Index) const {
 }
 
 template <class Pose>
-bool SparseStep<Pose>::solution(Variable v, const double* x, Index) {
+void SparseStep<Pose>::solution(Variable v, const double* x) {
   Entry entry{v, {}};
   const Rotation& R = state_.axes(v);
   Eigen::Map<Point>(entry.value) = R * Point(Eigen::Map<const Point>(x));
@@ -48,7 +48,6 @@ bool SparseStep<Pose>::solution(Variable v, const double* x, Index) {
     Eigen::Map<Tangent>(entry.value + kDim) = R.adjoint(Tangent(Eigen::Map<const Tangent>(x + kDim)));
   largest_ = std::max(largest_, size(v, x));
   entries_.push_back(entry);
-  return true;
 }
 
 template <class Pose>

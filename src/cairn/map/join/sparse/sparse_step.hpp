@@ -32,8 +32,8 @@ class SparseStep final : public TreeRelaxation<Pose> {
   double largest() const { return largest_; }  // in the map's scales, of the variables that were solved for
 
   // TreeRelaxation
-  void right_hand_side(Variable v, double* b, Index ld) const override;
-  bool solution(Variable v, const double* x, Index ld) override;
+  void right_hand_side(Variable v, double* b) const override;
+  void solution(Variable v, const double* x) override;
   bool matters(Variable v, const double* x) const override { return !(size(v, x) < tolerance_); }
   RigidMotion<Pose> take_rigid(const std::vector<Variable>& variables, Eigen::VectorXd& motion) const override;
   void carry(Variable v, const RigidMotion<Pose>& motion) override;
