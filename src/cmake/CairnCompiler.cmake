@@ -47,6 +47,14 @@ function(cairn_unite target)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  cairn_allow_unity(${target})
+endfunction()
+
+# In a file that includes others, GCC takes local types of the others for those of a header, and warns.
+function(cairn_allow_unity target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
 endfunction()
 
 if(CAIRN_SANITIZE)
@@ -57,8 +65,5 @@ if(CAIRN_SANITIZE)
   if(NOT CAIRN_SANITIZE_ACCESSES)
     add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fno-sanitize=null,alignment,object-size>)
   endif()
-  # Eigen aligns memory by its own means where it sees the address sanitizer, whose malloc does it as well. Memory that the
-  # library allocates may be freed by unit tests, which are compiled without sanitizers: one way for both.
-  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
   add_link_options(-fsanitize=${CAIRN_SANITIZE})
 endif()
