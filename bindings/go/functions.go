@@ -1030,7 +1030,8 @@ func (f *Filter) MergeLandmarks(id uint64, other uint64) (match Match, err error
 // an independent error with this 3x3 covariance (positive definite; it says how far apart the two may be). Later
 // observations separate the two.
 //
-// Errors: ErrArgument (also if fresh exists), ErrNotFound, ErrCapacity.
+// Errors: ErrArgument (also if fresh exists, or if the filter names landmarks itself and fresh is 2^63 or more),
+// ErrNotFound, ErrCapacity.
 //
 // Complexity: O(n).
 func (f *Filter) SplitLandmark(id uint64, fresh uint64, covariance [9]float64) (err error) {
@@ -1217,9 +1218,13 @@ func (f *Filter) LastUpdate() (report UpdateReport, err error) {
 	return
 }
 
-// Pose: pose of the body in the map, and the covariance of its error [dp; dtheta] (6x6 row-major).
+// Pose: pose of the body in the map, and the covariance of its error [dp; dtheta] (6x6 row-major). With submaps the
+// pose knows what the open submap has seen again of the map, before the submap is closed.
 //
 // Errors: ErrArgument.
+//
+// Complexity: O(1); with submaps O(d^3) for d landmarks that the open submap and the map have in common, and once
+// after d has changed what [Map.JointCovariance] of them costs.
 func (f *Filter) Pose() (pose Pose, covariance [36]float64, err error) {
 	if err = f.rlock(); err != nil {
 		return

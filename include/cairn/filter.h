@@ -357,8 +357,8 @@ CAIRN_API cairn_status cairn_filter_merge_landmarks(cairn_filter *filter, uint64
 
 /** Splits a landmark that is in truth two landmarks. The new landmark `fresh` gets the position of `id` plus an
  *  independent error with this 3x3 covariance (positive definite; it says how far apart the two may be). Later
- *  observations separate the two. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also if `fresh` exists),
- *  CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_CAPACITY. Complexity: O(n). \since 0.1.0 */
+ *  observations separate the two. Threads: one a handle. Errors: CAIRN_ERROR_ARGUMENT (also if `fresh` exists, or if
+ *  the filter names landmarks itself and `fresh` is 2^63 or more), CAIRN_ERROR_NOT_FOUND, CAIRN_ERROR_CAPACITY. Complexity: O(n). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_split_landmark(cairn_filter *filter, uint64_t id, uint64_t fresh,
                                                    CAIRN_UNIT(m^2) const double covariance[9], cairn_error *error);
 
@@ -494,7 +494,10 @@ CAIRN_API cairn_status cairn_filter_last_update(const cairn_filter *filter, CAIR
                                                 cairn_error *error);
 
 /** Pose of the body in the map, and the covariance of its error [dp; dtheta] (6x6 row-major); each may be NULL.
- *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
+ *  With submaps the pose knows what the open submap has seen again of the map, before the submap is closed.
+ *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT. Complexity: O(1); with submaps O(d^3) for d
+ *  landmarks that the open submap and the map have in common, and once after d has changed what
+ *  cairn_map_joint_covariance of them costs. \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_pose(const cairn_filter *filter, CAIRN_OUT CAIRN_OPTIONAL cairn_pose *pose,
                                          CAIRN_OUT CAIRN_OPTIONAL CAIRN_UNIT(pose^2) double covariance[36],
                                          cairn_error *error);

@@ -217,6 +217,35 @@ static void a_split_landmark_becomes_two(void** state) {
   cairn_filter_destroy(s.filter);
 }
 
+static void nearest_neighbour(cairn_filter_options* options) {
+  options->association = CAIRN_ASSOCIATION_NEAREST;
+}
+
+/* A filter that names landmarks counts on from the names of its caller, and never comes to the end of the numbers. */
+static void names_of_split_landmarks_leave_room(void** state) {
+  (void)state;
+  scene s = open_scene(nearest_neighbour);
+  double covariance[9];
+  diagonal(covariance, 3, 0.25);
+  look(&s, names, places, 2, NULL);
+  cairn_landmark all[8];
+  size_t n = 0;
+  assert_ok(cairn_map_landmarks(cairn_filter_map(s.filter), all, LENGTH(all), &n, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "2^63",
+                 cairn_filter_split_landmark(s.filter, all[0].id, UINT64_MAX - 1, covariance, NULL));
+  assert_refused(NULL, CAIRN_ERROR_ARGUMENT, "2^63",
+                 cairn_filter_split_landmark(s.filter, all[0].id, (uint64_t)1 << 63, covariance, NULL));
+  const uint64_t highest = ((uint64_t)1 << 63) - 1;
+  assert_ok(cairn_filter_split_landmark(s.filter, all[0].id, highest, covariance, NULL));
+  const double far[2][2] = {{9, 40}, {9, -40}};
+  look(&s, names, far, 2, NULL);
+  assert_ok(cairn_map_landmarks(cairn_filter_map(s.filter), all, LENGTH(all), &n, NULL));
+  assert_int_equal(n, 5);
+  for (size_t i = 1; i < n; ++i) assert_true(all[i - 1].id < all[i].id);
+  assert_true(all[4].id == highest + 2);
+  cairn_filter_destroy(s.filter);
+}
+
 static void by_distance(cairn_filter_options* options) {
   options->association = CAIRN_ASSOCIATION_NEAREST;
   options->new_probability = 0.999;
@@ -328,6 +357,7 @@ int main(void) {
       cmocka_unit_test(a_landmark_in_view_that_is_missed_is_removed),
       cmocka_unit_test(merging_equals_observing_a_difference_of_zero),
       cmocka_unit_test(a_split_landmark_becomes_two),
+      cmocka_unit_test(names_of_split_landmarks_leave_room),
       cmocka_unit_test(likelihood_prefers_the_better_known_landmark),
       cmocka_unit_test(options_are_checked),
   };

@@ -67,7 +67,7 @@ static void poses_follow_the_map(void** state) {
       }
       cairn_filter_destroy(f);
     }
-    assert_true(corrected < (joins[j] == CAIRN_JOIN_SPARSE ? 0.55 : 0.8) * online);
+    assert_true(corrected < (joins[j] == CAIRN_JOIN_SPARSE ? 0.7 : 0.95) * online);
     assert_true(worst < 0.3 * odometry);
   }
 }

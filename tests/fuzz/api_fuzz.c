@@ -219,6 +219,7 @@ static void ask_submaps(slot* s) {
   HOLDS(cairn_filter_pose(f, &pose, NULL, NULL) == CAIRN_OK, 0);
   if (s->wild) return;
   HOLDS(cairn_pose_compose(&base, &local, &composed, NULL) == CAIRN_OK, 0);
+  if (open > 0) return; /* landmarks that the map knows correct the pose */
   for (int i = 0; i < 3; ++i) {
     const double scale =
         1 + fabs(base.position[i]) + fabs(local.position[0]) + fabs(local.position[1]) + fabs(local.position[2]);

@@ -317,7 +317,8 @@ classdef Filter < cairn.internal.Handle
       %   fresh: uint64
       %   covariance: 3 x 3, m^2
       %
-      % Errors: cairn:ARGUMENT (also if `fresh` exists), cairn:NOT_FOUND, cairn:CAPACITY.
+      % Errors: cairn:ARGUMENT (also if `fresh` exists, or if the filter names landmarks itself and `fresh` is 2^63 or
+      % more), cairn:NOT_FOUND, cairn:CAPACITY.
       cairn_mex('filter_split_landmark', self.handle, id, fresh, covariance);
     end
 
@@ -403,7 +404,8 @@ classdef Filter < cairn.internal.Handle
 
     function [pose, covariance] = pose(self)
       % [pose, covariance] = filter.pose()
-      % Pose of the body in the map, and the covariance of its error [dp; dtheta] (6x6 row-major).
+      % Pose of the body in the map, and the covariance of its error [dp; dtheta] (6x6 row-major). With submaps the pose
+      % knows what the open submap has seen again of the map, before the submap is closed.
       %
       %   pose: struct: position, quaternion
       %   covariance: 6 x 6, pose^2

@@ -185,7 +185,10 @@ cairn_status cairn_filter_split_landmark(cairn_filter* filter, uint64_t id, uint
 cairn_status cairn_filter_pose(const cairn_filter* filter, cairn_pose* pose, double covariance[36],
                                cairn_error* error) {
   return guard(error, [&] {
-    with_filter(filter, [&](const auto& f) { write_estimate(f.pose(), f.pose_covariance(), pose, covariance); });
+    with_filter(filter, [&](const auto& f) {
+      const auto vehicle = f.vehicle();
+      write_estimate(vehicle.pose, vehicle.covariance, pose, covariance);
+    });
   });
 }
 

@@ -67,8 +67,9 @@ cairn_status cairn_filter_trajectory(const cairn_filter* filter, uint64_t first,
                     printable(first), printable(trajectory.capacity()), printable(trajectory.first()));
       const auto count = static_cast<std::size_t>(trajectory.end() - first);
       if (!check_room(poses, capacity, count, needed, "poses")) return;
+      const auto open = f.open_submap();
       for (std::size_t i = 0; i < count; ++i)
-        write_pose(Embedding<PoseOf<decltype(f)>>::up(f.trajectory_pose(first + i)), poses + i);
+        write_pose(Embedding<PoseOf<decltype(f)>>::up(f.trajectory_pose(first + i, open)), poses + i);
     });
   });
 }

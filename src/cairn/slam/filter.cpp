@@ -192,6 +192,12 @@ void Filter<Pose>::look_from(std::uint64_t id) {
 
 template <class Pose>
 void Filter<Pose>::split_landmark(std::uint64_t id, std::uint64_t fresh, const PointSquare& covariance) {
+  // Where the filter gives names, it counts on from the highest name: it must not come to the end of the numbers.
+  constexpr std::uint64_t kCallersEnd = std::uint64_t{1} << 63;
+  if (options_.association != AssociationKind::known && fresh >= kCallersEnd)
+    throw Error(ErrorCode::argument,
+                "fresh is %llu; a filter that names landmarks itself takes only numbers below 2^63 from its caller",
+                static_cast<unsigned long long>(fresh));
   local_.split(id, fresh, covariance);
   frames_.reserve_id(fresh);
 }

@@ -109,11 +109,16 @@ class Filter {
   // --- trajectory --- every update adds its pose
   void keep_pose() { submaps_.keep_pose(); }  // adds the present pose
   const Trajectory<Pose>& trajectory() const { return trajectory_; }
-  Pose trajectory_pose(std::uint64_t number) const { return trajectory_.pose(number, submaps_.map()); }
+  typename Trajectory<Pose>::Open open_submap() const { return submaps_.open_submap(); }
+  Pose trajectory_pose(std::uint64_t number, const typename Trajectory<Pose>::Open& open) const {
+    return trajectory_.pose(number, submaps_.map(), open);
+  }
 
   // --- queries ---
-  Pose pose() const { return submaps_.pose(); }
-  Square pose_covariance() const { return submaps_.pose_covariance(); }
+  using Estimate = typename SubmapKeeper<Pose>::Estimate;
+  Estimate vehicle() const { return submaps_.vehicle(); }
+  Pose pose() const { return vehicle().pose; }
+  Square pose_covariance() const { return vehicle().covariance; }
   // Systematic errors that are states, in the order of SystematicErrors; the covariance has both triangles.
   const SystematicErrors& systematic() const { return local_.systematic(); }
   void systematic_errors(double* values, double* covariance) const { submaps_.systematic(values, covariance); }

@@ -53,7 +53,8 @@ SubmapErrors SubmapKeeper<Pose>::take_errors(const std::vector<Index>& slots) co
 // The map's joint estimate of base and systematic errors s, corrected by what the open submap found out about s; then
 // the body in the submap given s (docs/systematic_errors.md, eq. 14).
 template <class Pose>
-typename SubmapKeeper<Pose>::Place SubmapKeeper<Pose>::place(const std::size_t* indices, std::size_t count) const {
+typename SubmapKeeper<Pose>::Place SubmapKeeper<Pose>::place_with_errors(const std::size_t* indices,
+                                                                            std::size_t count) const {
   const Index g = local_.systematic().count(), moving = kDof + g, landmarks = kDim * static_cast<Index>(count);
   const SubmapErrors errors = take_errors({});
   const ErrorModel<Pose>& model = local_.state().model();
@@ -106,11 +107,11 @@ void SubmapKeeper<Pose>::systematic(double* values, double* covariance) const {
 
 template void SubmapKeeper<SE2>::open();
 template SubmapErrors SubmapKeeper<SE2>::take_errors(const std::vector<Index>&) const;
-template SubmapKeeper<SE2>::Place SubmapKeeper<SE2>::place(const std::size_t*, std::size_t) const;
+template SubmapKeeper<SE2>::Place SubmapKeeper<SE2>::place_with_errors(const std::size_t*, std::size_t) const;
 template void SubmapKeeper<SE2>::systematic(double*, double*) const;
 template void SubmapKeeper<SE3>::open();
 template SubmapErrors SubmapKeeper<SE3>::take_errors(const std::vector<Index>&) const;
-template SubmapKeeper<SE3>::Place SubmapKeeper<SE3>::place(const std::size_t*, std::size_t) const;
+template SubmapKeeper<SE3>::Place SubmapKeeper<SE3>::place_with_errors(const std::size_t*, std::size_t) const;
 template void SubmapKeeper<SE3>::systematic(double*, double*) const;
 
 }  // namespace cairn

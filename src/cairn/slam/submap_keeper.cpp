@@ -74,7 +74,8 @@ SubmapKeeper<Pose>::SubmapKeeper(const FilterOptions<Pose>& options, LocalMap<Po
       trajectory_(trajectory),
       log_(log),
       policy_(options, local),
-      loss_(options.join_loss, options.join_loss_width) {}
+      loss_(options.join_loss, options.join_loss_width),
+      seen_again_(options) {}
 
 template <class Pose>
 void SubmapKeeper<Pose>::make_map() {
@@ -319,44 +320,66 @@ FixReport SubmapKeeper<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold
 }
 
 template <class Pose>
-Pose SubmapKeeper<Pose>::pose() const {
-  if (shares_errors()) return place(nullptr, 0).pose;
-  return map_ != nullptr ? map_->base() * local_.state().pose() : local_.state().pose();
+std::vector<CommonLandmark> SubmapKeeper<Pose>::common() const {
+  std::vector<CommonLandmark> both;
+  for (const Index slot : joining()) {
+    std::size_t index = 0;
+    if (map_->find(local_.table().id(slot), index)) both.push_back({slot, index});
+  }
+  return both;
 }
 
 template <class Pose>
-typename SubmapKeeper<Pose>::Square SubmapKeeper<Pose>::pose_covariance() const {
+typename SeenAgain<Pose>::Given SubmapKeeper<Pose>::given(const std::size_t* indices, std::size_t count) const {
+  return seen_again_.given(*map_, local_.state(), common(), indices, count);
+}
+
+template <class Pose>
+typename SubmapKeeper<Pose>::Place SubmapKeeper<Pose>::place(const std::size_t* indices, std::size_t count) const {
+  if (shares_errors()) return place_with_errors(indices, count);
+  const auto given = this->given(indices, count);
+  const ProductJacobians J(given.base, given.vehicle);
+  const auto landmarks = static_cast<Eigen::Index>(kDim * count);
+  Place place{given.base * given.vehicle, Eigen::MatrixXd(kDof + landmarks, kDof + landmarks)};
+  Eigen::Matrix<double, kDof, 2 * kDof> both;
+  both << J.by_a, J.by_b;
+  const Eigen::MatrixXd across = both * given.covariance.topRows(2 * kDof);
+  const Square own = across.leftCols(2 * kDof) * both.transpose();
+  place.joint.template topLeftCorner<kDof, kDof>() = own.template selfadjointView<Eigen::Lower>();
+  place.joint.topRightCorner(kDof, landmarks) = across.rightCols(landmarks);
+  place.joint.bottomLeftCorner(landmarks, kDof) = across.rightCols(landmarks).transpose();
+  place.joint.bottomRightCorner(landmarks, landmarks) = given.covariance.bottomRightCorner(landmarks, landmarks);
+  return place;
+}
+
+template <class Pose>
+typename SubmapKeeper<Pose>::Estimate SubmapKeeper<Pose>::vehicle() const {
   const State<Pose>& state = local_.state();
-  if (map_ == nullptr) return state.pose_covariance();
-  if (shares_errors()) return place(nullptr, 0).joint;
-  return ProductJacobians(map_->base(), state.pose()).covariance(map_->base_covariance(), state.pose_covariance());
+  if (map_ == nullptr) return {state.pose(), state.pose_covariance()};
+  if (!shares_errors() && common().empty())  // allocates nothing
+    return {map_->base() * state.pose(),
+            ProductJacobians(map_->base(), state.pose()).covariance(map_->base_covariance(), state.pose_covariance())};
+  const Place own = place(nullptr, 0);
+  return {own.pose, own.joint};
 }
 
 template <class Pose>
 void SubmapKeeper<Pose>::pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const {
   const std::size_t size = kDof + kDim * count;
-  const auto n = static_cast<Eigen::Index>(size), landmarks = static_cast<Eigen::Index>(kDim * count);
+  const auto n = static_cast<Eigen::Index>(size);
   Eigen::MatrixXd joint(n, n);
-  if (map_ == nullptr) {
+  if (map_ == nullptr)
     local_.pose_joint_covariance(indices, count, joint.data());
-  } else if (shares_errors()) {
+  else
     joint = place(indices, count).joint;
-  } else {
-    const State<Pose>& state = local_.state();
-    map_->base_joint_covariance(indices, count, joint.data());
-    const ProductJacobians J(map_->base(), state.pose());
-    const Eigen::MatrixXd across = joint.bottomLeftCorner(landmarks, kDof) * J.by_a.transpose();
-    joint.topLeftCorner<kDof, kDof>() = J.covariance(joint.topLeftCorner<kDof, kDof>(), state.pose_covariance());
-    joint.bottomLeftCorner(landmarks, kDof) = across;
-    joint.topRightCorner(kDof, landmarks) = across.transpose();
-  }
   with_pose<Pose>(joint.data(), count, matrix);
 }
 
 template <class Pose>
 double SubmapKeeper<Pose>::pose_nees(const Pose& truth) const {
   if (map_ == nullptr) return local_.state().pose_nees(truth);
-  return State<Pose>::nees(options_.error, options_.initial_pose.translation(), truth, pose(), pose_covariance());
+  const Estimate own = vehicle();
+  return State<Pose>::nees(options_.error, options_.initial_pose.translation(), truth, own.pose, own.covariance);
 }
 
 template <class Pose>
@@ -364,6 +387,16 @@ void SubmapKeeper<Pose>::keep_pose() {
   if (trajectory_.capacity() == 0) return;
   const std::size_t submap = map_ != nullptr ? map_->submap_count() : 0;
   trajectory_.add(submap, local_.state().pose(), local_.state().pose_covariance());
+}
+
+template <class Pose>
+typename Trajectory<Pose>::Open SubmapKeeper<Pose>::open_submap() const {
+  const State<Pose>& state = local_.state();
+  if (map_ == nullptr || trajectory_.capacity() == 0) return {};
+  if (shares_errors() || common().empty())
+    return {map_->base(), map_->base() * state.pose(), state.pose(), state.pose_covariance()};
+  const auto given = this->given(nullptr, 0);
+  return {given.base, given.base * given.vehicle, state.pose(), state.pose_covariance()};
 }
 
 template MapOptions<SE2> map_options(const FilterOptions<SE2>&);

@@ -8,6 +8,7 @@
 #include "map/global_map.hpp"
 #include "map/naming.hpp"
 #include "slam/log.hpp"
+#include "slam/seen_again.hpp"
 #include "slam/submap_policy.hpp"
 #include "slam/trajectory.hpp"
 
@@ -60,28 +61,35 @@ class SubmapKeeper {
   const ClosingReport& closing() const { return closing_; }
 
   // --- the vehicle in the map that the caller sees --- errors of base and open submap are independent, given the
-  // systematic errors
-  Pose pose() const;
-  Square pose_covariance() const;
+  // systematic errors and the landmarks that both have in common
+  struct Estimate {
+    Pose pose;
+    Square covariance;
+  };
+  Estimate vehicle() const;
   double pose_nees(const Pose& truth) const;
   void keep_pose();  // adds the pose to the trajectory
+  typename Trajectory<Pose>::Open open_submap() const;
   // Values and covariance (both triangles) of the systematic errors.
   void systematic(double* values, double* covariance) const;
   // Covariance of [pose; landmarks of landmarks()], in space: 6 + 3 count on a side.
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 
  private:
-  // The vehicle in the map, and the joint covariance of [pose; landmarks] in ordinary errors. The systematic errors are
-  // those that map and open submap tell together.
+  // The vehicle in the map, and the joint covariance of [pose; landmarks] in ordinary errors. With systematic errors,
+  // these are what map and open submap tell together, and common landmarks wait for the closing.
   struct Place {
     Pose pose;
     Eigen::MatrixXd joint;
   };
   Place place(const std::size_t* indices, std::size_t count) const;
+  typename SeenAgain<Pose>::Given given(const std::size_t* indices, std::size_t count) const;
+  Place place_with_errors(const std::size_t* indices, std::size_t count) const;
   bool shares_errors() const { return map_ != nullptr && local_.systematic().any(); }
   SubmapErrors take_errors(const std::vector<Index>& slots) const;
   void open();  // a new submap; after a closing it does not fail
   std::vector<Index> joining() const;  // slots of the landmarks that join the map
+  std::vector<CommonLandmark> common() const;
   Submap<Pose> take_submap() const;
   FixReport join(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
   std::unique_ptr<MapTransaction<Pose>> join(Submap<Pose>& submap, ClosingReport& report);
@@ -96,6 +104,7 @@ class SubmapKeeper {
   std::unique_ptr<GlobalMap<Pose>> map_;
   SubmapPolicy<Pose> policy_;
   RobustLoss loss_;                   // of the landmarks that a submap shares with the map
+  mutable SeenAgain<Pose> seen_again_;
   Eigen::VectorXd prior_;             // of the systematic errors, with which the open submap began
   Eigen::MatrixXd prior_covariance_;  // of the same
   Eigen::VectorXd next_prior_;        // of the next submap

@@ -64,14 +64,14 @@ typename Trajectory<Pose>::Square Trajectory<Pose>::gain(const Local& local, con
 }
 
 template <class Pose>
-Pose Trajectory<Pose>::pose(std::uint64_t number, const GlobalMap<Pose>* map) const {
+Pose Trajectory<Pose>::pose(std::uint64_t number, const GlobalMap<Pose>* map, const Open& open) const {
   const Local& local = poses_[number % capacity_];
   if (map == nullptr) return local.T_base_body;
   const std::size_t submap = local.submap, closed = map->submap_count();
-  if (submap == closed) return map->base() * local.T_base_body;
-  const Pose T_map_base = map->submap_base(submap);
-  const Pose T_map_end = submap + 1 == closed ? map->base() : map->submap_base(submap + 1);
-  const Local& end = ends_[submap % capacity_];
+  const bool is_open = submap == closed;
+  const Pose T_map_base = is_open ? open.base_ : map->submap_base(submap);
+  const Pose T_map_end = is_open ? open.end_ : submap + 1 == closed ? map->base() : map->submap_base(submap + 1);
+  const Local& end = is_open ? open.local_ : ends_[submap % capacity_];
   // docs/trajectory.md, eq. (2): the correction of the submap's end.
   const typename Pose::Tangent correction = (T_map_base.inverse() * T_map_end * end.T_base_body.inverse()).log();
   // eq. (4)

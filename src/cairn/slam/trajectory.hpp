@@ -25,8 +25,9 @@ class Trajectory {
   // The pose at which a submap was closed. Submaps are closed in their order.
   void end_submap(std::uint64_t submap, const Pose& T_base_end, const Square& covariance);
 
-  // A kept pose in the map that the caller sees; `map` is null with a single map.
-  Pose pose(std::uint64_t number, const GlobalMap<Pose>* map) const;
+  class Open;
+  // A kept pose in the map that the caller sees. `map` is null with a single map; `open` is then not used.
+  Pose pose(std::uint64_t number, const GlobalMap<Pose>* map, const Open& open) const;
 
  private:
   static constexpr int kDof = Pose::kDof;
@@ -47,6 +48,21 @@ class Trajectory {
   // By submap modulo capacity. A call that closes a submap also adds a pose, or the submap holds a landmark and so at
   // least one pose. The kept poses therefore span at most `capacity` ends.
   Local* ends_;
+};
+
+// The open submap, as it would be closed now: its base and its end, which is the vehicle's pose, in the map, and the
+// vehicle in the submap with its ordinary covariance.
+template <class Pose>
+class Trajectory<Pose>::Open {
+ public:
+  Open() = default;
+  Open(const Pose& T_map_base, const Pose& T_map_end, const Pose& T_base_end, const Square& covariance)
+      : base_(T_map_base), end_(T_map_end), local_(pack(0, T_base_end, covariance)) {}
+
+ private:
+  friend class Trajectory;
+  Pose base_, end_;
+  Local local_ = {};
 };
 
 extern template class Trajectory<SE2>;

@@ -84,7 +84,8 @@ bool WholeBatchUpdate<Pose>::contradicted(MotionTrust<Pose>& trust, const Absolu
 template <class Pose>
 void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& given) {
   report_.start(1);
-  const std::optional<AbsoluteFix<Pose>> fix = given.usable(submaps_.pose(), submaps_.pose_covariance());
+  const auto vehicle = submaps_.vehicle();
+  const std::optional<AbsoluteFix<Pose>> fix = given.usable(vehicle.pose, vehicle.covariance);
   if (!fix) {
     report_.match(0).reason = Reason::no_image;
     log_.say("update: no heading, because the body's x axis may be vertical");
@@ -128,8 +129,8 @@ FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
   const bool supported = join.fused > 0 && join.fused > join.refused;  // by the landmarks of the closing
   if (supported) trust_in_map_.agree();
   Widening<Pose> widening;
-  const bool wider =
-      contradicted(trust_in_map_, fix, submaps_.pose(), submaps_.pose_covariance(), first.accepted, widening);
+  const auto vehicle = submaps_.vehicle();
+  const bool wider = contradicted(trust_in_map_, fix, vehicle.pose, vehicle.covariance, first.accepted, widening);
   if (!wider || first.accepted) {  // an accepted fix has been used: a second time would count it twice
     trust_in_map_.commit();
     return first;

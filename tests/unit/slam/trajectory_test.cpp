@@ -93,11 +93,13 @@ TEST_CASE_TEMPLATE("trajectory: the end of a submap is the next base, and its be
     kept.poses.end_submap(1, end, 2.0 * some);
     kept.poses.add(2, end, some);
     const Bases<Pose> map({base, next, last});
-    check_same(kept.poses.pose(0, &map), base, 1e-14);
-    check_same(kept.poses.pose(1, &map), next, 1e-7);  // the jitter of a singular covariance
-    check_same(kept.poses.pose(2, &map), last, 1e-7);
-    check_same(kept.poses.pose(3, &map), last * end, 1e-14);  // the open submap
-    check_same(kept.poses.pose(1, nullptr), end, 0.0);        // a single map
+    check_same(kept.poses.pose(0, &map, {}), base, 1e-14);
+    check_same(kept.poses.pose(1, &map, {}), next, 1e-7);  // the jitter of a singular covariance
+    check_same(kept.poses.pose(2, &map, {}), last, 1e-7);
+    // The open submap, and what it would be if it were closed now.
+    check_same(kept.poses.pose(3, &map, {last, last * end, end, some}), last * end, 1e-14);
+    check_same(kept.poses.pose(3, &map, {next, next * last, end, some}), next * last, 1e-7);
+    check_same(kept.poses.pose(1, nullptr, {}), end, 0.0);  // a single map
   }
 }
 
@@ -154,7 +156,7 @@ TEST_CASE_TEMPLATE("trajectory: odometry gets the correction of its smoother", P
       Q * J_end.transpose() * Eigen::MatrixXd(J_end * Q * J_end.transpose()).ldlt().solve(Eigen::VectorXd(correction));
   const std::vector<Pose> smooth = drive(least);
   const Bases<Pose> map({base, base * end});
-  for (std::size_t t = 0; t <= n; ++t) check_same(kept.poses.pose(t, &map), base * smooth[t], 1e-3 * correction.norm());
+  for (std::size_t t = 0; t <= n; ++t) check_same(kept.poses.pose(t, &map, {}), base * smooth[t], 1e-3 * correction.norm());
 }
 
 TEST_CASE("trajectory: a pose that is less certain than the end moves as far as the end") {
@@ -163,8 +165,8 @@ TEST_CASE("trajectory: a pose that is less certain than the end moves as far as 
   kept.poses.add(0, at(0), certain(0.5, 0.0));
   kept.poses.end_submap(0, at(1), certain(1.0, 0.0));
   const Bases<SE2> map({at(0), at(1.5)});
-  CHECK(kept.poses.pose(0, &map).translation().x() == doctest::Approx(9.5));
-  CHECK(kept.poses.pose(1, &map).translation().x() == doctest::Approx(0.25));
+  CHECK(kept.poses.pose(0, &map, {}).translation().x() == doctest::Approx(9.5));
+  CHECK(kept.poses.pose(1, &map, {}).translation().x() == doctest::Approx(0.25));
 }
 
 TEST_CASE("trajectory: the end of a submap without errors moves no pose of it") {
@@ -172,7 +174,7 @@ TEST_CASE("trajectory: the end of a submap without errors moves no pose of it") 
   kept.poses.add(0, at(1), certain(0.0, 0.0));
   kept.poses.end_submap(0, at(1), certain(0.0, 0.0));
   const Bases<SE2> map({at(0), at(2)});
-  CHECK(kept.poses.pose(0, &map).translation().x() == 1.0);
+  CHECK(kept.poses.pose(0, &map, {}).translation().x() == 1.0);
 }
 
 TEST_CASE("trajectory: an error that all axes have in common is shared, too") {
@@ -180,7 +182,7 @@ TEST_CASE("trajectory: an error that all axes have in common is shared, too") {
   kept.poses.add(0, at(0), 0.5 * Matrix3::Ones());
   kept.poses.end_submap(0, at(0), Matrix3::Ones());
   const Bases<SE2> map({at(0), SE2::exp(Vector3(0.1, 0.1, 0.1))});
-  check_same(kept.poses.pose(0, &map), SE2::exp(Vector3(0.05, 0.05, 0.05)), 1e-6);
+  check_same(kept.poses.pose(0, &map, {}), SE2::exp(Vector3(0.05, 0.05, 0.05)), 1e-6);
 }
 
 TEST_CASE("trajectory: the newest poses are kept") {
@@ -196,7 +198,7 @@ TEST_CASE("trajectory: the newest poses are kept") {
   }
   const Bases<SE2> map(bases);
   for (std::uint64_t t = kept.poses.first(); t < kept.poses.end(); ++t)
-    CHECK(kept.poses.pose(t, &map).translation().x() == doctest::Approx(2.5 * static_cast<double>(t) + 1.25));
+    CHECK(kept.poses.pose(t, &map, {}).translation().x() == doctest::Approx(2.5 * static_cast<double>(t) + 1.25));
 }
 
 TEST_CASE("trajectory: without room nothing is kept") {

@@ -1999,6 +1999,7 @@ extern "C" {
         error: *mut cairn_error
     ) -> cairn_status;
     /// Pose of the body in the map, and the covariance of its error \[dp; dtheta\] (6x6 row-major); each may be NULL.
+    /// With submaps the pose knows what the open submap has seen again of the map, before the submap is closed.
     pub fn cairn_filter_pose(
         filter: *const cairn_filter,
         pose: *mut cairn_pose,

@@ -28,9 +28,11 @@ pub(crate) fn report<T>(
 
 impl Filter {
     //~ cairn_filter_pose
-    /// Pose of the body in the map, and the covariance of its error \[dp; dtheta\] (6x6 row-major).
+    /// Pose of the body in the map, and the covariance of its error \[dp; dtheta\] (6x6 row-major). With submaps the
+    /// pose knows what the open submap has seen again of the map, before the submap is closed.
     ///
-    /// Complexity: O(1).
+    /// Complexity: O(1); with submaps O(d^3) for d landmarks that the open submap and the map have in common, and once
+    /// after d has changed what [`Map::joint_covariance`](crate::Map::joint_covariance) of them costs.
     ///
     /// # Errors
     ///

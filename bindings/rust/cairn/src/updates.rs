@@ -221,7 +221,8 @@ impl Filter {
     ///
     /// # Errors
     ///
-    /// - [`Status::ERROR_ARGUMENT`](crate::Status::ERROR_ARGUMENT): also if `fresh` exists
+    /// - [`Status::ERROR_ARGUMENT`](crate::Status::ERROR_ARGUMENT): also if `fresh` exists, or if the filter names
+    ///   landmarks itself and `fresh` is 2^63 or more
     /// - [`Status::ERROR_NOT_FOUND`](crate::Status::ERROR_NOT_FOUND)
     /// - [`Status::ERROR_CAPACITY`](crate::Status::ERROR_CAPACITY)
     pub fn split_landmark(&mut self, id: u64, fresh: u64, covariance: &[f64; 9]) -> Result<()> {

@@ -364,7 +364,8 @@ class Filter : public detail::Owner<detail::FilterKind> {
   /// independent error with this 3x3 covariance (positive definite; it says how far apart the two may be). Later
   /// observations separate the two.
   ///
-  /// Throws Error: Status::kErrorArgument (also if `fresh` exists); Status::kErrorNotFound; Status::kErrorCapacity.
+  /// Throws Error: Status::kErrorArgument (also if `fresh` exists, or if the filter names landmarks itself and `fresh`
+  /// is 2^63 or more); Status::kErrorNotFound; Status::kErrorCapacity.
   ///
   /// Complexity: O(n).
   void split_landmark(std::uint64_t id, std::uint64_t fresh, Symmetric<3> covariance) {
@@ -432,11 +433,13 @@ class Filter : public detail::Owner<detail::FilterKind> {
   // Estimates.
 
   //~ cairn_filter_pose
-  /// Pose of the body in the map, and the covariance of its error [dp; dtheta] (6x6 row-major).
+  /// Pose of the body in the map, and the covariance of its error [dp; dtheta] (6x6 row-major). With submaps the pose
+  /// knows what the open submap has seen again of the map, before the submap is closed.
   ///
   /// Throws Error: Status::kErrorArgument.
   ///
-  /// Complexity: O(1).
+  /// Complexity: O(1); with submaps O(d^3) for d landmarks that the open submap and the map have in common, and once
+  /// after d has changed what MapView::joint_covariance of them costs.
   PoseEstimate pose() const { return estimate(cairn_filter_pose); }
 
   //~ cairn_filter_map

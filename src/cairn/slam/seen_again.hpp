@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the open submap has seen again of the map tells the pose of its base, and of the vehicle, before it is closed
+// (docs/submaps.md, "The pose").
+#pragma once
+
+#include <mutex>
+#include <vector>
+
+#include "ekf/state.hpp"
+#include "map/global_map.hpp"
+#include "map/submap_innovation.hpp"
+#include "slam/filter_options.hpp"
+
+namespace cairn {
+
+// A landmark that the open submap and the map have in common.
+struct CommonLandmark {
+  Index slot;         // in the open submap
+  std::size_t index;  // in the map
+  bool operator==(const CommonLandmark& other) const { return slot == other.slot && index == other.index; }
+};
+
+// Queries may run at the same time.
+template <class Pose>
+class SeenAgain {
+ public:
+  static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
+  using Point = typename Pose::Point;
+  using Matrix = Eigen::MatrixXd;
+  using Vector = Eigen::VectorXd;
+  using Commons = std::vector<CommonLandmark>;
+
+  explicit SeenAgain(const FilterOptions<Pose>& options);
+
+  // Base and vehicle in the submap, given that the common landmarks are the same ones in both. The landmarks that were
+  // asked for stay where the map has them, and so does their covariance.
+  struct Given {
+    Pose base, vehicle;
+    Matrix covariance;  // of [base; vehicle; landmarks of the map that were asked for], ordinary errors
+  };
+  Given given(const GlobalMap<Pose>& map, const State<Pose>& open, const Commons& common, const std::size_t* indices,
+              std::size_t count);
+
+ private:
+  void solve(const GlobalMap<Pose>& map, const State<Pose>& open, const Commons& common, const Matrix& P,
+             const Matrix& local, Given& given) const;
+  Matrix joint(const GlobalMap<Pose>& map, const Commons& common, const std::size_t* indices, std::size_t count);
+
+  const FilterOptions<Pose>& options_;
+  double single_gate_;
+  std::mutex mutex_;  // guards the members below: the joint covariance of base and common landmarks, while it holds
+  std::uint64_t revision_ = 0;
+  std::vector<std::size_t> landmarks_;
+  Matrix P_;
+};
+
+extern template class SeenAgain<SE2>;
+extern template class SeenAgain<SE3>;
+
+}  // namespace cairn
