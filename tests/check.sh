@@ -54,11 +54,10 @@ ctest --test-dir "$root/build/check" --output-on-failure -j "$jobs"
 begin "Python: the package installed, its documentation's commands, the report in a browser"
 bash "$root/tests/python/check_python.sh" "$root/build/check"
 
-begin "Bindings: Python"
-bash "$root/bindings/python/test.sh" "$root/build/check"
-
-begin "Bindings: Rust"
-bash "$root/bindings/rust/test.sh" "$root/build/check"
+for binding in cpp python rust go node java octave; do
+  begin "Bindings: $binding"
+  bash "$root/bindings/$binding/test.sh" "$root/build/check"
+done
 
 begin "Other tools read trajectories, maps and a mission"
 bash "$root/tests/program/check_other_tools.sh" "$root/build/check"

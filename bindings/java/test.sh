@@ -22,6 +22,7 @@ build=$(cd -- "$build" && pwd -P)
 work=$build/java
 mkdir -p "$work"
 rm -rf -- "$work/fixtures" "$work/consumer" "$work/conformance_of_c"
+same_libraries "$build" "$work/lib"
 before=$(find "$root/bindings/java" | sort)
 
 # CI leaves nothing in the user's repository of Maven but what was downloaded.
@@ -49,7 +50,7 @@ number=$(sed -n 's/^ "version_number": \(.*\),$/\1/p' "$root/src/api/api.json")
 
 say "mvn install: javac -Xlint:all -Werror, tests, javadoc"
 "${maven[@]}" -f "$root/bindings/java" install -Dcairn.build="$work/target" -Dcairn.root="$root" \
-  -Dcairn.lib="$build/lib" -Dcairn.replayed="$work/conformance_of_c" -Dcairn.fixtures="$work/fixtures" ||
+  -Dcairn.lib="$work/lib" -Dcairn.replayed="$work/conformance_of_c" -Dcairn.fixtures="$work/fixtures" ||
   fail "the module does not build, or a test failed"
 # skipped: what surefire counted as skipped. Nothing may be, for everything that tests need was made above.
 skipped=$(cat "$work"/target/surefire-reports/*.txt | sed -n 's/.*Skipped: \([0-9]*\).*/\1/p' | paste -sd+ | sed 's/^$/1/')
@@ -63,7 +64,7 @@ diff -r "$work/again" "$work/target/generated-sources/cairn" || fail "generate.p
 
 say "A fresh project"
 cp -r -- "$root/bindings/java/example" "$work/consumer"
-"${maven[@]}" -f "$work/consumer" compile exec:java -Djna.library.path="$build/lib" | tee "$work/consumer.log"
+"${maven[@]}" -f "$work/consumer" compile exec:java -Djna.library.path="$work/lib" | tee "$work/consumer.log"
 grep -q 'Pose\[position=.* landmarks' "$work/consumer.log" || fail "the example did not say where the rover is"
 # README shows the same lines, less indented.
 sed -n '/README: from here/,/README: to here/p' "$work/consumer/src/main/java/Rover.java" | sed '1d;$d;s/^    //' \

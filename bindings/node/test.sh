@@ -24,7 +24,8 @@ work=$build/node-package
 package=$work/tree/bindings/node
 project=$work/project
 mkdir -p "$package" "$work/tree/src/api"
-export CAIRN_LIBRARY=$build/lib npm_config_audit=false npm_config_fund=false npm_config_update_notifier=false
+same_libraries "$build" "$work/lib"
+export CAIRN_LIBRARY=$work/lib npm_config_audit=false npm_config_fund=false npm_config_update_notifier=false
 unset NODE_PATH NODE_OPTIONS
 before=$(find "$root/bindings/node" | sort)
 

@@ -302,6 +302,8 @@ int main(int argc, char** argv) {
   cairn_team_destroy(b.team);
   cairn_fleet_destroy(b.fleet);
   free(b.packet);
+  free(b.seen);
+  free(b.boats);
   free(b.vehicles);
   free(b.landmarks);
   return 0;

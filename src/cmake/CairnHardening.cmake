@@ -16,6 +16,7 @@ if(NOT CAIRN_HARDENING)
 endif()
 
 function(cairn_compile_flag_if_known name flag)
+  set(CMAKE_REQUIRED_FLAGS -Werror)  # clang only warns of a flag that it does not use
   check_cxx_compiler_flag(${flag} ${name})
   if(${name})
     add_compile_options(${flag})

@@ -65,6 +65,17 @@ configure() {
   cmake -S "$root" -B "$folder" -G Ninja "$@"
 }
 
+# same_libraries BUILD FOLDER: links in FOLDER to the libraries that the loader picks for the programs of a build, on many
+# machines the second build of libcairn. For what opens a library by its path, where the loader does not pick.
+same_libraries() {
+  local build=$1 folder=$2 picked
+  picked=$(LD_LIBRARY_PATH=$build/lib ldd "$build/bin/cairn_conformance" | sed -n 's|.* => \(/.*\)/libcairn\.so.*|\1|p')
+  [[ -n $picked ]] || fail "the loader finds no libcairn in $build/lib"
+  rm -rf -- "$folder"
+  mkdir -p "$folder"
+  ln -s "$build"/lib/libcairn_sim.so* "$picked"/libcairn.so* "$folder/"
+}
+
 # Builds the program cairn with the flags of the benchmarks; $program is then its path. Writes only to stderr.
 bench_program() {
   say "Build (build/bench)" >&2

@@ -11,6 +11,7 @@ template <std::ptrdiff_t count>
 struct Lanes {
   double value[count];
 
+  double operator[](std::ptrdiff_t i) const { return value[i]; }
   Lanes& operator+=(const Lanes& other) {
     return apply(other, [](double a, double b) { return a + b; });
   }
@@ -23,6 +24,7 @@ struct Lanes {
   Lanes& operator*=(double factor) { return *this *= all(factor); }
   friend Lanes operator+(Lanes a, const Lanes& b) { return a += b; }
   friend Lanes operator*(Lanes a, const Lanes& b) { return a *= b; }
+  friend Lanes operator*(const Lanes& a, double factor) { return Lanes(a) *= factor; }
   friend Lanes operator*(double factor, const Lanes& b) { return all(factor) *= b; }
   friend Lanes operator-(double minuend, const Lanes& b) { return all(minuend) -= b; }
 
