@@ -33,17 +33,6 @@ cd "$here"
 sources() { git -C "$here" status --porcelain -- . 2>/dev/null || true; }
 before=$(sources)
 
-# refuses TEXT COMMAND...: the command must fail and say TEXT on one line.
-refuses() {
-  local text=$1
-  shift
-  if "$@" >"$work/refused.log" 2>&1; then fail "this should have failed: $*"; fi
-  grep -m 1 -F -- "$text" "$work/refused.log" || {
-    cat "$work/refused.log" >&2
-    fail "\"$text\" is missing in what this says: $*"
-  }
-}
-
 say "Generated files, and what the package lacks of the interface"
 python3 generate.py --check
 

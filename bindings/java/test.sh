@@ -7,18 +7,10 @@ set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/../../tests/support/setup.sh"
 
 (($# <= 1)) || fail "usage: test.sh [BUILD]"
-build=${1:-$root/build/bindings}
 need_packages cmake=cmake g++=g++ gcc=gcc ninja-build=ninja libeigen3-dev libnanoflann-dev nlohmann-json3-dev libcmocka-dev \
   doctest-dev python3=python3 openjdk-17-jdk-headless=javac maven=mvn ca-certificates-java=mvn
 
-soname=$(sed -n 's/.*"soname": "\(libcairn\.so[^"]*\)".*/\1/p' "$root/src/api/api.json" | head -n 1)
-if [[ ! -e $build/lib/$soname || ! -x $build/bin/cairn_conformance ]]; then
-  say "Build of the library and of the C replayer ($build)"
-  [[ -f $build/CMakeCache.txt ]] ||
-    configure "$build" -DCMAKE_BUILD_TYPE=Release -DCAIRN_BUILD_TESTS=ON -DCAIRN_MATIO=OFF
-  cmake --build "$build" --parallel "$jobs" --target cairn cairn_sim cairn_conformance
-fi
-build=$(cd -- "$build" && pwd -P)
+built_library "$@"
 work=$build/java
 mkdir -p "$work"
 rm -rf -- "$work/fixtures" "$work/consumer" "$work/conformance_of_c"
@@ -26,7 +18,6 @@ same_libraries "$build" "$work/lib"
 before=$(find "$root/bindings/java" | sort)
 
 # CI leaves nothing in the user's repository of Maven but what was downloaded.
-version=$(sed -n 's/^ "version": "\(.*\)",$/\1/p' "$root/src/api/api.json")
 grep -q "<version>$version</version>" "$root/bindings/java/pom.xml" || fail "pom.xml has another version than api.json"
 installed=${HOME:-/root}/.m2/repository/org/cairnslam
 if [[ ! -e $installed ]]; then trap 'rm -rf -- "$installed"' EXIT; fi

@@ -6,7 +6,8 @@
     +cairn/*.m            a class for each handle and each set of constants, a function for each other function of C
 
 Files in layer/ are written by hand. Such a file replaces the one that would be generated; a line %METHODS in it stands
-for the methods that it does not define, and %DOC NAME for the documentation of a name of C.
+for the methods that it does not define, and %DOC NAME for the documentation of a name of C. The other files of
++cairn/+internal are written by hand where they are.
 
 generate.py [--check]     --check: writes nothing, fails if a file would change
 """
@@ -643,7 +644,7 @@ def main(arguments):
         sys.exit(__doc__)
     api = json.loads((HERE.parents[1] / "src/api/api.json").read_text(encoding="utf-8"))
     files = Package(api).files()
-    there = {str(path.relative_to(HERE)) for path in (HERE / "+cairn").rglob("*") if path.is_file()}
+    there = {str(path.relative_to(HERE)) for path in (HERE / "+cairn").glob("*") if path.is_file()}
     stale = sorted(there - set(files))
     changed = [name for name, text in files.items()
                if not (HERE / name).exists() or (HERE / name).read_text(encoding="utf-8") != text]

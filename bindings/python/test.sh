@@ -7,18 +7,10 @@ set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/../../tests/support/setup.sh"
 
 (($# <= 1)) || fail "usage: test.sh [BUILD]"
-build=${1:-$root/build/bindings}
 need_packages cmake=cmake g++=g++ gcc=gcc ninja-build=ninja libeigen3-dev libnanoflann-dev nlohmann-json3-dev libcmocka-dev \
   doctest-dev python3 python3-dev python3-venv
 
-soname=$(sed -n 's/.*"soname": "\(libcairn\.so[^"]*\)".*/\1/p' "$root/src/api/api.json" | head -n 1)
-if [[ ! -e $build/lib/$soname || ! -x $build/bin/cairn_conformance ]]; then
-  say "Build of the library and of the C replayer ($build)"
-  [[ -f $build/CMakeCache.txt ]] ||
-    configure "$build" -DCMAKE_BUILD_TYPE=Release -DCAIRN_BUILD_TESTS=ON -DCAIRN_MATIO=OFF
-  cmake --build "$build" --parallel "$jobs" --target cairn cairn_sim cairn_conformance
-fi
-build=$(cd -- "$build" && pwd -P)
+built_library "$@"
 work=$build/python-package
 rm -rf -- "$work"
 mkdir -p "$work"

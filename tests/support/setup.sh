@@ -65,6 +65,35 @@ configure() {
   cmake -S "$root" -B "$folder" -G Ninja "$@"
 }
 
+# built_library [BUILD]: the build tree BUILD (build/bindings by default) in which a binding is tested. The library and the
+# C replayer are built if they are missing. $build is its path then, $soname and $version are those of the library.
+built_library() {
+  build=${1:-$root/build/bindings}
+  soname=$(sed -n 's/.*"soname": "\(libcairn\.so[^"]*\)".*/\1/p' "$root/src/api/api.json" | head -n 1)
+  # shellcheck disable=SC2034  # for the script that calls
+  version=$(sed -n 's/^ *"version": "\([^"]*\)".*/\1/p' "$root/src/api/api.json" | head -n 1)
+  if [[ ! -e $build/lib/$soname || ! -x $build/bin/cairn_conformance ]]; then
+    say "Build of the library and of the C replayer ($build)"
+    [[ -f $build/CMakeCache.txt ]] ||
+      configure "$build" -DCMAKE_BUILD_TYPE=Release -DCAIRN_BUILD_TESTS=ON -DCAIRN_MATIO=OFF
+    cmake --build "$build" --parallel "$jobs" --target cairn cairn_sim cairn_conformance
+  fi
+  build=$(CDPATH='' cd -- "$build" && pwd -P)
+}
+
+# refuses TEXT COMMAND...: the command must fail and say TEXT on one line. Keeps what it says in the folder $work of the
+# script that calls.
+# shellcheck disable=SC2154
+refuses() {
+  local text=$1
+  shift
+  if "$@" >"$work/refused.log" 2>&1; then fail "this should have failed: $*"; fi
+  grep -m 1 -F -- "$text" "$work/refused.log" || {
+    cat "$work/refused.log" >&2
+    fail "\"$text\" is missing in what this says: $*"
+  }
+}
+
 # same_libraries BUILD FOLDER: links in FOLDER to the libraries that the loader picks for the programs of a build, on many
 # machines the second build of libcairn. For what opens a library by its path, where the loader does not pick.
 same_libraries() {
