@@ -167,12 +167,7 @@ static void merged_maps_merge_on(void** state) {
       assert_ok(cairn_map_within(a, p, 14, got, FIELD, &needed, NULL));
       assert_int_equal(needed, inside);
       assert_ok(cairn_map_nearest(a, p, 5, got + 10, 5, &needed, NULL));
-      for (int k = 0; inside >= 5 && k < 5; ++k) { /* a sparse map computes many covariances in another way */
-        assert_int_equal(got[k].id, got[10 + k].id);
-        assert_memory_equal(got[k].position, got[10 + k].position, sizeof got[k].position);
-        for (int d = 0; d < 9; ++d)
-          assert_near(got[k].covariance[d], got[10 + k].covariance[d], 1e-9 * got[k].covariance[0]);
-      }
+      if (inside >= 5) assert_memory_equal(got, got + 10, 5 * sizeof got[0]);
       assert_ok(cairn_map_in_box(a, lower, upper, got, FIELD, &needed, NULL));
       assert_int_equal(needed, boxed);
     }

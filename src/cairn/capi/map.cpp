@@ -46,13 +46,13 @@ const Landmarks& read_map(const cairn_map* map) {
   return *map->landmarks;
 }
 
-cairn_landmark landmark_at(const Landmarks& map, std::size_t index) {
+cairn_landmark landmark_at(const Landmarks& map, std::size_t index, const Matrix3& covariance) {
   cairn_landmark landmark;
   landmark.id = map.id(index);
   landmark.observations = map.observations(index);
   const Vector3 position = map.position(index);
   std::copy_n(position.data(), 3, landmark.position);
-  write_square<3>(map.covariance(index), landmark.covariance);
+  write_square<3>(covariance, landmark.covariance);
   return landmark;
 }
 
@@ -60,7 +60,8 @@ void write_landmarks(const Landmarks& map, const std::vector<std::size_t>& indic
                      std::size_t capacity, std::size_t* needed) {
   if (!check_room(landmarks, capacity, indices.size(), needed, "landmarks")) return;
   map.prepare_covariances(indices);
-  for (std::size_t i = 0; i < indices.size(); ++i) landmarks[i] = landmark_at(map, indices[i]);
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    landmarks[i] = landmark_at(map, indices[i], map.covariance(indices[i]));
 }
 
 }  // namespace
@@ -84,8 +85,7 @@ cairn_status cairn_map_landmark(const cairn_map* map, uint64_t id, cairn_landmar
     std::size_t index = 0;
     if (!source.find(id, index))
       throw Error(ErrorCode::not_found, "id: the map has no landmark %llu", static_cast<unsigned long long>(id));
-    source.prepare_covariances({index});
-    *landmark = landmark_at(source, index);
+    *landmark = landmark_at(source, index, source.covariance_alone(index));
   });
 }
 

@@ -30,6 +30,8 @@ class Landmarks {
   virtual std::uint64_t observations(std::size_t index) const = 0;
   virtual Vector3 position(std::size_t index) const = 0;
   virtual Matrix3 covariance(std::size_t index) const = 0;
+  // The same, up to rounding, of a landmark whose neighbours are not asked for: a map may have a cheaper way to it.
+  virtual Matrix3 covariance_alone(std::size_t index) const { return covariance(index); }
   // Finds the index of an id. Returns false if there is no such landmark.
   virtual bool find(std::uint64_t id, std::size_t& index) const = 0;
   // Joint covariance of `count` positions, 3 count x 3 count.

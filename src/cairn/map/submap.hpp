@@ -26,6 +26,16 @@ struct Submap {
   Eigen::Index size() const { return static_cast<Eigen::Index>(ids.size()); }
 };
 
+// The rows of these points, given by number, in a matrix whose first point begins at row `first`.
+template <class Pose>
+std::vector<Eigen::Index> point_rows(const std::vector<Eigen::Index>& numbers, Eigen::Index first) {
+  std::vector<Eigen::Index> rows;
+  rows.reserve(static_cast<std::size_t>(Pose::kDim) * numbers.size());
+  for (const Eigen::Index i : numbers)
+    for (Eigen::Index d = 0; d < Pose::kDim; ++d) rows.push_back(first + Pose::kDim * i + d);
+  return rows;
+}
+
 // Converts the errors of these landmarks of a submap to ordinary errors, e_l = xi_l + G(l) xi_R: changes their rows and
 // columns of the covariance. All other rows and columns stay in the filter's error coordinates. The second function
 // converts the rows of a matrix whose columns are no errors of poses or landmarks.

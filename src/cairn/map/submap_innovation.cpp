@@ -13,11 +13,8 @@ SubmapInnovation<Pose>::SubmapInnovation(const Pose& base, const Eigen::MatrixXd
                                          const Submap<Pose>& submap, const std::vector<Eigen::Index>& locals,
                                          const Eigen::MatrixXd& noise) {
   std::vector<Point> seen;
-  std::vector<Eigen::Index> rows;
-  for (const Eigen::Index i : locals) {
-    seen.push_back(submap.landmarks[static_cast<std::size_t>(i)]);
-    for (Eigen::Index d = 0; d < Pose::kDim; ++d) rows.push_back(Pose::kDof + Pose::kDim * i + d);
-  }
+  for (const Eigen::Index i : locals) seen.push_back(submap.landmarks[static_cast<std::size_t>(i)]);
+  const std::vector<Eigen::Index> rows = point_rows<Pose>(locals, Pose::kDof);
   sigma = noise(rows, rows);
   linearise(base, points, seen);
   spread(P);
@@ -54,6 +51,17 @@ void SubmapInnovation<Pose>::spread(const Eigen::MatrixXd& P) {
 }
 
 template <class Pose>
+Eigen::VectorXd SubmapInnovation<Pose>::change(const Eigen::VectorXd& errors) const {
+  constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  Eigen::VectorXd change(residual.size());
+  for (Eigen::Index a = 0; a < count(); ++a)
+    change.template segment<kDim>(kDim * a) =
+        by_base[static_cast<std::size_t>(a)] * errors.template head<kDof>() +
+        by_point * errors.template segment<kDim>(kDof + kDim * a);
+  return change;
+}
+
+template <class Pose>
 InnovationBatch<Pose>::InnovationBatch(const SubmapInnovation<Pose>& innovation)
     : innovation_(innovation),
       numbers_(static_cast<std::size_t>(innovation.count())),
@@ -70,9 +78,7 @@ void InnovationBatch<Pose>::keep(const Eigen::Index* blocks, Eigen::Index count)
 
 template <class Pose>
 double InnovationBatch<Pose>::joint_distance() {
-  std::vector<Eigen::Index> rows;
-  for (const Eigen::Index i : numbers_)
-    for (Eigen::Index d = 0; d < kDim; ++d) rows.push_back(kDim * i + d);
+  const std::vector<Eigen::Index> rows = point_rows<Pose>(numbers_, 0);
   const Eigen::VectorXd residual = innovation_.residual(rows);
   factor_.compute(innovation_.S(rows, rows));
   u_ = factor_.solve(residual);

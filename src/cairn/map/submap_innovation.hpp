@@ -31,6 +31,8 @@ struct SubmapInnovation {
   void linearise(const Pose& base, const std::vector<Point>& points, const std::vector<Point>& seen);
   // P H^T and S, from sigma and the joint covariance of [base; points; anything else].
   void spread(const Eigen::MatrixXd& P);
+  // H e, the change of the predicted y by errors of [base; points].
+  Eigen::VectorXd change(const Eigen::VectorXd& errors) const;
 
   Eigen::Index count() const { return static_cast<Eigen::Index>(by_base.size()); }
   Eigen::VectorXd residual;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slam/seen_again.hpp"
 
-#include <Eigen/Cholesky>
-#include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
@@ -11,29 +11,37 @@
 namespace cairn {
 namespace {
 
+// Without the landmarks that are not `left`; both matrices have further rows behind those of the landmarks.
 template <class Pose>
-std::vector<typename Pose::Point> places_in_map(const GlobalMap<Pose>& map, const std::vector<CommonLandmark>& common) {
-  std::vector<typename Pose::Point> points;
-  for (const CommonLandmark& landmark : common) points.push_back(Embedding<Pose>::down(map.position(landmark.index)));
-  return points;
+void keep_only(const std::vector<Eigen::Index>& left, CommonPlaces<Pose>& common) {
+  const auto behind = static_cast<Eigen::Index>(Pose::kDof + Pose::kDim * common.in_map.size());
+  const auto keep_points = [&](std::vector<typename Pose::Point>& points) {
+    std::vector<typename Pose::Point> kept;
+    for (const Eigen::Index i : left) kept.push_back(points[static_cast<std::size_t>(i)]);
+    points = std::move(kept);
+  };
+  const auto keep_rows = [&](Eigen::MatrixXd& matrix) {
+    std::vector<Eigen::Index> rows(Pose::kDof);
+    std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+    const std::vector<Eigen::Index> of_left = point_rows<Pose>(left, Pose::kDof);
+    rows.insert(rows.end(), of_left.begin(), of_left.end());
+    for (Eigen::Index row = behind; row < matrix.rows(); ++row) rows.push_back(row);
+    matrix = Eigen::MatrixXd(matrix(rows, rows));
+  };
+  keep_points(common.in_map);
+  keep_points(common.in_submap);
+  keep_rows(common.P);
+  keep_rows(common.Sigma);
 }
 
 template <class Pose>
-std::vector<typename Pose::Point> places_in_submap(const State<Pose>& open, const std::vector<CommonLandmark>& common) {
-  std::vector<typename Pose::Point> points;
-  for (const CommonLandmark& landmark : common) points.push_back(open.landmark(landmark.slot));
-  return points;
-}
-
-// Rows of [pose; landmarks; rest] that stay if only these landmarks stay of `count`.
-template <class Pose>
-std::vector<Eigen::Index> rows_left(const std::vector<Eigen::Index>& landmarks, std::size_t count, Eigen::Index size) {
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index row = 0; row < Pose::kDof; ++row) rows.push_back(row);
-  for (const Eigen::Index i : landmarks)
-    for (Eigen::Index d = 0; d < Pose::kDim; ++d) rows.push_back(Pose::kDof + Pose::kDim * i + d);
-  for (auto row = static_cast<Eigen::Index>(Pose::kDof + Pose::kDim * count); row < size; ++row) rows.push_back(row);
-  return rows;
+SubmapInnovation<Pose> innovation_at(const Pose& base, const CommonPlaces<Pose>& common) {
+  const Eigen::Index m = common.Sigma.rows() - Pose::kDof;
+  SubmapInnovation<Pose> innovation;
+  innovation.sigma = common.Sigma.bottomRightCorner(m, m);
+  innovation.linearise(base, common.in_map, common.in_submap);
+  innovation.spread(common.P);
+  return innovation;
 }
 
 }  // namespace
@@ -44,22 +52,28 @@ SeenAgain<Pose>::SeenAgain(const FilterOptions<Pose>& options)
 
 template <class Pose>
 typename SeenAgain<Pose>::Given SeenAgain<Pose>::given(const GlobalMap<Pose>& map, const State<Pose>& open,
-                                                       const Commons& common, const std::size_t* indices,
+                                                       const Commons& landmarks, const std::size_t* indices,
                                                        std::size_t count) {
-  const auto m = static_cast<Eigen::Index>(kDim * common.size()), rest = static_cast<Eigen::Index>(kDim * count);
-  const Matrix P = joint(map, common, indices, count);
+  CommonPlaces<Pose> common;
   std::vector<Index> slots;
-  for (const CommonLandmark& landmark : common) slots.push_back(landmark.slot);
-  Matrix local(kDof + m, kDof + m);
-  open.gather_ordinary(slots.data(), static_cast<Index>(slots.size()), local.data(), kDof + m);
+  for (const CommonLandmark& landmark : landmarks) {
+    slots.push_back(landmark.slot);
+    common.in_map.push_back(Embedding<Pose>::down(map.position(landmark.index)));
+    common.in_submap.push_back(open.landmark(landmark.slot));
+  }
+  const auto size = static_cast<Eigen::Index>(kDof + kDim * slots.size()),
+             rest = static_cast<Eigen::Index>(kDim * count);
+  common.P = joint(map, landmarks, indices, count);
+  common.Sigma.resize(size, size);
+  open.gather_ordinary(slots.data(), static_cast<Index>(slots.size()), common.Sigma.data(), size);
 
   Given given{map.base(), open.pose(), Matrix::Zero(2 * kDof + rest, 2 * kDof + rest)};
-  given.covariance.template topLeftCorner<kDof, kDof>() = P.template topLeftCorner<kDof, kDof>();
-  given.covariance.template block<kDof, kDof>(kDof, kDof) = local.template topLeftCorner<kDof, kDof>();
-  given.covariance.bottomLeftCorner(rest, kDof) = P.bottomLeftCorner(rest, kDof);
-  given.covariance.topRightCorner(kDof, rest) = P.topRightCorner(kDof, rest);
-  given.covariance.bottomRightCorner(rest, rest) = P.bottomRightCorner(rest, rest);
-  if (!common.empty()) solve(map, open, common, P, local, given);
+  given.covariance.template topLeftCorner<kDof, kDof>() = common.P.template topLeftCorner<kDof, kDof>();
+  given.covariance.template block<kDof, kDof>(kDof, kDof) = common.Sigma.template topLeftCorner<kDof, kDof>();
+  given.covariance.bottomLeftCorner(rest, kDof) = common.P.bottomLeftCorner(rest, kDof);
+  given.covariance.topRightCorner(kDof, rest) = common.P.topRightCorner(kDof, rest);
+  given.covariance.bottomRightCorner(rest, rest) = common.P.bottomRightCorner(rest, rest);
+  if (!landmarks.empty()) condition(std::move(common), given);
   return given;
 }
 
@@ -90,88 +104,84 @@ typename SeenAgain<Pose>::Matrix SeenAgain<Pose>::joint(const GlobalMap<Pose>& m
 }
 
 // The same update as that of a closing, for base and vehicle alone: the common landmarks are one batch of observations
-// y_i = R_S^T (l_i - p_S) with the noise Sigma_DD (docs/submaps.md, "The pose" and "Fusing"). Sigma is correlated with the
-// vehicle's pose in the submap, so that its error is estimated, too. Where the landmarks that the gates refuse outnumber
-// the others, the closing may find back; until then they say nothing.
+// y_i = R_S^T (l_i - p_S) with the noise Sigma_DD (docs/submaps.md, eq. P1). Where the gates refuse as many as they
+// keep, or more, the closing may find back; until then the common landmarks say nothing.
 template <class Pose>
-void SeenAgain<Pose>::solve(const GlobalMap<Pose>& map, const State<Pose>& open, const Commons& common,
-                            const Matrix& P_all, const Matrix& local_all, Given& given) const {
-  const Pose base = given.base;
-  SubmapInnovation<Pose> innovation;
-  innovation.sigma = local_all.bottomRightCorner(local_all.rows() - kDof, local_all.cols() - kDof);
-  innovation.linearise(base, places_in_map(map, common), places_in_submap(open, common));
-  innovation.spread(P_all);
+void SeenAgain<Pose>::condition(CommonPlaces<Pose> common, Given& given) const {
+  SubmapInnovation<Pose> innovation = innovation_at(given.base, common);
+  const std::vector<Eigen::Index> left = accepted(innovation);
+  if (2 * left.size() <= common.in_map.size()) return;
+  if (left.size() < common.in_map.size()) {
+    keep_only(left, common);
+    innovation = innovation_at(given.base, common);
+  }
+  Eigen::LLT<Matrix> factor;
+  Vector weights;
+  if (iterate(given.base, common, innovation, factor, weights)) correct(common, innovation, factor, weights, given);
+}
+
+// The common landmarks that pass the gates of a closing; none if S is not definite.
+template <class Pose>
+std::vector<Eigen::Index> SeenAgain<Pose>::accepted(const SubmapInnovation<Pose>& innovation) const {
   InnovationBatch<Pose> batch(innovation);
   const auto bound = [&](Eigen::Index rows) {
     return chi_square_quantile(static_cast<double>(rows), options_.batch_gate_probability);
   };
   try {
     gate_blocks(batch, kDim, single_gate_, bound, [](Gate, Eigen::Index, double, double) {});
-  } catch (const Error&) {  // S is not definite: numbers without meaning say nothing
-    return;
+  } catch (const Error&) {
+    return {};
   }
-  const std::vector<Eigen::Index> left = batch.numbers();
-  if (2 * left.size() <= common.size() || left.empty()) return;
+  return batch.numbers();
+}
 
-  Commons kept;
-  for (const Eigen::Index i : left) kept.push_back(common[static_cast<std::size_t>(i)]);
-  const bool all = kept.size() == common.size();
-  const std::vector<Eigen::Index> rows = rows_left<Pose>(left, common.size(), P_all.rows());
-  const std::vector<Eigen::Index> local_rows = rows_left<Pose>(left, common.size(), local_all.rows());
-  const Matrix P = all ? P_all : Matrix(P_all(rows, rows));
-  const Matrix local = all ? local_all : Matrix(local_all(local_rows, local_rows));
-  const auto m = static_cast<Eigen::Index>(kDim * kept.size()), rest = given.covariance.rows() - 2 * kDof;
-  const std::vector<Point> places = places_in_map(map, kept), seen = places_in_submap(open, kept);
-  innovation.sigma = local.bottomRightCorner(m, m);
-
-  // Iterated as in docs/update.md: the residual of the linear model at the new estimate of base and landmarks must be
-  // that of the true one.
-  Vector e = Vector::Zero(kDof + m), weights;
-  Eigen::LLT<Matrix> factor;
-  std::vector<Point> points = places;
-  innovation.linearise(base, points, seen);
+// Linearises until the linear model agrees with the true one at the new estimate of base and landmarks, as a frame does
+// (docs/update.md). Gets the factor of S and S^-1 nu. Returns false if S is not definite.
+template <class Pose>
+bool SeenAgain<Pose>::iterate(const Pose& base, const CommonPlaces<Pose>& common, SubmapInnovation<Pose>& innovation,
+                              Eigen::LLT<Matrix>& factor, Vector& weights) const {
+  const Eigen::Index known = innovation.cross.cols() + kDof;  // states of [base; common landmarks]
+  const double tolerance = options_.iteration_tolerance * options_.iteration_tolerance;
+  Vector nu = innovation.residual;  // for errors of zero
   for (int i = 1;; ++i) {
-    const typename Pose::Tangent e_base = e.template head<kDof>();
-    const auto turn = Pose::Rotation::left_jacobian(e_base.template tail<kTurn>());
-    Vector linear = innovation.residual;  // of the landmarks, for errors of zero
-    for (Eigen::Index a = 0; a < innovation.count(); ++a) {
-      auto& by_base = innovation.by_base[static_cast<std::size_t>(a)];
-      by_base.template rightCols<kTurn>() = (by_base.template rightCols<kTurn>() * turn).eval();
-      linear.template segment<kDim>(kDim * a) +=
-          by_base * e_base + innovation.by_point * e.template segment<kDim>(kDof + kDim * a);
-    }
-    innovation.spread(P);
     factor.compute(innovation.S);
-    if (factor.info() != Eigen::Success) return;
-    weights = factor.solve(linear);
-    e = innovation.cross.topRows(kDof + m) * weights;
-    if (i >= options_.iterations) break;
-    for (std::size_t a = 0; a < places.size(); ++a)
-      points[a] = places[a] + e.template segment<kDim>(static_cast<Eigen::Index>(kDof + kDim * a));
-    Vector foreseen = linear;
-    for (Eigen::Index a = 0; a < innovation.count(); ++a)
-      foreseen.template segment<kDim>(kDim * a) -=
-          innovation.by_base[static_cast<std::size_t>(a)] * e.template head<kDof>() +
-          innovation.by_point * e.template segment<kDim>(kDof + kDim * a);
-    innovation.linearise(retract(base, typename Pose::Tangent(e.template head<kDof>())), points, seen);
+    if (factor.info() != Eigen::Success) return false;
+    weights = factor.solve(nu);
+    if (i >= options_.iterations) return true;
+    const Vector e = innovation.cross.topRows(known) * weights;
+    const Vector foreseen = nu - innovation.change(e);
+    std::vector<Point> points = common.in_map;
+    for (std::size_t a = 0; a < points.size(); ++a)
+      points[a] += e.template segment<kDim>(static_cast<Eigen::Index>(kDof + kDim * a));
+    const typename Pose::Tangent e_base = e.template head<kDof>();
+    innovation.linearise(retract(base, e_base), points, common.in_submap);
     const Vector miss = innovation.residual - foreseen;
-    if ((miss.array().square() <=
-         options_.iteration_tolerance * options_.iteration_tolerance * innovation.sigma.diagonal().array())
-            .all())
-      break;
+    if ((miss.array().square() <= tolerance * innovation.sigma.diagonal().array()).all()) return true;
+    // By errors of the estimate before the update, not of the iterate.
+    const auto turn = Pose::Rotation::left_jacobian(e_base.template tail<kTurn>());
+    for (auto& by_base : innovation.by_base)
+      by_base.template rightCols<kTurn>() = (by_base.template rightCols<kTurn>() * turn).eval();
+    nu = innovation.residual + innovation.change(e);
+    innovation.spread(common.P);
   }
-  // [base; vehicle; asked for] with nu: the submap's landmarks enter nu with a minus.
-  Matrix cross(2 * kDof + rest, m);
-  cross.template topRows<kDof>() = innovation.cross.template topRows<kDof>();
-  cross.template middleRows<kDof>(kDof) = -local.topRightCorner(kDof, m);
-  cross.bottomRows(rest) = innovation.cross.bottomRows(rest);
-  const typename Pose::Tangent e_base = cross.template topRows<kDof>() * weights,
-                               e_vehicle = cross.template middleRows<kDof>(kDof) * weights;
-  const Matrix whitened = factor.matrixL().solve(cross.transpose());
+}
+
+// docs/submaps.md, eq. P2. The submap's own estimates enter nu with a minus. The landmarks that were asked for stay.
+template <class Pose>
+void SeenAgain<Pose>::correct(const CommonPlaces<Pose>& common, const SubmapInnovation<Pose>& innovation,
+                              const Eigen::LLT<Matrix>& factor, const Vector& weights, Given& given) const {
+  const Eigen::Index m = weights.size(), rest = given.covariance.rows() - 2 * kDof;
+  Matrix C(2 * kDof + rest, m);
+  C.template topRows<kDof>() = innovation.cross.template topRows<kDof>();
+  C.template middleRows<kDof>(kDof) = -common.Sigma.topRightCorner(kDof, m);
+  C.bottomRows(rest) = innovation.cross.bottomRows(rest);
+  const typename Pose::Tangent e_base = C.template topRows<kDof>() * weights,
+                               e_vehicle = C.template middleRows<kDof>(kDof) * weights;
+  const Matrix whitened = factor.matrixL().solve(C.transpose());
   Matrix covariance = given.covariance - whitened.transpose() * whitened;
   covariance.bottomRightCorner(rest, rest) = given.covariance.bottomRightCorner(rest, rest);
   if (!e_base.allFinite() || !e_vehicle.allFinite() || !covariance.allFinite()) return;
-  given.base = retract(base, e_base);
+  given.base = retract(given.base, e_base);
   given.vehicle = retract(given.vehicle, e_vehicle);
   given.covariance = 0.5 * (covariance + covariance.transpose());
 }

@@ -3,6 +3,7 @@
 // (docs/submaps.md, "The pose").
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <mutex>
 #include <vector>
 
@@ -17,7 +18,14 @@ namespace cairn {
 struct CommonLandmark {
   Index slot;         // in the open submap
   std::size_t index;  // in the map
-  bool operator==(const CommonLandmark& other) const { return slot == other.slot && index == other.index; }
+};
+
+// Where both have their common landmarks, and how well they know them: the joint covariances, in ordinary errors, of
+// [base; landmarks; landmarks that were asked for] in the map and of [vehicle; landmarks] in the submap.
+template <class Pose>
+struct CommonPlaces {
+  std::vector<typename Pose::Point> in_map, in_submap;
+  Eigen::MatrixXd P, Sigma;
 };
 
 // Queries may run at the same time.
@@ -38,13 +46,17 @@ class SeenAgain {
     Pose base, vehicle;
     Matrix covariance;  // of [base; vehicle; landmarks of the map that were asked for], ordinary errors
   };
-  Given given(const GlobalMap<Pose>& map, const State<Pose>& open, const Commons& common, const std::size_t* indices,
-              std::size_t count);
+  Given given(const GlobalMap<Pose>& map, const State<Pose>& open, const Commons& landmarks,
+              const std::size_t* indices, std::size_t count);
 
  private:
-  void solve(const GlobalMap<Pose>& map, const State<Pose>& open, const Commons& common, const Matrix& P,
-             const Matrix& local, Given& given) const;
   Matrix joint(const GlobalMap<Pose>& map, const Commons& common, const std::size_t* indices, std::size_t count);
+  void condition(CommonPlaces<Pose> common, Given& given) const;
+  std::vector<Eigen::Index> accepted(const SubmapInnovation<Pose>& innovation) const;
+  bool iterate(const Pose& base, const CommonPlaces<Pose>& common, SubmapInnovation<Pose>& innovation,
+               Eigen::LLT<Matrix>& factor, Vector& weights) const;
+  void correct(const CommonPlaces<Pose>& common, const SubmapInnovation<Pose>& innovation,
+               const Eigen::LLT<Matrix>& factor, const Vector& weights, Given& given) const;
 
   const FilterOptions<Pose>& options_;
   double single_gate_;

@@ -127,10 +127,21 @@ std::vector<Index> SubmapKeeper<Pose>::joining() const {
   slots.reserve(static_cast<std::size_t>(table.landmarks()));
   for (Index slot = 0; slot < table.size(); ++slot) {
     std::size_t index = 0;
-    if (table.counts(slot) || (options_.deferred_sightings <= 1 && map_->find(table.id(slot), index)))
-      slots.push_back(slot);
+    if (table.counts(slot) || (compares_deferred() && map_->find(table.id(slot), index))) slots.push_back(slot);
   }
   return slots;
+}
+
+// Those of the joining landmarks that the map knows.
+template <class Pose>
+std::vector<CommonLandmark> SubmapKeeper<Pose>::common() const {
+  const LandmarkTable& table = local_.table();
+  std::vector<CommonLandmark> both;
+  for (Index slot = 0; slot < table.size(); ++slot) {
+    std::size_t index = 0;
+    if ((table.counts(slot) || compares_deferred()) && map_->find(table.id(slot), index)) both.push_back({slot, index});
+  }
+  return both;
 }
 
 template <class Pose>
@@ -320,24 +331,9 @@ FixReport SubmapKeeper<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold
 }
 
 template <class Pose>
-std::vector<CommonLandmark> SubmapKeeper<Pose>::common() const {
-  std::vector<CommonLandmark> both;
-  for (const Index slot : joining()) {
-    std::size_t index = 0;
-    if (map_->find(local_.table().id(slot), index)) both.push_back({slot, index});
-  }
-  return both;
-}
-
-template <class Pose>
-typename SeenAgain<Pose>::Given SubmapKeeper<Pose>::given(const std::size_t* indices, std::size_t count) const {
-  return seen_again_.given(*map_, local_.state(), common(), indices, count);
-}
-
-template <class Pose>
-typename SubmapKeeper<Pose>::Place SubmapKeeper<Pose>::place(const std::size_t* indices, std::size_t count) const {
-  if (shares_errors()) return place_with_errors(indices, count);
-  const auto given = this->given(indices, count);
+typename SubmapKeeper<Pose>::Place SubmapKeeper<Pose>::place(const std::vector<CommonLandmark>& common,
+                                                             const std::size_t* indices, std::size_t count) const {
+  const auto given = seen_again_.given(*map_, local_.state(), common, indices, count);
   const ProductJacobians J(given.base, given.vehicle);
   const auto landmarks = static_cast<Eigen::Index>(kDim * count);
   Place place{given.base * given.vehicle, Eigen::MatrixXd(kDof + landmarks, kDof + landmarks)};
@@ -356,10 +352,15 @@ template <class Pose>
 typename SubmapKeeper<Pose>::Estimate SubmapKeeper<Pose>::vehicle() const {
   const State<Pose>& state = local_.state();
   if (map_ == nullptr) return {state.pose(), state.pose_covariance()};
-  if (!shares_errors() && common().empty())  // allocates nothing
+  if (shares_errors()) {
+    const Place own = place_with_errors(nullptr, 0);
+    return {own.pose, own.joint};
+  }
+  const std::vector<CommonLandmark> both = common();
+  if (both.empty())  // no memory is needed
     return {map_->base() * state.pose(),
             ProductJacobians(map_->base(), state.pose()).covariance(map_->base_covariance(), state.pose_covariance())};
-  const Place own = place(nullptr, 0);
+  const Place own = place(both, nullptr, 0);
   return {own.pose, own.joint};
 }
 
@@ -371,7 +372,7 @@ void SubmapKeeper<Pose>::pose_joint_covariance(const std::size_t* indices, std::
   if (map_ == nullptr)
     local_.pose_joint_covariance(indices, count, joint.data());
   else
-    joint = place(indices, count).joint;
+    joint = shares_errors() ? place_with_errors(indices, count).joint : place(common(), indices, count).joint;
   with_pose<Pose>(joint.data(), count, matrix);
 }
 
@@ -393,9 +394,9 @@ template <class Pose>
 typename Trajectory<Pose>::Open SubmapKeeper<Pose>::open_submap() const {
   const State<Pose>& state = local_.state();
   if (map_ == nullptr || trajectory_.capacity() == 0) return {};
-  if (shares_errors() || common().empty())
-    return {map_->base(), map_->base() * state.pose(), state.pose(), state.pose_covariance()};
-  const auto given = this->given(nullptr, 0);
+  const std::vector<CommonLandmark> both = shares_errors() ? std::vector<CommonLandmark>() : common();
+  if (both.empty()) return {map_->base(), map_->base() * state.pose(), state.pose(), state.pose_covariance()};
+  const auto given = seen_again_.given(*map_, state, both, nullptr, 0);
   return {given.base, given.base * given.vehicle, state.pose(), state.pose_covariance()};
 }
 

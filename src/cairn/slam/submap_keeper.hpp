@@ -76,20 +76,20 @@ class SubmapKeeper {
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 
  private:
-  // The vehicle in the map, and the joint covariance of [pose; landmarks] in ordinary errors. With systematic errors,
-  // these are what map and open submap tell together, and common landmarks wait for the closing.
+  // The vehicle in the map, and the joint covariance of [pose; landmarks] in ordinary errors. Where systematic errors are
+  // states, place_with_errors() tells them from map and open submap together, and common landmarks wait for the closing.
   struct Place {
     Pose pose;
     Eigen::MatrixXd joint;
   };
-  Place place(const std::size_t* indices, std::size_t count) const;
-  typename SeenAgain<Pose>::Given given(const std::size_t* indices, std::size_t count) const;
+  Place place(const std::vector<CommonLandmark>& common, const std::size_t* indices, std::size_t count) const;
   Place place_with_errors(const std::size_t* indices, std::size_t count) const;
   bool shares_errors() const { return map_ != nullptr && local_.systematic().any(); }
   SubmapErrors take_errors(const std::vector<Index>& slots) const;
   void open();  // a new submap; after a closing it does not fail
   std::vector<Index> joining() const;  // slots of the landmarks that join the map
   std::vector<CommonLandmark> common() const;
+  bool compares_deferred() const { return options_.deferred_sightings <= 1; }
   Submap<Pose> take_submap() const;
   FixReport join(ClosedBy reason, const AbsoluteFix<Pose>* fix = nullptr, double threshold = 0.0);
   std::unique_ptr<MapTransaction<Pose>> join(Submap<Pose>& submap, ClosingReport& report);

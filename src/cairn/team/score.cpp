@@ -43,8 +43,9 @@ void Score::add(const Team& team, const Baseline* baseline, const SE2& truth) {
     nees_ += nees;
   }
   if (baseline == nullptr) return;
-  baseline_claimed_ += baseline->filter().pose_covariance().topLeftCorner<2, 2>().norm();
-  baseline_squared_error_ += (truth.translation() - baseline->filter().pose().translation()).squaredNorm();
+  const auto alone = baseline->filter().vehicle();
+  baseline_claimed_ += alone.covariance.topLeftCorner<2, 2>().norm();
+  baseline_squared_error_ += (truth.translation() - alone.pose.translation()).squaredNorm();
 }
 
 double Score::position_rmse() const {

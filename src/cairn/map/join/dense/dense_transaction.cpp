@@ -10,18 +10,6 @@
 #include "sensor/sensor.hpp"
 
 namespace cairn {
-namespace {
-
-// Rows and columns of a symmetric matrix of the landmarks' blocks behind the states of the pose.
-template <class Pose>
-std::vector<Eigen::Index> states_of(const std::vector<Eigen::Index>& landmarks) {
-  std::vector<Eigen::Index> states;
-  for (const Eigen::Index i : landmarks)
-    for (Eigen::Index d = 0; d < Pose::kDim; ++d) states.push_back(Pose::kDof + Pose::kDim * i + d);
-  return states;
-}
-
-}  // namespace
 
 // The update that fuses the submap's known landmarks. Their estimates are observations from the submap's base:
 // y = R_S^T (l - p_S), with one full noise block, their covariance in the submap. This is eq. 30 of the Mars paper with
@@ -159,7 +147,7 @@ typename State<Pose>::Handover DenseTransaction<Pose>::split_rest(const Submap<P
   for (Eigen::Index d = 0; d < kDof; ++d) rest.push_back(d);
   for (Eigen::Index d = submap.covariance.rows(); d < joint.rows(); ++d) rest.push_back(d);
   for (const Pair& pair : pairs_) fused.push_back(pair.local);
-  const std::vector<Eigen::Index> of_fused = states_of<Pose>(fused), of_fresh = states_of<Pose>(fresh_);
+  const std::vector<Eigen::Index> of_fused = point_rows<Pose>(fused, kDof), of_fresh = point_rows<Pose>(fresh_, kDof);
   rest.insert(rest.end(), of_fresh.begin(), of_fresh.end());
   typename State<Pose>::Handover handover;
   handover.T_base_end = submap.T_base_end;

@@ -45,6 +45,9 @@ class SparseMap final : public GlobalMap<Pose> {
   std::uint64_t observations(std::size_t index) const override { return landmark(index).count; }
   Vector3 position(std::size_t index) const override { return Embedding<Pose>::up(state_.point(index)); }
   Matrix3 covariance(std::size_t index) const override { return Embedding<Pose>::up(covariances_.of(state_, index)); }
+  Matrix3 covariance_alone(std::size_t index) const override {
+    return Embedding<Pose>::up(covariances_.alone(state_, index));
+  }
   bool find(std::uint64_t id, std::size_t& index) const override { return state_.find(id, index); }
   void joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override;
   void prepare_covariances(const std::vector<std::size_t>& indices) const override {

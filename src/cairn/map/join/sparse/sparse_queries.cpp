@@ -129,10 +129,7 @@ class ChosenErrors {
 template <class Pose>
 void SparseCovariances<Pose>::prepare(const SparseState<Pose>& state, const std::vector<std::size_t>& indices) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  resize(state);
-  if (indices.size() > kFew) return invert(state, indices);
-  for (const std::size_t index : indices)
-    if (found_[state.visible[index]] != Found{state.change, By::path}) follow(state, index);
+  invert(state, indices);
 }
 
 template <class Pose>
@@ -143,6 +140,7 @@ void SparseCovariances<Pose>::resize(const SparseState<Pose>& state) {
 
 template <class Pose>
 void SparseCovariances<Pose>::invert(const SparseState<Pose>& state, const std::vector<std::size_t>& indices) {
+  resize(state);
   std::vector<std::uint32_t> wanted;
   const Found inverted{state.change, By::inversion};
   for (const std::size_t index : indices) {
@@ -162,21 +160,26 @@ void SparseCovariances<Pose>::invert(const SparseState<Pose>& state, const std::
 }
 
 template <class Pose>
-void SparseCovariances<Pose>::follow(const SparseState<Pose>& state, std::size_t index) {
-  ChosenErrors<Pose> chosen(state, Pose::kDim);
-  chosen.add_landmarks(&index, 1, 0);
-  const std::uint32_t landmark = state.visible[index];
-  covariances_[landmark] = chosen.covariance();
-  found_[landmark] = {state.change, By::path};
-}
-
-template <class Pose>
 typename SparseCovariances<Pose>::PointSquare SparseCovariances<Pose>::of(const SparseState<Pose>& state,
                                                                           std::size_t index) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  invert(state, {index});
+  return covariances_[state.visible[index]];
+}
+
+template <class Pose>
+typename SparseCovariances<Pose>::PointSquare SparseCovariances<Pose>::alone(const SparseState<Pose>& state,
+                                                                             std::size_t index) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   resize(state);
   const std::uint32_t landmark = state.visible[index];
-  if (found_[landmark].by == By::nothing || found_[landmark].change != state.change) follow(state, index);
+  const Found by_path{state.change, By::path};
+  if (found_[landmark] != by_path) {
+    ChosenErrors<Pose> chosen(state, Pose::kDim);
+    chosen.add_landmarks(&index, 1, 0);
+    covariances_[landmark] = chosen.covariance();
+    found_[landmark] = by_path;
+  }
   return covariances_[landmark];
 }
 

@@ -16,15 +16,14 @@ class SparseCovariances {
  public:
   using PointSquare = typename Pose::Rotation::Matrix;
 
-  // Computes the covariances of several landmarks: of a few one by one, each on its path to the crown; of many
-  // together, by selected inversion. Both differ in the last bits, and of() returns what was prepared last. So a query
-  // that prepares what it asks for has an answer that does not depend on earlier queries.
+  // By selected inversion. Several landmarks together are cheaper.
   void prepare(const SparseState<Pose>& state, const std::vector<std::size_t>& indices);
   PointSquare of(const SparseState<Pose>& state, std::size_t index);
+  // Of one landmark that is asked for alone: on its path to the crown, which is cheaper. The last bits differ, so that
+  // each way keeps to its own results, and no answer depends on earlier queries.
+  PointSquare alone(const SparseState<Pose>& state, std::size_t index);
 
  private:
-  static constexpr std::size_t kFew = 8;
-
   enum class By : std::uint8_t { nothing, path, inversion };
   struct Found {
     std::uint32_t change = 0;  // to which the covariance belongs
@@ -33,7 +32,6 @@ class SparseCovariances {
   };
 
   void resize(const SparseState<Pose>& state);
-  void follow(const SparseState<Pose>& state, std::size_t index);
   void invert(const SparseState<Pose>& state, const std::vector<std::size_t>& indices);
 
   std::mutex mutex_;  // guards the members below, by landmark

@@ -100,33 +100,33 @@ const typename SparseState<Pose>::Rotation& SparseState<Pose>::axes(Variable v) 
   return bases[is_landmark(v) ? landmarks[number].submaps[0] : number].rotation();
 }
 
+// Calls `turn(state, R)` for all states of the variables: those from `state` on turn with R, from own axes to the map's.
 template <class Pose>
-void SparseState<Pose>::to_map_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& covariance) const {
+template <class Turn>
+void SparseState<Pose>::for_axes(const std::vector<Variable>& variables, Turn&& turn) const {
   Index state = 0;
-  const auto turn = [&](const auto& R) {
-    constexpr int n = std::decay_t<decltype(R)>::RowsAtCompileTime;
-    covariance.middleRows<n>(state) = (R * covariance.middleRows<n>(state)).eval();
-    covariance.middleCols<n>(state) = (covariance.middleCols<n>(state) * R.transpose()).eval();
-    state += n;
-  };
   for (const Variable v : variables) {
-    turn(axes(v).matrix());
-    if (!is_landmark(v)) turn(axes(v).adjoint());
+    turn(state, axes(v).matrix());
+    if (!is_landmark(v)) turn(state + kDim, axes(v).adjoint());
+    state += dimension(v);
   }
 }
 
 template <class Pose>
+void SparseState<Pose>::to_map_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& covariance) const {
+  for_axes(variables, [&](Index state, const auto& R) {
+    constexpr int n = std::decay_t<decltype(R)>::RowsAtCompileTime;
+    covariance.middleRows<n>(state) = (R * covariance.middleRows<n>(state)).eval();
+    covariance.middleCols<n>(state) = (covariance.middleCols<n>(state) * R.transpose()).eval();
+  });
+}
+
+template <class Pose>
 void SparseState<Pose>::by_own_axes(const std::vector<Variable>& variables, Eigen::MatrixXd& columns) const {
-  Index state = 0;
-  const auto turn = [&](const auto& R) {
+  for_axes(variables, [&](Index state, const auto& R) {
     constexpr int n = std::decay_t<decltype(R)>::RowsAtCompileTime;
     columns.middleCols<n>(state) = (columns.middleCols<n>(state) * R).eval();
-    state += n;
-  };
-  for (const Variable v : variables) {
-    turn(axes(v).matrix());
-    if (!is_landmark(v)) turn(axes(v).adjoint());
-  }
+  });
 }
 
 template <class Pose>

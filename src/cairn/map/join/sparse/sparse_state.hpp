@@ -133,6 +133,8 @@ struct SparseState {
   double strain(Number leaf) const;
 
  private:
+  template <class Turn>
+  void for_axes(const std::vector<Variable>& variables, Turn&& turn) const;
   void add_fixes(Leaf& leaf, const Pose& end, const std::vector<AbsoluteFix<Pose>>& fixes) const;
 };
 

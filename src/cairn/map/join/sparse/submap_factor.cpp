@@ -89,8 +89,8 @@ template <class Pose>
 std::vector<Index> SubmapFactor<Pose>::states() const {
   std::vector<Index> states;
   for (Index d = 0; d < kDof; ++d) states.push_back(d);
-  for (const Index i : shared_)
-    for (Index d = 0; d < kDim; ++d) states.push_back(kDof + kDim * i + d);
+  const std::vector<Index> shared = point_rows<Pose>(shared_, kDof);
+  states.insert(states.end(), shared.begin(), shared.end());
   for (Index w = data_->covariance.size() - data_->errors.walked.size(); w < data_->covariance.size(); ++w)
     states.push_back(w);
   return states;
@@ -305,9 +305,7 @@ typename SubmapFactor<Pose>::Points SubmapFactor<Pose>::place_private(const Valu
 template <class Pose>
 void SubmapFactor<Pose>::express_private(const std::vector<Index>& landmarks, const Values& values, Matrix& A,
                                          Matrix& W) const {
-  std::vector<Index> rows_of, chosen = states();
-  for (const Index i : landmarks)
-    for (Index d = 0; d < kDim; ++d) rows_of.push_back(kDof + kDim * i + d);
+  const std::vector<Index> rows_of = point_rows<Pose>(landmarks, kDof), chosen = states();
   const auto n = static_cast<Index>(landmarks.size());
   const Vector xi = residual(values);
   const Vector weight = weighted(xi);
