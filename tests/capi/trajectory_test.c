@@ -51,7 +51,7 @@ static void poses_follow_the_map(void** state) {
         assert_ok(cairn_filter_pose(f, &first[k], NULL, NULL));
         const cairn_pose last = newest(f);
         assert_same_pose(&last, &first[k], 1e-8); /* the jitter of a singular covariance */
-        cairn_pose base, local, without; /* what was seen again */
+        cairn_pose base, local, without;          /* what was seen again */
         assert_ok(cairn_filter_base_pose(f, &base, NULL, NULL));
         assert_ok(cairn_filter_local_pose(f, &local, NULL, NULL));
         assert_ok(cairn_pose_compose(&base, &local, &without, NULL));

@@ -55,9 +55,8 @@ Eigen::VectorXd SubmapInnovation<Pose>::change(const Eigen::VectorXd& errors) co
   constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
   Eigen::VectorXd change(residual.size());
   for (Eigen::Index a = 0; a < count(); ++a)
-    change.template segment<kDim>(kDim * a) =
-        by_base[static_cast<std::size_t>(a)] * errors.template head<kDof>() +
-        by_point * errors.template segment<kDim>(kDof + kDim * a);
+    change.template segment<kDim>(kDim * a) = by_base[static_cast<std::size_t>(a)] * errors.template head<kDof>() +
+                                              by_point * errors.template segment<kDim>(kDof + kDim * a);
   return change;
 }
 

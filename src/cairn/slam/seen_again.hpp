@@ -46,8 +46,8 @@ class SeenAgain {
     Pose base, vehicle;
     Matrix covariance;  // of [base; vehicle; landmarks of the map that were asked for], ordinary errors
   };
-  Given given(const GlobalMap<Pose>& map, const State<Pose>& open, const Commons& landmarks,
-              const std::size_t* indices, std::size_t count);
+  Given given(const GlobalMap<Pose>& map, const State<Pose>& open, const Commons& landmarks, const std::size_t* indices,
+              std::size_t count);
 
  private:
   Matrix joint(const GlobalMap<Pose>& map, const Commons& common, const std::size_t* indices, std::size_t count);

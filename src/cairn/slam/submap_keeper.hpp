@@ -76,8 +76,9 @@ class SubmapKeeper {
   void pose_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const;
 
  private:
-  // The vehicle in the map, and the joint covariance of [pose; landmarks] in ordinary errors. Where systematic errors are
-  // states, place_with_errors() tells them from map and open submap together, and common landmarks wait for the closing.
+  // The vehicle in the map, and the joint covariance of [pose; landmarks] in ordinary errors. Where systematic errors
+  // are states, place_with_errors() tells them from map and open submap together, and common landmarks wait for the
+  // closing.
   struct Place {
     Pose pose;
     Eigen::MatrixXd joint;
@@ -86,7 +87,7 @@ class SubmapKeeper {
   Place place_with_errors(const std::size_t* indices, std::size_t count) const;
   bool shares_errors() const { return map_ != nullptr && local_.systematic().any(); }
   SubmapErrors take_errors(const std::vector<Index>& slots) const;
-  void open();  // a new submap; after a closing it does not fail
+  void open();                         // a new submap; after a closing it does not fail
   std::vector<Index> joining() const;  // slots of the landmarks that join the map
   std::vector<CommonLandmark> common() const;
   bool compares_deferred() const { return options_.deferred_sightings <= 1; }
@@ -103,7 +104,7 @@ class SubmapKeeper {
   const Log& log_;
   std::unique_ptr<GlobalMap<Pose>> map_;
   SubmapPolicy<Pose> policy_;
-  RobustLoss loss_;                   // of the landmarks that a submap shares with the map
+  RobustLoss loss_;  // of the landmarks that a submap shares with the map
   mutable SeenAgain<Pose> seen_again_;
   Eigen::VectorXd prior_;             // of the systematic errors, with which the open submap began
   Eigen::MatrixXd prior_covariance_;  // of the same

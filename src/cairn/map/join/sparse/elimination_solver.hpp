@@ -10,8 +10,8 @@
 namespace cairn {
 
 // The covariance of some combinations a^T e of the errors e of the variables. With H = L L^T it is Y^T Y, where
-// L Y = A (docs/submaps.md, eq. P3), and only the fronts between the variables and the crown hold a part of Y: there is no way down. As a product
-// of Y with itself it is never negative.
+// L Y = A (docs/submaps.md, eq. P3), and only the fronts between the variables and the crown hold a part of Y: there is
+// no way down. As a product of Y with itself it is never negative.
 template <class Pose>
 class CombinationSolver {
  public:

@@ -100,7 +100,8 @@ const typename SparseState<Pose>::Rotation& SparseState<Pose>::axes(Variable v) 
   return bases[is_landmark(v) ? landmarks[number].submaps[0] : number].rotation();
 }
 
-// Calls `turn(state, R)` for all states of the variables: those from `state` on turn with R, from own axes to the map's.
+// Calls `turn(state, R)` for all states of the variables: those from `state` on turn with R, from own axes to the
+// map's.
 template <class Pose>
 template <class Turn>
 void SparseState<Pose>::for_axes(const std::vector<Variable>& variables, Turn&& turn) const {
