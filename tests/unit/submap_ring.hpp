@@ -88,6 +88,7 @@ class Ring {
     options.cost_tolerance = 0.0;
     options.step_tolerance = 1e-6;  // by default small motions are passed down later, and the cost is not up to date
     options.error = error_;
+    options.fuse = false;  // the reference solves for all submaps
     options.gate_probability = options.joint_gate_probability = 1.0 - 1e-9;
     options.initial_pose = base(0);
     options.initial_covariance.diagonal().template head<kDim>().setConstant(1e-2);

@@ -133,13 +133,20 @@ bool factor_small(double* S, Index ld, Index m) {
 }  // namespace
 
 std::size_t cholesky_workspace(Index m) {
-  if (m <= kPanel) return 0;
-  return std::max(solve_workspace(kPanel), update_triangle_workspace(m, kPanel));
+  return m <= kPanel ? 0 : eliminate_workspace(m);
 }
 
 bool cholesky(double* S, Index ld, Index m, double* workspace) {
-  for (Index j = 0; j < m; j += kPanel) {
-    const Index width = std::min(kPanel, m - j), below = m - j - width;
+  return eliminate(S, ld, m, m, workspace);
+}
+
+std::size_t eliminate_workspace(Index n) {
+  return std::max(solve_workspace(kPanel), update_triangle_workspace(n, kPanel));
+}
+
+bool eliminate(double* S, Index ld, Index n, Index e, double* workspace) {
+  for (Index j = 0; j < e; j += kPanel) {
+    const Index width = std::min(kPanel, e - j), below = n - j - width;
     double* diagonal = S + j * ld + j;
     if (!factor_small(diagonal, ld, width)) return false;
     if (below == 0) break;

@@ -15,6 +15,11 @@ using Index = std::ptrdiff_t;
 bool cholesky(double* S, Index ld, Index m, double* workspace = nullptr);
 std::size_t cholesky_workspace(Index m);
 
+// Partial Cholesky factor of the n x n matrix [A B^T; B C] in place, with A e x e: A = L L^T, B becomes B L^-T, and C
+// becomes C - B A^-1 B^T. The same conditions; `workspace` holds eliminate_workspace(n) doubles.
+bool eliminate(double* S, Index ld, Index n, Index e, double* workspace);
+std::size_t eliminate_workspace(Index n);
+
 // Whether a matrix, scaled to unit diagonal, is positive definite with `slack` added to that diagonal; rows without
 // variance count as independent of all others. Reads the lower triangle; `L` is room for m^2 + cholesky_workspace(m).
 bool positive_definite(const double* matrix, Index m, double slack, double* L);

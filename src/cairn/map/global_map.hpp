@@ -19,7 +19,7 @@ struct JoinReport {
   int iterations = 0;
   std::size_t rows = 0;  // of the joint test of the fused landmarks
   double distance = 0.0, threshold = 0.0;
-  double worst_refused = 0.0;  // squared distance of the refused landmark that contradicts most
+  double worst_refused = 0.0;               // squared distance of the refused landmark that contradicts most
   double moved_max = 0.0, moved_rms = 0.0;  // of landmarks that the map held before
 };
 
@@ -42,6 +42,7 @@ struct MapOptions {
   double convergence_tolerance = 1e-2;  // sparse: no step follows a smaller one (standard deviations)
   double cost_tolerance = 1e-3;         // sparse: no step follows if the cost falls by less
   int most_iterations = 6;              // sparse: linear solutions of a closing; the joint test may need more
+  bool fuse = true;                     // sparse: submaps of one place become one (docs/submaps.md)
   std::size_t max_companions = 0;       // dense: other vehicles whose submaps join the map, too
   Pose initial_pose;
   typename Pose::Square initial_covariance = Pose::Square::Zero();  // ordinary

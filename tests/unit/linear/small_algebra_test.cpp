@@ -67,6 +67,37 @@ bool factor(const Dynamic& S, Index ld, Dynamic& L) {
 
 }  // namespace
 
+TEST_CASE("small algebra: partial Cholesky factor") {
+  Random random(2);
+  for (const Index n : kSizes)
+    for (const Index e : {Index{0}, n / 3, n / 2, n}) {
+      CAPTURE(n);
+      CAPTURE(e);
+      const Dynamic S = random_definite(random, n);
+      std::vector<double> values = lower_of(S, n + 1), workspace = workspace_of(eliminate_workspace(n));
+      workspace.back() = -7.25;
+      REQUIRE(eliminate(values.data(), n + 1, n, e, workspace.data()));
+      CHECK(workspace.back() == -7.25);
+      Dynamic expected = S;
+      if (e > 0) {
+        const Dynamic L = S.topLeftCorner(e, e).llt().matrixL();
+        const Dynamic below = L.triangularView<Eigen::Lower>().solve(S.topRightCorner(e, n - e)).transpose();
+        expected.topLeftCorner(e, e) = L;
+        expected.bottomLeftCorner(n - e, e) = below;
+        expected.bottomRightCorner(n - e, n - e) -= below * below.transpose();
+      }
+      double difference = 0.0;
+      for (Index c = 0; c < n; ++c)
+        for (Index r = c; r < n; ++r)
+          difference =
+              std::max(difference, std::abs(values[static_cast<std::size_t>(c * (n + 1) + r)] - expected(r, c)));
+      CHECK(difference <= 1e-12 * S.norm());
+    }
+  Dynamic S = -Dynamic::Identity(4, 4);
+  std::vector<double> workspace = workspace_of(eliminate_workspace(4));
+  CHECK(!eliminate(S.data(), 4, 4, 1, workspace.data()));
+}
+
 TEST_CASE("small algebra: Cholesky factor") {
   Random random(1);
   for (Index m : kSizes) {

@@ -57,6 +57,7 @@ class Growth {
     changes.leaves.push_back(leaves.blocks.back().key);
     for (const Variable v : variables) tree.set_degree(v, leaves.degree(v));
     tree.set_degree(base_variable(number + 1), 2);  // the next leaf begins there
+    tree.set_last(base_variable(number + 1));
     std::vector<std::uint32_t> assembled;
     if (springs != nullptr) {
       tree.settle(changes, *springs);
@@ -65,6 +66,25 @@ class Growth {
     }
     REQUIRE(tree.update(leaves, changes, refactored, assembled));
     CHECK(std::find(assembled.begin(), assembled.end(), number) != assembled.end());
+  }
+
+  // Removes an older leaf, and with it what no other leaf holds.
+  void remove(std::uint32_t number) {
+    LeafBlock& block = leaves.blocks[number];
+    const std::vector<Variable> variables = block.variables;
+    TreeChanges changes;
+    changes.removed.push_back(block.key);
+    block.variables.clear();
+    block.information.resize(0, 0);
+    for (const Variable v : variables) {
+      const std::int32_t degree = leaves.degree(v);
+      if (degree > 0)
+        tree.set_degree(v, degree);
+      else
+        tree.forget(v);
+    }
+    std::vector<std::uint32_t> assembled;
+    REQUIRE(tree.update(leaves, changes, refactored, assembled));
   }
 
   // One step from all leaves that were evaluated or changed since the last step. Returns the number of visited leaves.
@@ -108,14 +128,15 @@ void check_tree(const EliminationTree<Pose>& tree, const Leaves<Pose>& leaves, G
   const Matrix inverse = leaves.inverse();
   const auto states = leaves.states();
   std::vector<TreeKey> keys;
-  for (const LeafBlock& block : leaves.blocks) keys.push_back(block.key);
+  for (const LeafBlock& block : leaves.blocks)
+    if (!block.variables.empty()) keys.push_back(block.key);
 
   // Combinations of the variables of three leaves and of single variables, which may be those of one leaf, too; in an
   // order that is not that of the tree.
   std::vector<TreeCombinations> combinations;
   std::vector<Matrix> dense;
   for (int i = 0; i < 6; ++i) {
-    const LeafBlock& block = leaves.blocks[growth.below(leaves.blocks.size())];
+    const LeafBlock& block = leaves.blocks[keys[growth.below(keys.size())].leaf];
     TreeCombinations own{tree.touch(block.key), block.variables, {}};
     if (i % 2 == 1) {  // touched only where the variable was eliminated
       const Variable v = block.variables[growth.below(block.variables.size())];
@@ -150,10 +171,10 @@ void check_tree(const EliminationTree<Pose>& tree, const Leaves<Pose>& leaves, G
 
   Blocks<Pose> blocks;
   tree.covariances(keys, blocks);
-  REQUIRE(blocks.of.size() == leaves.blocks.size());
-  for (std::uint32_t i = 0; i < leaves.blocks.size(); ++i) {
-    const std::vector<Eigen::Index> own = leaves.states_of(leaves.blocks[i]);
-    CHECK(difference(blocks.of.at(i), inverse(own, own)) <= 1e-9);
+  REQUIRE(blocks.of.size() == keys.size());
+  for (const TreeKey& key : keys) {
+    const std::vector<Eigen::Index> own = leaves.states_of(leaves.blocks[key.leaf]);
+    CHECK(difference(blocks.of.at(key.leaf), inverse(own, own)) <= 1e-9);
   }
   Blocks<Pose> alone;
   const TreeKey& key = keys[growth.below(keys.size())];

@@ -18,7 +18,7 @@ using Matrix = Eigen::MatrixXd;
 
 struct LeafBlock {
   TreeKey key;
-  std::vector<Variable> variables;  // ascending
+  std::vector<Variable> variables;  // ascending; none once it was removed
   Matrix information;
 };
 

@@ -44,6 +44,26 @@ TEST_CASE_TEMPLATE("elimination tree: equal to a dense inverse while it grows", 
   }
 }
 
+TEST_CASE_TEMPLATE("elimination tree: leaves are taken out", Pose, SE3, SE2) {
+  for (const bool one_place : {false, true}) {
+    Growth<Pose> growth(8);
+    const auto place = [&] { return one_place ? Vector3(0.5, 0.5, 0.5) : growth.anywhere(100); };
+    for (int i = 0; i < 12; ++i) growth.add(place(), 3, 2, i % 2 == 0);
+    const EliminationTree<Pose> copy = growth.tree;
+    const Leaves<Pose> before = growth.leaves;
+    for (const std::uint32_t number : {3u, 4u, 0u, 10u}) {  // neighbours, the first one, one of the newest
+      growth.remove(number);
+      check_tree(growth.tree, growth.leaves, growth);
+      growth.add(place(), 3, 1, false);
+      check_tree(growth.tree, growth.leaves, growth);
+    }
+    check_tree(copy, before, growth);
+    for (std::uint32_t number = 0; number + 1 < growth.leaves.blocks.size(); ++number)
+      if (!growth.leaves.blocks[number].variables.empty()) growth.remove(number);
+    check_tree(growth.tree, growth.leaves, growth);  // one leaf is left
+  }
+}
+
 TEST_CASE_TEMPLATE("elimination tree: a copy is a tree of its own", Pose, SE3, SE2) {
   Growth<Pose> growth(5);
   for (int i = 0; i < 10; ++i) growth.add(growth.anywhere(100), 3, 2, i % 2 == 0);
@@ -69,12 +89,12 @@ TEST_CASE_TEMPLATE("elimination tree: an update that fails changes nothing", Pos
   growth.leaves.blocks[4].information *= -100.0;
   std::size_t refactored = 4711;
   std::vector<std::uint32_t> assembled;
-  CHECK(!growth.tree.update(growth.leaves, {{keys[4]}, {}}, refactored, assembled));
+  CHECK(!growth.tree.update(growth.leaves, {{keys[4]}, {}, {}}, refactored, assembled));
   CHECK(refactored == 4711);
   growth.tree.covariances(keys, actual);
   CHECK(actual.of == expected.of);
   growth.leaves = before;
-  CHECK(growth.tree.update(growth.leaves, {{keys[4]}, {}}, refactored, assembled));
+  CHECK(growth.tree.update(growth.leaves, {{keys[4]}, {}, {}}, refactored, assembled));
   check_tree(growth.tree, growth.leaves, growth);
 }
 
@@ -96,7 +116,7 @@ TEST_CASE_TEMPLATE("elimination tree: a change reaches one path", Pose, SE3, SE2
   std::size_t refactored = 0;
   std::vector<std::uint32_t> assembled;
   const LeafBlock& block = growth.leaves.blocks[17];
-  REQUIRE(growth.tree.update(growth.leaves, {{block.key}, {}}, refactored, assembled));
+  REQUIRE(growth.tree.update(growth.leaves, {{block.key}, {}, {}}, refactored, assembled));
   CHECK(refactored >= 3);
   CHECK(refactored <= 12);       // of 40: the trie's depth and the crown
   CHECK(assembled.size() <= 2);  // its own leaf, and at most the sibling's

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "linear/triangle.hpp"
-
 namespace cairn {
 
 template <class Pose>
@@ -15,7 +13,7 @@ FrontPointer EliminationBuilder<Pose>::build(const FrontPointer& old, TouchItera
     key = old->key;
     bit = std::min({bit, old->bit, begin->key.split(key), (end - 1)->key.split(key)});
   }
-  if (bit == TreeKey::kBits) return leaf(begin->key);
+  if (bit == TreeKey::kBits) return loses(begin->key) ? nullptr : leaf(begin->key);
   const TouchIterator middle = std::find_if(begin, end, [&](const TreeTouch& item) { return item.key.bit(bit); });
   FrontPointer child[2];
   for (int side = 0; side < 2; ++side) {
@@ -31,9 +29,17 @@ FrontPointer EliminationBuilder<Pose>::build(const FrontPointer& old, TouchItera
       return item.bit == TreeKey::kBits || (before != nullptr && before->bit <= item.bit);
     });
     child[side] = touched ? build(before, from, to) : before;
-    if (child[side] == nullptr) return nullptr;
+    if (failed_) return nullptr;
   }
+  // A front that has lost one side vanishes: the fronts above it eliminate what it would have eliminated.
+  if (child[0] == nullptr || child[1] == nullptr) return child[0] != nullptr ? child[0] : child[1];
   return make(bit, key, child, 2);
+}
+
+template <class Pose>
+bool EliminationBuilder<Pose>::loses(const TreeKey& key) const {
+  return std::any_of(removed_.begin(), removed_.end(),
+                     [&](const TreeKey& removed) { return removed.split(key) == TreeKey::kBits; });
 }
 
 template <class Pose>
@@ -50,7 +56,21 @@ FrontPointer EliminationBuilder<Pose>::leaf(const TreeKey& key) {
   front->held.assign(front->boundary.size(), 1);
   front->b = dimension<Pose>(front->boundary);
   front->absolute = source_.absolute(key.leaf);
+  if (!source_.kept(key.leaf)) return front;
+  request(*front);
+  front->complement.reserve(static_cast<std::size_t>(front->b * (front->b + 1) / 2));
+  for (Index c = 0; c < front->b; ++c)
+    front->complement.insert(front->complement.end(), leaf_.begin() + c * front->b + c,
+                             leaf_.begin() + (c + 1) * front->b);
   return front;
+}
+
+// Puts the leaf's information into `leaf_`.
+template <class Pose>
+void EliminationBuilder<Pose>::request(const TreeFront& leaf) {
+  leaf_.assign(static_cast<std::size_t>(leaf.b * leaf.b), 0.0);
+  source_.information(leaf.key.leaf, leaf_.data(), leaf.b);
+  assembled_.push_back(leaf.key.leaf);
 }
 
 // Adds a child's complement to the front's matrix.
@@ -59,10 +79,8 @@ void EliminationBuilder<Pose>::assemble(const TreeFront& child, const TreeFront&
   const std::vector<Index> map = state_map<Pose>(child.boundary, front);
   const double* from = child.complement.data();
   Index ld_from = 0;  // 0: packed
-  if (child.leaf()) {
-    leaf_.assign(static_cast<std::size_t>(child.b * child.b), 0.0);
-    source_.information(child.key.leaf, leaf_.data(), child.b);
-    assembled_.push_back(child.key.leaf);
+  if (child.leaf() && child.complement.empty()) {
+    request(child);
     from = leaf_.data();
     ld_from = child.b;
   }
@@ -91,13 +109,10 @@ FrontPointer EliminationBuilder<Pose>::make(int bit, const TreeKey& key, const F
               n = e + b;
   matrix_.assign(static_cast<std::size_t>(n * n), 0.0);
   for (int i = 0; i < children; ++i) assemble(*child[i], *front, n);
-  const std::size_t workspace = std::max({cholesky_workspace(e), solve_workspace(e), update_triangle_workspace(b, e)});
-  if (workspace_.size() < workspace) workspace_.resize(workspace);
-  if (!cholesky(matrix_.data(), n, e, workspace_.data())) return nullptr;
-  if (b > 0 && e > 0) {
-    solve_right_transposed(matrix_.data(), n, e, matrix_.data() + e, n, b, workspace_.data());
-    const TriangleTerm term{matrix_.data() + e, n, matrix_.data() + e, n, e, -1.0};
-    update_triangle(matrix_.data() + e * (n + 1), n, b, &term, 1, workspace_.data());
+  if (workspace_.size() < eliminate_workspace(n)) workspace_.resize(eliminate_workspace(n));
+  if (!eliminate(matrix_.data(), n, n, e, workspace_.data())) {
+    failed_ = true;
+    return nullptr;
   }
   front->factor.assign(matrix_.begin(), matrix_.begin() + e * n);
   front->complement.reserve(static_cast<std::size_t>(b * (b + 1) / 2));
@@ -125,10 +140,9 @@ void EliminationBuilder<Pose>::sort_variables(TreeFront& front, int children) {
   const TreeFront& a = *front.child[0];
   if (children == 1) {
     for (std::size_t i = 0; i < a.boundary.size(); ++i) take(a.boundary[i], a.held[i]);
-    // The newest base comes last: its covariance is then the last pivot's.
-    const auto newest =
-        std::find_if(front.eliminated.rbegin(), front.eliminated.rend(), [](Variable v) { return !is_landmark(v); });
-    if (newest != front.eliminated.rend()) std::rotate(front.eliminated.rbegin(), newest, newest + 1);
+    // The covariance of the variable that comes last is the last pivot's.
+    const auto last = std::find(front.eliminated.rbegin(), front.eliminated.rend(), last_);
+    if (last != front.eliminated.rend()) std::rotate(front.eliminated.rbegin(), last, last + 1);
     return;
   }
   const TreeFront& c = *front.child[1];

@@ -24,7 +24,9 @@ struct TreeFront {
   std::vector<std::int32_t> held;    // leaves below that hold a variable of the boundary
   Index e = 0, b = 0;                // states of both
   std::vector<double> factor;        // (e + b) x e, column-major: L_EE over L_BE
-  std::vector<double> complement;    // packed lower triangle, b x b: information of the leaves below on the boundary
+  // Packed lower triangle, b x b: information of the leaves below on the boundary. Of a leaf only if its source says
+  // so.
+  std::vector<double> complement;
 
   bool leaf() const { return child[0] == nullptr; }
   using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;

@@ -18,21 +18,28 @@ void EliminationTree<Pose>::set_degree(Variable v, std::int32_t degree) {
 }
 
 template <class Pose>
+void EliminationTree<Pose>::forget(Variable v) {
+  degree_[v] = 0;
+  eliminated_at_[v] = EliminationBuilder<Pose>::kNever;
+}
+
+template <class Pose>
 bool EliminationTree<Pose>::update(const LeafSource& source, const Changes& changes, std::size_t& refactored,
                                    std::vector<std::uint32_t>& assembled) {
   std::vector<Touch> touches;
   for (const TreeKey& key : changes.leaves) touches.push_back(touch(key));
+  for (const TreeKey& key : changes.removed) touches.push_back(touch(key));
   for (const auto& [v, key] : changes.variables)
     if (eliminated_at(v) != EliminationBuilder<Pose>::kNever) touches.push_back(touch(v, key));
   if (touches.empty()) return true;
   sort_by_key(touches);
   std::vector<std::int16_t> eliminated_at = eliminated_at_;
   assembled.clear();
-  EliminationBuilder<Pose> builder(source, degree_, eliminated_at, assembled);
+  EliminationBuilder<Pose> builder(source, degree_, last_, changes.removed, eliminated_at, assembled);
   const FrontPointer top =
       builder.build(crown_ != nullptr ? crown_->child[0] : nullptr, touches.begin(), touches.end());
   const FrontPointer crown = top != nullptr ? builder.crown(top) : nullptr;
-  if (crown == nullptr) return false;
+  if (builder.failed()) return false;
   crown_ = crown;
   eliminated_at_ = std::move(eliminated_at);
   refactored = builder.made();
@@ -52,6 +59,7 @@ void EliminationTree<Pose>::settle(const Changes& changes, Relaxation& system) {
   if (crown_ == nullptr || rests_.empty()) return;
   std::vector<Touch> touches;
   for (const TreeKey& key : changes.leaves) touches.push_back(touch(key));
+  for (const TreeKey& key : changes.removed) touches.push_back(touch(key));
   for (const auto& [v, key] : changes.variables) touches.push_back(touch(v, key));
   sort_by_key(touches);
   EliminationRelaxer<Pose>(degree_.size(), rests_, system).settle(*crown_, touches);

@@ -28,6 +28,7 @@ struct TreeChanges {
   std::vector<TreeKey> leaves;  // new, or with other variables or information
   // Variables that were eliminated before and are now held by more leaves, each with a leaf that held it.
   std::vector<std::pair<Variable, TreeKey>> variables;
+  std::vector<TreeKey> removed;  // leaves that the tree loses
 };
 
 // Over the poses of one kind of map.
@@ -43,6 +44,10 @@ class EliminationTree {
   // The number of leaves that hold a variable. A variable that more leaves hold than there are in the tree is
   // eliminated last.
   void set_degree(Variable v, std::int32_t degree);
+  // Nothing holds the variable any more. Its number may be used again.
+  void forget(Variable v);
+  // The base that is eliminated last; more leaves must hold it than there are in the tree.
+  void set_last(Variable v) { last_ = v; }
 
   // Returns false, with nothing changed, if a pivot is not positive. `refactored` and `assembled` get the fronts and
   // the leaves whose information was requested.
@@ -71,7 +76,7 @@ class EliminationTree {
 
   // Covariances by selected inversion: of all variables of each requested leaf, in their order.
   void covariances(std::vector<TreeKey> leaves, Covariances& visitor) const;
-  // Covariance of the variable that was eliminated last.
+  // Covariance of the variable that is eliminated last.
   Eigen::MatrixXd last_covariance() const;
 
   std::size_t memory_bytes() const;  // of the fronts
@@ -81,6 +86,7 @@ class EliminationTree {
 
   FrontPointer crown_;  // above the trie: eliminates the remaining variables
   TreeRests rests_;
+  Variable last_ = 0;
   std::vector<std::int32_t> degree_;
   std::vector<std::int16_t> eliminated_at_;  // bit of the front that eliminates a variable; EliminationBuilder::kNever
 };

@@ -17,6 +17,8 @@ class LeafSource {
   virtual const std::vector<Variable>& variables(std::uint32_t leaf) const = 0;
   // Lower triangle of its information, in the order of its variables; H comes zeroed.
   virtual void information(std::uint32_t leaf, double* H, Index ld) const = 0;
+  // Whether the tree keeps this information, which is expensive to form, until the leaf changes.
+  virtual bool kept(std::uint32_t) const { return false; }
   // Whether it has information on the absolute positions of its variables, not only on their relative positions.
   virtual bool absolute(std::uint32_t leaf) const = 0;
 };

@@ -10,11 +10,13 @@ template <class Pose>
 void LeafInformation<Pose>::information(std::uint32_t number, double* H, Index ld) const {
   const typename SparseState<Pose>::Leaf& leaf = state_.leaves[number];
   const SparseAnchors<Pose>& anchors = state_.solution.anchors;
-  std::vector<Rotation> R{state_.axes(base_variable(number)), state_.axes(base_variable(number + 1))};
-  for (const Index i : leaf.factor->shared()) R.push_back(state_.axes(landmark_variable(leaf.landmarks[i])));
-  Eigen::MatrixXd own = leaf.factor->hessian(state_.values(number), R);
+  std::vector<Rotation> R;
+  for (const std::uint32_t pose : leaf.poses) R.push_back(state_.axes(base_variable(pose)));
+  for (Index i = 0; i < leaf.shared_count(); ++i) R.push_back(state_.axes(landmark_variable(leaf.shared(i))));
+  Eigen::MatrixXd own = leaf.place != nullptr ? leaf.place->hessian(state_.place_values(leaf), R)
+                                              : leaf.factor->hessian(state_.values(number), R);
   if (number == 0)  // the prior of the systematic errors
-    own.diagonal().segment(Factor::column(leaf.factor->shared_count()), state_.error_points.size()).array() += 1.0;
+    own.diagonal().segment(leaf.state_of_shared(leaf.shared_count()), state_.error_points.size()).array() += 1.0;
   // The information on a single base (its prior or its fixes) is added to the submap that ends there; that of the first
   // base to the submap that begins there.
   const auto add = [&](Index base, Eigen::MatrixXd J, const Eigen::MatrixXd& information) {
@@ -22,11 +24,11 @@ void LeafInformation<Pose>::information(std::uint32_t number, double* H, Index l
     J.middleCols<kTurn>(kDim) = (J.middleCols<kTurn>(kDim) * R[base].adjoint()).eval();
     own.block<kDof, kDof>(kDof * base, kDof * base) += J.transpose() * information * J;
   };
-  if (number == 0) add(0, anchors.prior_jacobian(state_.bases[0]), anchors.prior_information());
-  if (const auto* fixes = anchors.fixes_of(number + 1))
+  if (number == 0) add(0, anchors.prior_jacobian(state_.bases[0].pose), anchors.prior_information());
+  if (const auto* fixes = anchors.fixes_of(number))
     for (const AbsoluteFix<Pose>& fix : *fixes) {
       const Eigen::MatrixXd noise = fix.covariance().topLeftCorner(fix.rows(), fix.rows());
-      add(1, fix.jacobian(state_.bases[number + 1]).topRows(fix.rows()),
+      add(1, fix.jacobian(state_.bases[leaf.poses[1]].pose).topRows(fix.rows()),
           noise.ldlt().solve(Eigen::MatrixXd::Identity(fix.rows(), fix.rows())));
     }
   // Copies the information to the tree's order, by blocks of poses and of landmarks.
@@ -43,11 +45,12 @@ void LeafInformation<Pose>::information(std::uint32_t number, double* H, Index l
   };
   const std::integral_constant<int, kDof> pose;
   const std::integral_constant<int, kDim> point;
-  for (const Index j : {Index{0}, Index{kDof}}) {
-    for (Index i = j; i < 2 * kDof; i += kDof) put(i, j, pose, pose);
-    for (Index i = Factor::column(0); i < own.rows(); i += kDim) put(i, j, point, pose);
+  const Index first_point = leaf.state_of_shared(0);
+  for (Index j = 0; j < first_point; j += kDof) {
+    for (Index i = j; i < first_point; i += kDof) put(i, j, pose, pose);
+    for (Index i = first_point; i < own.rows(); i += kDim) put(i, j, point, pose);
   }
-  for (Index j = Factor::column(0); j < own.cols(); j += kDim)
+  for (Index j = first_point; j < own.cols(); j += kDim)
     for (Index i = j; i < own.rows(); i += kDim) put(i, j, point, point);
 }
 

@@ -14,14 +14,14 @@ class LeafInformation final : public LeafSource {
 
   const std::vector<Variable>& variables(std::uint32_t leaf) const override { return state_.leaves[leaf].variables; }
   void information(std::uint32_t leaf, double* H, Index ld) const override;
+  bool kept(std::uint32_t leaf) const override { return state_.leaves[leaf].place != nullptr; }
   bool absolute(std::uint32_t leaf) const override {
-    return leaf == 0 || state_.solution.anchors.fixes_of(leaf + 1) != nullptr;
+    return leaf == 0 || state_.solution.anchors.fixes_of(leaf) != nullptr;
   }
 
  private:
   static constexpr int kDim = Pose::kDim, kTurn = Pose::kTurn, kDof = Pose::kDof;
   using Rotation = typename Pose::Rotation;
-  using Factor = SubmapFactor<Pose>;
 
   const SparseState<Pose>& state_;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The information that fixes a sparse map in its frame: the prior of its first base, and absolute fixes of its bases.
+// The information that fixes a sparse map in its frame: the prior of its first base, and absolute fixes of the ends of
+// its submaps, by leaf.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +26,13 @@ class SparseAnchors {
   // Derivative of pose_error(base, prior) by the ordinary error of the base.
   Square prior_jacobian(const Pose& base) const;
 
-  void add(std::uint32_t base, const AbsoluteFix<Pose>& fix) { fixes_[base].push_back(fix); }
+  void add(std::uint32_t leaf, const AbsoluteFix<Pose>& fix) { fixes_[leaf].push_back(fix); }
   // Null if there is none.
-  const Fixes* fixes_of(std::uint32_t base) const {
-    const auto found = fixes_.find(base);
+  const Fixes* fixes_of(std::uint32_t leaf) const {
+    const auto found = fixes_.find(leaf);
     return found != fixes_.end() ? &found->second : nullptr;
   }
-  const std::map<std::uint32_t, Fixes>& fixes() const { return fixes_; }  // by base
+  const std::map<std::uint32_t, Fixes>& fixes() const { return fixes_; }
 
  private:
   Pose prior_;

@@ -15,6 +15,7 @@ SparseChange<Pose>::SparseChange(SparseState<Pose>& state, SpatialIndex& index)
       landmarks_(static_cast<Number>(state.landmarks.size())),
       leaf_count_(state.leaves.size()),
       base_count_(state.bases.size()),
+      submap_count_(state.submaps.size()),
       visible_(state.visible.size()),
       walking_(state.walking_errors.size()),
       solution_(state.solution) {}
@@ -33,9 +34,9 @@ void SparseChange<Pose>::save_landmark(Number landmark) {
 
 template <class Pose>
 void SparseChange<Pose>::save_base(Number base) {
-  if (state_.base_saved[base] == number_) return;
+  if (state_.bases[base].saved == number_) return;
   bases_.emplace_back(base, state_.bases[base]);
-  state_.base_saved[base] = number_;
+  state_.bases[base].saved = number_;
 }
 
 // And the positions of its private landmarks.
@@ -54,15 +55,35 @@ void SparseChange<Pose>::save_turn(Number leaf) {
 }
 
 template <class Pose>
-void SparseChange<Pose>::add_base(const Pose& base) {
-  state_.bases.push_back(base);
-  state_.base_saved.push_back(number_);
+typename SparseChange<Pose>::Number SparseChange<Pose>::add_base(const Pose& base) {
+  std::vector<Number>& free = state_.solution.free_bases;
+  typename State::Base fresh;
+  fresh.pose = base;
+  fresh.saved = number_;
+  if (free.empty()) {
+    state_.bases.push_back(fresh);
+    return static_cast<Number>(state_.bases.size() - 1);
+  }
+  const Number number = free.back();
+  save_base(number);
+  state_.bases[number] = fresh;
+  free.pop_back();
+  return number;
 }
 
 template <class Pose>
 typename SparseChange<Pose>::Number SparseChange<Pose>::add_landmark(const Point& position) {
-  state_.landmarks.push_back({0, 0, position, {}, State::kNone, number_});
-  return static_cast<Number>(state_.landmarks.size() - 1);
+  std::vector<Number>& free = state_.solution.free_landmarks;
+  const typename State::Landmark fresh{0, 0, position, {}, State::kNone, number_};
+  if (free.empty()) {
+    state_.landmarks.push_back(fresh);
+    return static_cast<Number>(state_.landmarks.size() - 1);
+  }
+  const Number number = free.back();
+  again_.push_back(number);
+  state_.landmarks[number] = fresh;
+  free.pop_back();
+  return number;
 }
 
 template <class Pose>
@@ -84,12 +105,60 @@ void SparseChange<Pose>::show_landmark(Number number, std::uint64_t id) {
 }
 
 template <class Pose>
-typename SparseState<Pose>::Leaf SparseChange<Pose>::new_leaf(std::shared_ptr<const SubmapData<Pose>> data) const {
+typename SparseChange<Pose>::Number SparseChange<Pose>::add_leaf(std::vector<Number> poses) {
+  std::vector<Number>& free = state_.solution.free_leaves;
+  const Number number = free.empty() ? static_cast<Number>(state_.leaves.size()) : free.back();
+  for (const Number base : poses) {
+    save_base(base);
+    state_.bases[base].replace(State::kNone, number);
+  }
   typename State::Leaf leaf;
-  leaf.data = std::move(data);
-  leaf.key = state_.key_of(static_cast<Number>(state_.leaves.size()));
+  leaf.key = state_.key_of(number, poses[0]);
+  leaf.poses = std::move(poses);
+  leaf.submap = static_cast<Number>(state_.submaps.size());
   leaf.saved = number_;
-  return leaf;
+  state_.submaps.push_back({number, Pose()});
+  if (free.empty()) {
+    state_.leaves.push_back(std::move(leaf));
+  } else {
+    save_leaf(number);
+    state_.leaves[number] = std::move(leaf);
+    free.pop_back();
+  }
+  return number;
+}
+
+template <class Pose>
+void SparseChange<Pose>::remove_leaf(Number number) {
+  save_leaf(number);
+  state_.solution.free_leaves.push_back(number);
+  state_.leaves[number] = typename State::Leaf();
+  state_.leaves[number].saved = number_;
+}
+
+template <class Pose>
+void SparseChange<Pose>::free_base(Number base) {
+  save_base(base);
+  state_.solution.free_bases.push_back(base);
+}
+
+template <class Pose>
+void SparseChange<Pose>::free_landmark(Number landmark) {
+  save_landmark(landmark);
+  save_holders(landmark);
+  state_.solution.free_landmarks.push_back(landmark);
+  state_.landmarks[landmark].submaps.clear();
+}
+
+template <class Pose>
+void SparseChange<Pose>::save_holders(Number landmark) {
+  holders_.emplace_back(landmark, state_.landmarks[landmark].submaps);
+}
+
+template <class Pose>
+void SparseChange<Pose>::move_submap(Number submap, Number leaf, const Pose& T_leaf_submap) {
+  submaps_.emplace_back(submap, state_.submaps[submap]);
+  state_.submaps[submap] = {leaf, T_leaf_submap};
 }
 
 template <class Pose>
@@ -109,7 +178,7 @@ void SparseChange<Pose>::extend(Number landmark, Number submap, std::uint64_t co
 template <class Pose>
 void SparseChange<Pose>::note_held_again(Number landmark, std::vector<Number>& reshaped, TreeChanges& changes) const {
   const typename State::Landmark& l = state_.landmarks[landmark];
-  if (l.submaps.size() == 1)
+  if (!state_.shared(landmark))
     reshaped.push_back(l.submaps[0]);
   else
     changes.variables.emplace_back(landmark_variable(landmark), state_.leaves[l.submaps[0]].key);
@@ -124,7 +193,7 @@ double SparseChange<Pose>::cost_growth() const {
 }
 
 template <class Pose>
-void SparseChange<Pose>::finish(JoinReport& report) {
+void SparseChange<Pose>::prepare(JoinReport& report) {
   for (const auto& [number, leaf] : leaves_) state_.place_private(number);
   for (std::size_t i = leaf_count_; i < state_.leaves.size(); ++i) state_.place_private(static_cast<Number>(i));
   state_.refresh_base_covariance();
@@ -136,6 +205,10 @@ void SparseChange<Pose>::finish(JoinReport& report) {
     report.moved_max = std::max(report.moved_max, std::sqrt(way));
   }
   if (landmarks_ > 0) report.moved_rms = std::sqrt(sum / landmarks_);
+}
+
+template <class Pose>
+void SparseChange<Pose>::keep() noexcept {
   hide();
   note_moves();
   kept_ = true;
@@ -170,26 +243,38 @@ void SparseChange<Pose>::note_moves() noexcept {
   }
 }
 
+// In reverse order: a change that was nested in this one and kept does not count as saved, so that a value may be saved
+// twice.
 template <class Pose>
 void SparseChange<Pose>::roll_back() noexcept {
+  const auto in_reverse = [](auto& list, auto&& restore) {
+    for (auto saved = list.rbegin(); saved != list.rend(); ++saved) restore(saved->first, saved->second);
+  };
   for (const auto& [landmark, count] : extended_) {
     state_.landmarks[landmark].submaps.pop_back();
     state_.landmarks[landmark].count -= count;
   }
-  for (const auto& [landmark, position] : positions_) state_.landmarks[landmark].position = position;
-  for (const auto& [base, pose] : bases_) state_.bases[base] = pose;
-  for (auto turned = turned_.rbegin(); turned != turned_.rend(); ++turned)
-    state_.leaves[turned->first].turned = turned->second;
-  for (auto& [number, leaf] : leaves_) state_.leaves[number] = std::move(leaf);
-  for (Number landmark = landmarks_; landmark < state_.landmarks.size(); ++landmark) {
-    if (state_.landmarks[landmark].slot == State::kNone) continue;
+  in_reverse(positions_, [&](Number landmark, const Point& place) { state_.landmarks[landmark].position = place; });
+  in_reverse(holders_, [&](Number landmark, auto& holders) { state_.landmarks[landmark].submaps.swap(holders); });
+  in_reverse(submaps_, [&](Number submap, const auto& closed) { state_.submaps[submap] = closed; });
+  in_reverse(bases_, [&](Number number, const auto& base) { state_.bases[number] = base; });
+  in_reverse(turned_, [&](Number leaf, const Rotation& turned) { state_.leaves[leaf].turned = turned; });
+  in_reverse(leaves_, [&](Number number, auto& leaf) { state_.leaves[number] = std::move(leaf); });
+  const auto take_name = [&](Number landmark) {
+    if (state_.landmarks[landmark].slot == State::kNone) return;
     state_.ids.erase(state_.landmarks[landmark].id);
     index_.remove(state_.landmarks[landmark].slot);
+    state_.landmarks[landmark].slot = State::kNone;
+  };
+  for (const Number landmark : again_) {
+    take_name(landmark);
+    state_.landmarks[landmark].submaps.clear();
   }
+  for (Number landmark = landmarks_; landmark < state_.landmarks.size(); ++landmark) take_name(landmark);
   state_.landmarks.resize(landmarks_, typename State::Landmark());
   state_.leaves.resize(leaf_count_, typename State::Leaf());
   state_.bases.resize(base_count_);
-  state_.base_saved.resize(base_count_);
+  state_.submaps.resize(submap_count_, typename State::Closed());
   state_.visible.resize(visible_);
   state_.walking_errors.resize(walking_);
   state_.solution = std::move(solution_);

@@ -22,17 +22,16 @@ bool may_contradict(const SparseState<Pose>& state, std::uint32_t number, const 
   // Among many good landmarks one is likely to exceed the single gate: the bound is chosen so that all of them pass.
   const double count = std::max(1.0, static_cast<double>(report.fused));
   const double bound = chi_square_quantile(kDim, std::pow(state.options.gate_probability, 1.0 / count));
-  for (Index i = 0; i < leaf.factor->shared_count(); ++i) {
-    const std::uint32_t landmark = leaf.landmarks[leaf.factor->shared()[i]];
+  for (Index i = 0; i < leaf.shared_count(); ++i) {
+    const std::uint32_t landmark = leaf.shared(i);
     PointSquare old = PointSquare::Zero();
     for (const std::uint32_t other : state.landmarks[landmark].submaps) {
       if (other == number) continue;
-      const std::vector<Index>& shared_there = state.leaves[other].factor->shared();
-      for (std::size_t j = 0; j < shared_there.size(); ++j)
-        if (state.leaves[other].landmarks[shared_there[j]] == landmark)
-          old += state.leaves[other].factor->landmark_information(static_cast<Index>(j), state.bases[other].rotation());
+      const typename SparseState<Pose>::Leaf& there = state.leaves[other];
+      for (Index j = 0; j < there.shared_count(); ++j)
+        if (there.shared(j) == landmark) old += state.landmark_information(there, j);
     }
-    const PointSquare fresh = leaf.factor->landmark_information(i, state.bases[number].rotation());
+    const PointSquare fresh = state.landmark_information(leaf, i);
     const typename Pose::Point force = state.force_on(leaf, i);
     if (force.dot((fresh.inverse() + old.inverse()) * force) > bound) return true;
   }
@@ -57,7 +56,7 @@ Contradicting find_contradicting(const SparseState<Pose>& state, const Submap<Po
   const auto size = static_cast<Index>(Pose::kDof + kDim * locals.size());
   Eigen::MatrixXd P(size, size);
   joint_covariance_of_base(state, indices.data(), indices.size(), P.data());
-  const SubmapInnovation<Pose> innovation(state.bases.back(), P, points, submap, locals, noise);
+  const SubmapInnovation<Pose> innovation(state.newest_base(), P, points, submap, locals, noise);
 
   Contradictions contradictions(kDim);
   InnovationBatch<Pose> batch(innovation);

@@ -24,7 +24,7 @@ class SparseMap final : public GlobalMap<Pose> {
 
   std::unique_ptr<MapTransaction<Pose>> begin() override;
   void remove(std::uint64_t id) override;
-  Pose base() const override { return state_.bases.back(); }
+  Pose base() const override { return state_.newest_base(); }
   Square base_covariance() const override { return state_.solution.base_covariance; }
   void base_joint_covariance(const std::size_t* indices, std::size_t count, double* matrix) const override {
     joint_covariance_of_base(state_, indices, count, matrix);
@@ -33,11 +33,9 @@ class SparseMap final : public GlobalMap<Pose> {
   Eigen::MatrixXd joint_with_errors(const std::size_t* indices, std::size_t count) const override {
     return joint_with_errors_of(state_, indices, count);
   }
-  std::size_t submap_count() const override { return state_.leaves.size(); }
-  Pose submap_base(std::size_t submap) const override { return state_.bases[submap]; }
-  const std::vector<std::uint64_t>& submap_ids(std::size_t submap) const override {
-    return state_.leaves[submap].data->ids;
-  }
+  std::size_t submap_count() const override { return state_.submaps.size(); }
+  Pose submap_base(std::size_t submap) const override { return state_.submap_base(submap); }
+  const std::vector<std::uint64_t>& submap_ids(std::size_t submap) const override { return state_.submap_ids(submap); }
 
   // Landmarks
   std::size_t size() const override { return state_.visible.size(); }

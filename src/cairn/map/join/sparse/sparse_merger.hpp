@@ -2,10 +2,10 @@
 // Appends a sparse map of space to another one: its submaps are appended to the map's own, moved by the transform
 // between the frames, and all are solved for together.
 //
-// The map's submaps are one chain of bases: submap j leads from base j to base j + 1. A bridge connects the other
-// chain: a submap without landmarks and without information that leads from the last base of the map to the first base
-// of the other map. If the transform between the frames is known beforehand, a second bridge contains it: from a base
-// that is fixed at the map's origin to the other map's first base.
+// The map's submaps are a chain of bases: each leads from its base to the base of the next one. A bridge connects the
+// other chain: a submap without landmarks and without information that leads from the last base of the map to the first
+// base of the other map. If the transform between the frames is known beforehand, a second bridge contains it: from a
+// base that is fixed at the map's origin to the other map's first base.
 #pragma once
 
 #include <vector>
@@ -28,9 +28,10 @@ class SparseMerger {
 
  private:
   double append_bases();
-  void bridge(const SE3& T_base_end, const Matrix6& covariance);
-  void append_landmarks();
+  Number bridge(const SE3& T_base_end, const Matrix6& covariance);
   void append_leaves();
+  void append_landmarks();
+  void fill_leaves();
   void solve();
   [[noreturn]] void throw_worst(MergeReport& report) const;
 
@@ -39,9 +40,9 @@ class SparseMerger {
   const MergePlan& plan_;
   const MergeOptions& options_;
   SparseChange<SE3> change_;
-  Number first_leaf_, offset_ = 0;  // of the first bridge, and of the other map's first submap
-  std::vector<Number> here_;        // the other map's landmarks, by their numbers there
-  std::vector<Number> reshaped_;    // leaves with landmarks that are shared only now
+  std::vector<Number> fresh_;                  // leaves: the bridges, then those of the other map
+  std::vector<Number> bases_, leaves_, here_;  // the other map's bases, leaves and landmarks, by their numbers there
+  std::vector<Number> reshaped_;               // leaves with landmarks that are shared only now
   TreeChanges changes_;
 };
 

@@ -28,11 +28,10 @@ class CovarianceVisitor final : public TreeCovariances {
       const std::uint32_t landmark = leaf.landmarks[i];
       if (landmark != State::kNone && !state_.shared(landmark)) privates.push_back(static_cast<Index>(i));
     }
-    const std::vector<Index>& shared_ones = leaf.factor->shared();
-    for (std::size_t i = 0; i < shared_ones.size(); ++i) {
-      const Index at = leaf.order[SubmapFactor<Pose>::column(static_cast<Index>(i))];
+    for (Index i = 0; i < leaf.shared_count(); ++i) {
+      const Index at = leaf.order[leaf.state_of_shared(i)];
       // From one leaf only: other leaves give the same covariance except for its last bits.
-      const std::uint32_t landmark = leaf.landmarks[shared_ones[i]];
+      const std::uint32_t landmark = leaf.shared(i);
       if (state_.landmarks[landmark].submaps[0] == number) keep(landmark, covariance.block<kDim, kDim>(at, at));
     }
     if (privates.empty()) return;
@@ -188,19 +187,18 @@ void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t*
                               double* matrix, bool errors) {
   constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
   using Number = std::uint32_t;
-  const std::vector<Number> error_points =
-      errors ? state.errors_at(static_cast<Number>(state.bases.size() - 1)) : std::vector<Number>();
+  const std::vector<Number> error_points = errors ? state.errors_at(state.solution.newest) : std::vector<Number>();
   const auto first = static_cast<Index>(kDof + kDim * error_points.size());
   const auto size = first + static_cast<Index>(kDim * count);
   Eigen::Map<Eigen::MatrixXd> joint(matrix, size, size);
-  if (state.leaves.empty()) {
+  const Number last = state.bases[state.solution.newest].leaves[0];
+  if (last == SparseState<Pose>::kNone) {
     joint.setIdentity();  // of the systematic errors' points
     joint.template topLeftCorner<kDof, kDof>() = state.solution.base_covariance;
     return;
   }
   ChosenErrors<Pose> chosen(state, size);
-  const auto last = static_cast<Number>(state.leaves.size() - 1);
-  chosen.add(base_variable(state.bases.size() - 1), last, 0);
+  chosen.add(base_variable(state.solution.newest), last, 0);
   for (std::size_t i = 0; i < error_points.size(); ++i)
     chosen.add(landmark_variable(error_points[i]), last, static_cast<Index>(kDof + kDim * i));
   chosen.add_landmarks(indices, count, first);
@@ -212,8 +210,7 @@ void joint_covariance_of_base(const SparseState<Pose>& state, const std::size_t*
 template <class Pose>
 Eigen::VectorXd errors_of(const SparseState<Pose>& state) {
   const ErrorPoints<Pose>& points = state.error_points;
-  const Eigen::VectorXd values =
-      state.error_values(state.errors_at(static_cast<std::uint32_t>(state.bases.size() - 1)));
+  const Eigen::VectorXd values = state.error_values(state.errors_at(state.solution.newest));
   Eigen::VectorXd errors(points.count());
   for (Index i = 0; i < points.count(); ++i) errors(i) = points.unit(i) * values(points.at(i));
   return errors;

@@ -23,14 +23,14 @@ void SparseSolver<Pose>::place(const Step& step, double factor, const Before& fr
     const Tangent turn = factor * Eigen::Map<const Tangent>(entry.value + kDim);
     const PointSquare V = Rotation::translation_jacobian(turn);
     const Pose& before = from.bases[base++];
-    state_.bases[number] = Pose(Rotation::exp(turn) * before.rotation(), before.translation() + V * move);
+    state_.bases[number].pose = Pose(Rotation::exp(turn) * before.rotation(), before.translation() + V * move);
     turned.emplace(number, V);
   }
   for (const typename Step::Entry& entry : step.entries()) {
     if (!is_landmark(entry.variable)) continue;
     typename State::Landmark& landmark = state_.landmarks[static_cast<Number>(entry.variable >> 1)];
     const Point move = factor * Eigen::Map<const Point>(entry.value);
-    const auto first = landmark.error ? turned.end() : turned.find(landmark.submaps[0]);
+    const auto first = landmark.error ? turned.end() : turned.find(state_.leaves[landmark.submaps[0]].base());
     landmark.position = from.positions[position++] + (first != turned.end() ? Point(first->second * move) : move);
   }
   for (std::size_t i = 0; i < step.carried().size(); ++i)
@@ -62,8 +62,16 @@ void SparseSolver<Pose>::take_back(const Step& step, Before& from) {
   }
 }
 
-// The newest of the stale leaves come first; those beyond kAtOnce wait for the next time. Motions that the tree keeps
-// above the changed fronts are handed down before.
+template <class Pose>
+void SparseSolver<Pose>::settle(const TreeChanges& changes) {
+  Step step(state_, 0.0);
+  state_.solution.tree.settle(changes, step);
+  take_step(step, 1.0, save(step));
+  std::vector<Number>& pending = state_.solution.pending;
+  pending.insert(pending.end(), step.visited().begin(), step.visited().end());
+}
+
+// The newest of the stale leaves come first; those beyond kAtOnce wait for the next time.
 template <class Pose>
 void SparseSolver<Pose>::refactor(TreeChanges changes, JoinReport& report) {
   typename State::Solution& solution = state_.solution;
@@ -73,10 +81,7 @@ void SparseSolver<Pose>::refactor(TreeChanges changes, JoinReport& report) {
     changes.leaves.push_back(state_.leaves[solution.stale[i]].key);
   solution.stale.resize(solution.stale.size() - taken);
   report.relinearised += taken;
-  Step step(state_, 0.0);
-  solution.tree.settle(changes, step);
-  take_step(step, 1.0, save(step));
-
+  settle(changes);
   std::size_t refactored = 0;
   std::vector<std::uint32_t> assembled;
   if (!solution.tree.update(LeafInformation<Pose>(state_), changes, refactored, assembled))
@@ -84,7 +89,6 @@ void SparseSolver<Pose>::refactor(TreeChanges changes, JoinReport& report) {
   report.refactored += refactored;
   for (const TreeKey& key : changes.leaves) solution.pending.push_back(key.leaf);
   for (const auto& [v, key] : changes.variables) solution.pending.push_back(key.leaf);
-  solution.pending.insert(solution.pending.end(), step.visited().begin(), step.visited().end());
   for (const Number leaf : assembled) {
     change_.save_leaf(leaf);
     state_.note_linearisation(leaf);
@@ -110,7 +114,7 @@ typename SparseSolver<Pose>::Before SparseSolver<Pose>::save(const Step& step) {
       before.positions.push_back(state_.landmarks[number].position);
     } else {
       change_.save_base(number);
-      before.bases.push_back(state_.bases[number]);
+      before.bases.push_back(state_.bases[number].pose);
     }
   }
   return before;
@@ -123,7 +127,7 @@ void SparseSolver<Pose>::optimise(JoinReport& report) {
   constexpr int kHalvings = 6;
   // The flexibility of a chain grows with the cube of its length, and so does the effect of a stiffness that belongs to
   // another shape.
-  const double borne = std::clamp(10.0 * std::pow(static_cast<double>(state_.leaves.size()), -1.5), 5e-5, 0.3);
+  const double borne = std::clamp(10.0 * std::pow(static_cast<double>(state_.leaf_count()), -1.5), 5e-5, 0.3);
   constexpr double kSlack = 0.01;  // of the cost: leaves that were not visited lately have an older cost
   solution.settled = false;
   double tolerance = state_.options.step_tolerance;

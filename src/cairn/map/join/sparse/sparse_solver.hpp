@@ -16,6 +16,8 @@ class SparseSolver {
  public:
   SparseSolver(SparseState<Pose>& state, SparseChange<Pose>& change) : state_(state), change_(change) {}
 
+  // Hands down motions that the tree keeps above what is about to change.
+  void settle(const TreeChanges& changes);
   // Makes the affected parts of the tree anew: those of `changes` and of stale leaves.
   void refactor(TreeChanges changes, JoinReport& report);
   // Iterates until it converges, or until the limit of iterations of a closing (Solution::settled tells which).

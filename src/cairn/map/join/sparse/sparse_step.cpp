@@ -16,8 +16,8 @@ void for_leaves_of(const SparseState<Pose>& state, Variable v, Visit&& visit) {
     for (const std::uint32_t leaf : state.landmarks[number].submaps) visit(leaf);
     return;
   }
-  if (number > 0) visit(number - 1);
-  if (number < state.leaves.size()) visit(number);
+  for (const std::uint32_t leaf : state.bases[number].leaves)
+    if (leaf != SparseState<Pose>::kNone) visit(leaf);
 }
 
 }  // namespace

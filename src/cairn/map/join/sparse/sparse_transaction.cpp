@@ -8,6 +8,7 @@
 
 #include "core/chi_square.hpp"
 #include "core/error.hpp"
+#include "map/join/sparse/sparse_fuser.hpp"
 #include "map/join/sparse/sparse_solver.hpp"
 
 namespace cairn {
@@ -56,81 +57,95 @@ typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::try_join(const
 template <class Pose>
 typename SparseTransaction<Pose>::Number SparseTransaction<Pose>::append(const Submap<Pose>& submap,
                                                                          const std::vector<Fusing>& fusing) {
-  const auto number = static_cast<Number>(state_.leaves.size());
-  const Pose base = state_.bases.back();
-  change_->add_base(base * submap.T_base_end);
-  typename State::Leaf leaf = change_->new_leaf(std::make_shared<const SubmapData<Pose>>(submap, state_.error_points));
-  hold_errors(leaf, number);
+  const Pose base = state_.newest_base();
+  const Number from = state_.solution.newest, to = change_->add_base(base * submap.T_base_end);
+  const Number number = change_->add_leaf({from, to});
+  state_.leaves[number].data = std::make_shared<const SubmapData<Pose>>(submap, state_.error_points);
+  hold_errors(number);
   TreeChanges changes;
   std::vector<Number> reshaped;
-  EliminationTree<Pose>& tree = state_.solution.tree;
-  for (std::size_t i = 0; i < submap.ids.size(); ++i) {
-    const auto known = state_.ids.find(submap.ids[i]);
-    if (known != state_.ids.end() && fusing[i] != Fusing::fuse) {
-      ++report_.refused;
-      leaf.landmarks.push_back(State::kNone);
-      if (fusing[i] == Fusing::remove_both) change_->hide_landmark(known->second);
-      if (fusing[i] != Fusing::supersede) continue;
-      const Number landmark = change_->add_landmark(base * submap.landmarks[i]);
-      state_.landmarks[landmark].count = submap.counts[i];
-      state_.landmarks[landmark].submaps = {number};
-      change_->supersede_landmark(known->second, landmark);
-      leaf.landmarks.back() = landmark;
-      continue;
-    }
-    if (known == state_.ids.end()) {
-      const Number landmark = change_->add_landmark(base * submap.landmarks[i]);
-      state_.landmarks[landmark].count = submap.counts[i];
-      state_.landmarks[landmark].submaps = {number};
-      change_->show_landmark(landmark, submap.ids[i]);
-      leaf.landmarks.push_back(landmark);
-      ++report_.fresh;
-      continue;
-    }
-    const Number landmark = known->second;
-    change_->note_held_again(landmark, reshaped, changes);
-    change_->extend(landmark, number, submap.counts[i]);
-    leaf.landmarks.push_back(landmark);
-    ++report_.fused;
-    tree.set_degree(landmark_variable(landmark), static_cast<std::int32_t>(state_.landmarks[landmark].submaps.size()));
-  }
+  add_landmarks(submap, fusing, number, base, changes, reshaped);
   if (state_.visible.size() > state_.options.max_landmarks)
     throw Error(ErrorCode::capacity, "submap: %zu new landmarks, and the map holds %zu of max_landmarks = %zu",
                 report_.fresh, change_->old_visible(), state_.options.max_landmarks);
-  state_.shape(leaf, number);
-  state_.leaves.push_back(std::move(leaf));
-  set_scales(submap);
+  state_.shape(state_.leaves[number]);
+  set_scales(submap, *state_.leaves[number].data);
   state_.evaluate(number);
   std::sort(reshaped.begin(), reshaped.end());
   reshaped.erase(std::unique(reshaped.begin(), reshaped.end()), reshaped.end());
   for (const Number old : reshaped) {
     change_->save_leaf(old);
-    state_.shape(state_.leaves[old], old);
+    state_.shape(state_.leaves[old]);
     state_.evaluate(old);
     changes.leaves.push_back(state_.leaves[old].key);
   }
-  // A base is held by the submap that ends there and by the submap that begins there. For the newest base the latter
-  // does not exist yet; until then this base is eliminated last.
-  tree.set_degree(base_variable(number), number == 0 ? 1 : 2);
-  tree.set_degree(base_variable(number + 1), 2);
+  // The newest base counts as held by the submap that will begin there, so that it is eliminated last.
+  EliminationTree<Pose>& tree = state_.solution.tree;
+  tree.set_degree(base_variable(from), state_.bases[from].held());
+  tree.set_degree(base_variable(to), 2);
+  tree.set_last(base_variable(to));
+  state_.solution.newest = to;
+  if (state_.options.fuse && state_.error_points.count() == 0) state_.solution.recent.push_back(number);
+  state_.solution.largest = std::max(state_.solution.largest, submap.ids.size());
   for (const Number point : state_.leaves[number].errors) set_error_degree(point);
   changes.leaves.push_back(state_.leaves[number].key);
   SparseSolver<Pose>(state_, *change_).refactor(std::move(changes), report_);
   return number;
 }
 
+// `changes` and `reshaped` get what changes with landmarks that the map knows.
+template <class Pose>
+void SparseTransaction<Pose>::add_landmarks(const Submap<Pose>& submap, const std::vector<Fusing>& fusing, Number leaf,
+                                            const Pose& base, TreeChanges& changes, std::vector<Number>& reshaped) {
+  const auto add = [&](std::size_t i) {
+    const Number landmark = change_->add_landmark(base * submap.landmarks[i]);
+    state_.landmarks[landmark].count = submap.counts[i];
+    state_.landmarks[landmark].submaps = {leaf};
+    return landmark;
+  };
+  std::vector<Number>& held = state_.leaves[leaf].landmarks;
+  for (std::size_t i = 0; i < submap.ids.size(); ++i) {
+    const auto known = state_.ids.find(submap.ids[i]);
+    if (known != state_.ids.end() && fusing[i] != Fusing::fuse) {
+      ++report_.refused;
+      held.push_back(State::kNone);
+      if (fusing[i] == Fusing::remove_both) change_->hide_landmark(known->second);
+      if (fusing[i] != Fusing::supersede) continue;
+      const Number landmark = add(i);
+      change_->supersede_landmark(known->second, landmark);
+      held.back() = landmark;
+      continue;
+    }
+    if (known == state_.ids.end()) {
+      const Number landmark = add(i);
+      change_->show_landmark(landmark, submap.ids[i]);
+      held.push_back(landmark);
+      ++report_.fresh;
+      continue;
+    }
+    const Number landmark = known->second;
+    change_->note_held_again(landmark, reshaped, changes);
+    change_->extend(landmark, leaf, submap.counts[i]);
+    held.push_back(landmark);
+    ++report_.fused;
+    state_.solution.tree.set_degree(landmark_variable(landmark),
+                                    static_cast<std::int32_t>(state_.landmarks[landmark].submaps.size()));
+  }
+}
+
 // The points of systematic errors that the leaf holds, and those of the errors that walk at its end.
 template <class Pose>
-void SparseTransaction<Pose>::hold_errors(typename State::Leaf& leaf, Number number) {
+void SparseTransaction<Pose>::hold_errors(Number number) {
   const ErrorPoints<Pose>& points = state_.error_points;
   if (points.count() == 0) return;
+  typename State::Leaf& leaf = state_.leaves[number];
   const Index first = kDim * points.constant();
-  Eigen::VectorXd end = state_.error_values(state_.errors_at(number)).tail(points.size() - first);
+  Eigen::VectorXd end = state_.error_values(state_.errors_at(leaf.poses[0])).tail(points.size() - first);
   for (Index w = 0; w < leaf.data->errors.walked.size(); ++w)
     end(points.at(points.walkers()[static_cast<std::size_t>(w)]) - first) += leaf.data->errors.walked(w);
   change_->add_errors(end);
-  leaf.errors = state_.errors_at(number);
-  const std::vector<Number> at_end = state_.errors_at(number + 1);
+  leaf.errors = state_.errors_at(leaf.poses[0]);
+  const std::vector<Number> at_end = state_.errors_at(leaf.poses[1]);
   leaf.errors.insert(leaf.errors.end(), at_end.begin() + points.constant(), at_end.end());
   for (std::size_t i = 0; i < leaf.errors.size(); ++i) change_->extend(leaf.errors[i], number, 0);
 }
@@ -151,7 +166,7 @@ void SparseTransaction<Pose>::set_error_degree(Number point) {
 }
 
 template <class Pose>
-void SparseTransaction<Pose>::set_scales(const Submap<Pose>& submap) {
+void SparseTransaction<Pose>::set_scales(const Submap<Pose>& submap, const SubmapData<Pose>& data) {
   std::vector<double> sigmas;
   double extent = 1.0;
   for (Index i = 0; i < submap.size(); ++i) {
@@ -167,7 +182,7 @@ void SparseTransaction<Pose>::set_scales(const Submap<Pose>& submap) {
   solution.length_scale = std::min(solution.length_scale, *median);
   solution.turn_scale = std::min(solution.turn_scale, *median / extent);
   // The motion of a systematic error that moves a landmark or the end by the typical standard deviation.
-  const Eigen::MatrixXd& K = state_.leaves.back().data->errors.K;
+  const Eigen::MatrixXd& K = data.errors.K;
   double reach = 0.0;
   for (Index row = 0; K.cols() > 0 && row < kDof + kDim * submap.size(); row += row == 0 ? kDof : kDim)
     reach = std::max(reach, K.middleRows<kDim>(row).norm());
@@ -179,7 +194,7 @@ FixReport SparseTransaction<Pose>::fix(const AbsoluteFix<Pose>& fix, double thre
   if (solved_) state_.refresh_base_covariance();  // the fix is tested against the base after the join
   FixReport report;
   const int rows = fix.rows();
-  const Pose T = state_.bases.back();
+  const Pose T = state_.newest_base();
   if (!fix.defined(T)) return report;
   const Eigen::MatrixXd J = fix.jacobian(T).topRows(rows);
   const Eigen::VectorXd r = fix.residual(T).head(rows);
@@ -188,16 +203,16 @@ FixReport SparseTransaction<Pose>::fix(const AbsoluteFix<Pose>& fix, double thre
   report.distance = r.dot(S.ldlt().solve(r));
   report.accepted = report.distance <= threshold;
   if (!report.accepted) return report;
-  if (state_.leaves.empty()) {
+  const Number leaf = state_.bases[state_.solution.newest].leaves[0];
+  if (leaf == State::kNone) {
     fix_prior(r, J, S, fix.covariance().topLeftCorner(rows, rows));
     report.iterations = 1;
     return report;
   }
   solved_ = true;
   JoinReport joined;
-  const auto leaf = static_cast<Number>(state_.leaves.size() - 1);
   change_->save_leaf(leaf);
-  state_.solution.anchors.add(leaf + 1, fix);
+  state_.solution.anchors.add(leaf, fix);
   state_.evaluate(leaf);
   TreeChanges changes;
   changes.leaves.push_back(state_.leaves[leaf].key);
@@ -221,17 +236,24 @@ void SparseTransaction<Pose>::fix_prior(const Eigen::VectorXd& r, const Eigen::M
   const Eigen::MatrixXd K = S.ldlt().solve(PJ.transpose()).transpose();
   const Square A = Square::Identity() - K * J;
   const Square lower = A * P * A.transpose() + K * R * K.transpose();
-  state_.bases[0] = retract(state_.bases[0], e);
+  Pose& base = state_.bases[0].pose;
+  base = retract(base, e);
   P = lower.template selfadjointView<Eigen::Lower>();
-  state_.solution.anchors.set_prior(state_.bases[0], P);
+  state_.solution.anchors.set_prior(base, P);
 }
 
+// Submaps are fused in a change of their own. What the map knows does not depend on it: where it is impossible, the
+// submaps stay as they are.
 template <class Pose>
 JoinReport SparseTransaction<Pose>::commit() {
-  if (solved_)
-    change_->finish(report_);
-  else
-    change_->keep();
+  if (solved_) change_->prepare(report_);
+  try {
+    if (solved_) SparseFuser<Pose>(state_, index_).run();
+  } catch (const Error&) {
+    state_.solution.recent.clear();
+    state_.solution.grown.clear();
+  }
+  change_->keep();
   return report_;
 }
 

@@ -28,9 +28,11 @@ class SparseTransaction final : public MapTransaction<Pose> {
 
   Number try_join(const Submap<Pose>& submap, const std::vector<Fusing>& fusing);
   Number append(const Submap<Pose>& submap, const std::vector<Fusing>& fusing);
-  void hold_errors(typename State::Leaf& leaf, Number number);
+  void add_landmarks(const Submap<Pose>& submap, const std::vector<Fusing>& fusing, Number leaf, const Pose& base,
+                     TreeChanges& changes, std::vector<Number>& reshaped);
+  void hold_errors(Number leaf);
   void set_error_degree(Number point);
-  void set_scales(const Submap<Pose>& submap);
+  void set_scales(const Submap<Pose>& submap, const SubmapData<Pose>& data);
   void fix_prior(const Eigen::VectorXd& r, const Eigen::MatrixXd& J, const Eigen::MatrixXd& S,
                  const Eigen::MatrixXd& R);
 

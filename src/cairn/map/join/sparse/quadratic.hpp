@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cost of a factor, taken as quadratic about some values of its variables.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "linear/small_algebra.hpp"
+
+namespace cairn {
+
+// constant + gradient^T e + e^T information e / 2, for errors e of the values.
+struct Quadratic {
+  Eigen::MatrixXd information;  // symmetric, both triangles
+  Eigen::VectorXd gradient;
+  double constant = 0.0;
+};
+
+// From the Hessian's lower triangle and a gradient whose errors are in map axes to errors in these axes, in which the
+// Hessian already is. The first `poses` errors are those of poses, the others of points.
+template <class Pose>
+Quadratic in_axes(Eigen::MatrixXd hessian, Eigen::VectorXd gradient, double cost, Index poses,
+                  const typename Pose::Rotation& axes);
+
+// The cost of these errors only, in this order; all others are zero.
+Quadratic part_of(const Quadratic& cost, const std::vector<Index>& errors);
+
+// The cost of the other errors if the first ones always are where it is least (docs/submaps.md, eq. F2).
+Quadratic without(const Quadratic& cost, Index first);
+
+}  // namespace cairn
