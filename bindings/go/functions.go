@@ -1160,7 +1160,8 @@ func (f *Filter) SubmapCount() (count int, err error) {
 }
 
 // Submap: a closed submap, counted from 0: the pose of its origin in the map as known now (dense: as known at its
-// closing), and the ids of its landmarks in the order in which they were placed.
+// closing), and the ids of its landmarks in the order in which they were placed. Of a submap that a sparse map has
+// fused with others of its place they are the ids of this place.
 //
 // Errors: ErrArgument, ErrNotFound, ErrBuffer.
 //

@@ -447,8 +447,8 @@ CAIRN_API cairn_status cairn_filter_submap_count(const cairn_filter *filter, CAI
                                                  cairn_error *error);
 
 /** A closed submap, counted from 0: the pose of its origin in the map as known now (dense: as known at its closing),
- *  and the ids of its landmarks in the order in which they were placed. `base` may be NULL. Capacity 0 asks
- *  for the number of ids.
+ *  and the ids of its landmarks in the order in which they were placed. Of a submap that a sparse map has fused with
+ *  others of its place they are the ids of this place. `base` may be NULL. Capacity 0 asks for the number of ids.
  *  Threads: as any const query of the handle. Errors: CAIRN_ERROR_ARGUMENT, CAIRN_ERROR_NOT_FOUND,
  *  CAIRN_ERROR_BUFFER. Complexity: O(landmarks of the submap). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_submap(const cairn_filter *filter, size_t index,

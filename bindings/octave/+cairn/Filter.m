@@ -380,7 +380,8 @@ classdef Filter < cairn.internal.Handle
     function [base, ids] = submap(self, index)
       % [base, ids] = filter.submap(index)
       % A closed submap, counted from 0: the pose of its origin in the map as known now (dense: as known at its
-      % closing), and the ids of its landmarks in the order in which they were placed.
+      % closing), and the ids of its landmarks in the order in which they were placed. Of a submap that a sparse map has
+      % fused with others of its place they are the ids of this place.
       %
       %   index: integer
       %   base: struct: position, quaternion

@@ -1980,8 +1980,9 @@ extern "C" {
         error: *mut cairn_error
     ) -> cairn_status;
     /// A closed submap, counted from 0: the pose of its origin in the map as known now (dense: as known at its
-    /// closing), and the ids of its landmarks in the order in which they were placed. `base` may be NULL. Capacity 0
-    /// asks for the number of ids.
+    /// closing), and the ids of its landmarks in the order in which they were placed. Of a submap that a sparse map has
+    /// fused with others of its place they are the ids of this place. `base` may be NULL. Capacity 0 asks for the
+    /// number of ids.
     pub fn cairn_filter_submap(
         filter: *const cairn_filter,
         index: usize,

@@ -419,7 +419,8 @@ class Filter : public detail::Owner<detail::FilterKind> {
 
   //~ cairn_filter_submap
   /// A closed submap, counted from 0: the pose of its origin in the map as known now (dense: as known at its closing),
-  /// and the ids of its landmarks in the order in which they were placed.
+  /// and the ids of its landmarks in the order in which they were placed. Of a submap that a sparse map has fused with
+  /// others of its place they are the ids of this place.
   ///
   /// Throws Error: Status::kErrorArgument; Status::kErrorNotFound; Status::kErrorBuffer.
   ///
