@@ -25,8 +25,8 @@ else()
   set(CAIRN_NO_MATH_ERRNO -fno-math-errno)    # sqrt becomes one instruction
   set(CAIRN_NO_CONTRACTION -ffp-contract=off) # no fused multiply-add: the same bits on all machines
 endif()
-# GCC's vectors wider than the target's registers are never part of an ABI here.
-add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-psabi>)
+# Vectors wider than the registers of the target are never part of an ABI here.
+add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-Wno-psabi>)
 if(CAIRN_DEVELOPER)
   if(MSVC)
     add_compile_options(/WX)

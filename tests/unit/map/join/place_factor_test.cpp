@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "map/join/sparse/submap_factor.hpp"
@@ -165,7 +165,7 @@ TEST_CASE_TEMPLATE("place factor: the cost of one submap is that of the submap",
     std::vector<Index> own;
     for (Index i = kDof; i < factor.columns(); ++i) own.push_back(i);
     const PlaceValues<Pose> there{base, {values.end}, values.shared};
-    const PlaceFactor<Pose> place(there, submap.ids, part_of(whole, own));
+    const PlaceFactor<Pose> place(there, submap.ids, without(whole, {}, own));
     const auto after = place.evaluate(there);
     CHECK(after.cost == doctest::Approx(before.cost).epsilon(1e-12));
     CHECK(difference(after.gradient, before.gradient) <= 1e-9);
@@ -175,30 +175,57 @@ TEST_CASE_TEMPLATE("place factor: the cost of one submap is that of the submap",
 
 TEST_CASE("quadratic cost: without some errors it is the least over them") {
   Random random(22);
-  for (const Index first : {Index{0}, Index{1}, Index{5}}) {
+  for (const std::vector<Index>& gone : {std::vector<Index>{}, {3}, {7, 0, 4}}) {
     const Index n = 9;
+    std::vector<Index> kept;
+    for (Index i = n; i-- > 0;)
+      if (std::find(gone.begin(), gone.end(), i) == gone.end()) kept.push_back(i);
     Matrix root(n, n);
     for (Index i = 0; i < root.size(); ++i) root.data()[i] = random.normal();
     Quadratic cost{root * root.transpose(), Vector(n), 2.0};
-    for (Index i = 0; i < n; ++i) cost.gradient(i) = random.normal();
-    const Quadratic rest = without(cost, first);
     Vector e(n);
-    for (Index i = 0; i < n; ++i) e(i) = random.normal();
-    const Matrix own = cost.information.topLeftCorner(first, first);
-    if (first > 0)
-      e.head(first) = -own.ldlt().solve(
-          Vector(cost.gradient.head(first) + cost.information.topRightCorner(first, n - first) * e.tail(n - first)));
+    for (Index i = 0; i < n; ++i) cost.gradient(i) = random.normal(), e(i) = random.normal();
+    const auto m = static_cast<Index>(gone.size());
+    Matrix own(m, m);
+    Vector force(m);
+    for (Index i = 0; i < m; ++i) {
+      const Index at = gone[static_cast<std::size_t>(i)];
+      force(i) = cost.gradient(at);
+      for (const Index k : kept) force(i) += cost.information(at, k) * e(k);
+      for (Index k = 0; k < m; ++k) own(i, k) = cost.information(at, gone[static_cast<std::size_t>(k)]);
+    }
+    const Vector least = -own.ldlt().solve(force);
+    for (Index i = 0; i < m; ++i) e(gone[static_cast<std::size_t>(i)]) = least(i);
+    Vector rest(static_cast<Index>(kept.size()));
+    for (std::size_t i = 0; i < kept.size(); ++i) rest(static_cast<Index>(i)) = e(kept[i]);
     const auto value = [](const Quadratic& q, const Vector& x) {
       return q.constant + q.gradient.dot(x) + 0.5 * x.dot(q.information * x);
     };
-    CHECK(value(rest, e.tail(n - first)) == doctest::Approx(value(cost, e)).epsilon(1e-9));
+    CHECK(value(without(cost, gone, kept), rest) == doctest::Approx(value(cost, e)).epsilon(1e-9));
   }
   // A direction without information stays without.
   Quadratic flat{Matrix::Zero(3, 3), Vector::Zero(3), 1.0};
   flat.information(2, 2) = 4.0;
   flat.information(0, 0) = 1.0;
   flat.information(2, 0) = flat.information(0, 2) = 1.0;
-  const Quadratic rest = without(flat, 2);
+  const Quadratic rest = without(flat, {0, 1}, {2});
   CHECK(rest.information(0, 0) == doctest::Approx(3.0));
   CHECK(rest.gradient(0) == 0.0);
+}
+
+TEST_CASE("quadratic cost: a part is added to other errors of a sum") {
+  Random random(23);
+  Quadratic cost{Matrix::Zero(4, 4), Vector::Zero(4), 2.0}, sum{Matrix::Identity(5, 5), Vector::Ones(5), 1.0};
+  for (Index i = 0; i < 4; ++i)
+    for (Index k = 0; k <= i; ++k) cost.information(i, k) = cost.information(k, i) = random.normal();
+  for (Index i = 0; i < 4; ++i) cost.gradient(i) = random.normal();
+  add_part(cost, {1, 3}, {4, 0}, sum);
+  CHECK(sum.constant == 3.0);
+  CHECK(sum.gradient(4) == 1.0 + cost.gradient(1));
+  CHECK(sum.gradient(0) == 1.0 + cost.gradient(3));
+  CHECK(sum.gradient(1) == 1.0);
+  CHECK(sum.information(4, 0) == cost.information(1, 3));
+  CHECK(sum.information(0, 4) == cost.information(3, 1));
+  CHECK(sum.information(4, 4) == 1.0 + cost.information(1, 1));
+  CHECK(sum.information(2, 0) == 0.0);
 }

@@ -118,7 +118,7 @@ TEST_CASE_TEMPLATE("sparse fuser: it knows no more than the whole problem, and h
     CHECK(ratio.eigenvalues()(0) >= 0.999);
     const double lost = ratio.eigenvalues().array().log().mean();
     CAPTURE(lost);
-    CHECK(lost <= 0.05);  // what the places had in common before they became one
+    CHECK(lost <= 0.1);  // what the places had in common before they became one
   }
 }
 

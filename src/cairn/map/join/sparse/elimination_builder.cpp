@@ -84,12 +84,29 @@ void EliminationBuilder<Pose>::assemble(const TreeFront& child, const TreeFront&
     from = leaf_.data();
     ld_from = child.b;
   }
+  // Rows that lie next to each other in both matrices are added together.
+  struct Run {
+    Index from, to, end;
+  };
+  std::vector<Run> runs;
+  for (Index r = 0; r < child.b; ++r) {
+    if (runs.empty() || map[r] != runs.back().to + (r - runs.back().from)) runs.push_back({r, map[r], r});
+    runs.back().end = r + 1;
+  }
   for (Index c = 0; c < child.b; ++c) {
     const double* column = ld_from != 0 ? from + c * ld_from : from - c;
     const Index to = map[c];
-    for (Index r = c; r < child.b; ++r) {
-      const Index row = map[r];
-      matrix_[row >= to ? to * n + row : row * n + to] += column[r];
+    for (const Run& run : runs) {
+      const Index first = std::max(run.from, c);
+      if (first >= run.end) continue;
+      const Index row = run.to + first - run.from;
+      if (row >= to) {
+        double* target = matrix_.data() + to * n + row;
+        for (Index r = first; r < run.end; ++r) target[r - first] += column[r];
+      } else {
+        double* target = matrix_.data() + row * n + to;
+        for (Index r = first; r < run.end; ++r) target[(r - first) * n] += column[r];
+      }
     }
     if (ld_from == 0) from += child.b - c;
   }

@@ -22,10 +22,11 @@ template <class Pose>
 Quadratic in_axes(Eigen::MatrixXd hessian, Eigen::VectorXd gradient, double cost, Index poses,
                   const typename Pose::Rotation& axes);
 
-// The cost of these errors only, in this order; all others are zero.
-Quadratic part_of(const Quadratic& cost, const std::vector<Index>& errors);
+// Adds the cost of some of its errors, `from`, to errors `to` of the sum; all others are zero.
+void add_part(const Quadratic& cost, const std::vector<Index>& from, const std::vector<Index>& to, Quadratic& sum);
 
-// The cost of the other errors if the first ones always are where it is least (docs/submaps.md, eq. F2).
-Quadratic without(const Quadratic& cost, Index first);
+// The cost of the errors `kept`, in this order, if those that are `gone` always are where it is least (docs/submaps.md,
+// eq. F2).
+Quadratic without(const Quadratic& cost, const std::vector<Index>& gone, const std::vector<Index>& kept);
 
 }  // namespace cairn

@@ -110,7 +110,7 @@ typename SparseChange<Pose>::Number SparseChange<Pose>::add_leaf(std::vector<Num
   const Number number = free.empty() ? static_cast<Number>(state_.leaves.size()) : free.back();
   for (const Number base : poses) {
     save_base(base);
-    state_.bases[base].replace(State::kNone, number);
+    state_.bases[base].add(number);
   }
   typename State::Leaf leaf;
   leaf.key = state_.key_of(number, poses[0]);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 
 namespace cairn {
@@ -22,21 +23,18 @@ void erase(std::vector<T>& list, const T& value) {
 
 template <class Pose>
 void SparseFuser<Pose>::run() {
-  typename State::Solution& solution = state_.solution;
-  if (solution.recent.size() < kNewest + kTogether) return;
+  if (state_.solution.recent.size() < kNewest + kTogether) return;
   SparseChange<Pose> change(state_, index_);
   SparseSolver<Pose> solver(state_, change);
-  const std::vector<Pair> pairs = plan();
-  if (pairs.empty()) return change.keep();
+  const std::vector<Group> groups = plan();
+  if (groups.empty()) return change.keep();
   TreeChanges paths, changes;
-  for (const Pair& pair : pairs)
-    for (const Number leaf : {pair.older, pair.younger}) paths.leaves.push_back(state_.leaves[leaf].key);
+  for (const Group& group : groups) {
+    paths.leaves.push_back(state_.leaves[group.oldest].key);
+    for (const Number leaf : group.others) paths.leaves.push_back(state_.leaves[leaf].key);
+  }
   solver.settle(paths);
-  for (const Pair& pair : pairs)
-    if (fits(pair))  // the older one may have grown in between
-      fuse(change, pair, changes);
-    else
-      solution.grown.push_back(pair.younger);
+  for (const Group& group : groups) fuse(change, group, changes);
   const auto left = [&](const TreeKey& key) { return !state_.leaves[key.leaf].used(); };
   changes.leaves.erase(std::remove_if(changes.leaves.begin(), changes.leaves.end(), left), changes.leaves.end());
   JoinReport report;
@@ -46,31 +44,36 @@ void SparseFuser<Pose>::run() {
   change.keep();
 }
 
-// Of the submaps that are old enough, and of the places that have grown. A leaf either leaves or grows.
+// Of the submaps that are old enough, and of the places that have grown. A leaf either leaves or grows; what cannot be
+// done now is looked at again the next time.
 template <class Pose>
-std::vector<typename SparseFuser<Pose>::Pair> SparseFuser<Pose>::plan() {
+std::vector<typename SparseFuser<Pose>::Group> SparseFuser<Pose>::plan() {
   typename State::Solution& solution = state_.solution;
   Numbers candidates;
   candidates.swap(solution.grown);
   candidates.insert(candidates.end(), solution.recent.begin(), solution.recent.end() - kNewest);
   solution.recent.erase(solution.recent.begin(), solution.recent.end() - kNewest);
-  std::vector<Pair> pairs;
-  Numbers leaving, growing;
+  std::vector<Group> groups;
+  Numbers leaving;
   for (const Number leaf : candidates) {
     if (!fusible(leaf) || contains(leaving, leaf)) continue;
     const Number partner = partner_of(leaf, leaving);
     if (partner == State::kNone) continue;
     const bool older = state_.leaves[leaf].submap < state_.leaves[partner].submap;
-    const Pair pair = older ? Pair{leaf, partner} : Pair{partner, leaf};
-    if (contains(growing, pair.younger)) {
+    const Number stays = older ? leaf : partner, leaves = older ? partner : leaf;
+    const auto group_of = [&](Number oldest) {
+      return std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.oldest == oldest; });
+    };
+    auto group = group_of(stays);
+    if (group_of(leaves) != groups.end() || (group != groups.end() && !has_room(*group, leaves))) {
       solution.grown.push_back(leaf);
       continue;
     }
-    pairs.push_back(pair);
-    leaving.push_back(pair.younger);
-    growing.push_back(pair.older);
+    if (group == groups.end()) group = groups.insert(groups.end(), {stays, {}});
+    group->others.push_back(leaves);
+    leaving.push_back(leaves);
   }
-  return pairs;
+  return groups;
 }
 
 template <class Pose>
@@ -88,21 +91,43 @@ typename SparseFuser<Pose>::Number SparseFuser<Pose>::partner_of(Number leaf, co
         ++common[other];
   Number best = State::kNone;
   for (const auto& [other, count] : common)
-    if (fits({leaf, other}) && (best == State::kNone || count > common[best])) best = other;
+    if (of_one_place(leaf, other) && has_room({leaf, {}}, other) && (best == State::kNone || count > common[best]))
+      best = other;
   return best;
 }
 
-// Whether two leaves are of one place, and not too large together. A submap belongs to a place if they have half of the
-// smaller one's landmarks in common; two places have been visited again and again, and need only touch.
 template <class Pose>
-bool SparseFuser<Pose>::fits(const Pair& pair) const {
-  const Leaf &a = state_.leaves[pair.older], &b = state_.leaves[pair.younger];
-  const std::size_t in_a = held(a).size(), in_b = held(b).size();
+std::size_t SparseFuser<Pose>::common_landmarks(Number a, Number b) const {
   std::size_t common = 0;
-  for (const Index i : held(b)) common += contains(state_.landmarks[b.landmarks[i]].submaps, pair.older) ? 1 : 0;
-  const bool places = a.place != nullptr && b.place != nullptr;
-  return common > 0 && (places || 2 * common >= std::min(in_a, in_b)) &&
-         in_a + in_b - common <= std::max(kFew, kLargest * state_.solution.largest);
+  for (const Index i : held(state_.leaves[b]))
+    common += contains(state_.landmarks[state_.leaves[b].landmarks[i]].submaps, a) ? 1 : 0;
+  return common;
+}
+
+// A submap belongs to a place if they have half of the smaller one's landmarks in common. Two places have been visited
+// again and again, and need only touch.
+template <class Pose>
+bool SparseFuser<Pose>::of_one_place(Number a, Number b) const {
+  const std::size_t common = common_landmarks(a, b);
+  if (state_.leaves[a].place != nullptr && state_.leaves[b].place != nullptr) return common > 0;
+  return common > 0 && 2 * common >= std::min(held(state_.leaves[a]).size(), held(state_.leaves[b]).size());
+}
+
+// Whether all of them together are not too large.
+template <class Pose>
+bool SparseFuser<Pose>::has_room(const Group& group, Number another) const {
+  std::size_t together = held(state_.leaves[group.oldest]).size();
+  Numbers all = group.others;
+  all.push_back(another);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (const Index i : held(state_.leaves[all[k]])) {
+      const Numbers& holders = state_.landmarks[state_.leaves[all[k]].landmarks[i]].submaps;
+      const bool before =
+          contains(holders, group.oldest) || std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k),
+                                                         [&](Number leaf) { return contains(holders, leaf); });
+      together += before ? 0 : 1;
+    }
+  return together <= std::max(kFew, kLargest * state_.solution.largest);
 }
 
 // Whether the leaf knows its place without the poses that it has in common with others: most of its landmarks are
@@ -126,56 +151,59 @@ typename SparseFuser<Pose>::Errors SparseFuser<Pose>::held(const Leaf& leaf) con
 }
 
 template <class Pose>
-typename SparseFuser<Pose>::Union SparseFuser<Pose>::unite(const Pair& pair) const {
-  Union both;
-  const Leaf &older = state_.leaves[pair.older], &younger = state_.leaves[pair.younger];
-  for (const Leaf* leaf : {&older, &younger}) {
-    for (const Number pose : leaf->poses)
-      if (pose != older.base() && !contains(both.poses, pose)) both.poses.push_back(pose);
-    for (const Index i : held(*leaf)) {
-      const Number landmark = leaf->landmarks[i];
-      const bool known = leaf == &younger && contains(state_.landmarks[landmark].submaps, pair.older);
-      if (!known) both.landmarks.push_back(landmark);
+typename SparseFuser<Pose>::Union SparseFuser<Pose>::unite(const Group& group) const {
+  Union all;
+  const Number own = state_.leaves[group.oldest].base();
+  Numbers leaves = group.others;
+  leaves.insert(leaves.begin(), group.oldest);
+  for (std::size_t k = 0; k < leaves.size(); ++k) {
+    const Leaf& leaf = state_.leaves[leaves[k]];
+    for (const Number pose : leaf.poses)
+      if (pose != own && !contains(all.poses, pose)) all.poses.push_back(pose);
+    for (const Index i : held(leaf)) {
+      const Numbers& holders = state_.landmarks[leaf.landmarks[i]].submaps;
+      const bool before = std::any_of(leaves.begin(), leaves.begin() + static_cast<std::ptrdiff_t>(k),
+                                      [&](Number earlier) { return contains(holders, earlier); });
+      if (!before) all.landmarks.push_back(leaf.landmarks[i]);
     }
   }
-  const auto elsewhere = [&](Number leaf) {
-    return leaf != State::kNone && leaf != pair.older && leaf != pair.younger;
-  };
+  const auto elsewhere = [&](Number leaf) { return leaf != State::kNone && !group.contains(leaf); };
   const auto sort = [&](bool keep, Index first, int size) {
-    for (int d = 0; d < size; ++d) (keep ? both.kept : both.gone).push_back(first + d);
+    for (int d = 0; d < size; ++d) (keep ? all.kept : all.gone).push_back(first + d);
   };
   Numbers held_elsewhere;
-  for (const Number pose : both.poses) {
-    const Number* leaves = state_.bases[pose].leaves;
-    if (pose == state_.solution.newest || elsewhere(leaves[0]) || elsewhere(leaves[1])) held_elsewhere.push_back(pose);
+  for (const Number pose : all.poses) {
+    const Number* holders = state_.bases[pose].leaves;
+    if (pose == state_.solution.newest || elsewhere(holders[0]) || elsewhere(holders[1]))
+      held_elsewhere.push_back(pose);
   }
-  const Numbers cut = poses_to_cut(pair, held_elsewhere);
-  for (std::size_t i = 0; i < both.poses.size(); ++i) {
-    const bool keep = contains(held_elsewhere, both.poses[i]) && !contains(cut, both.poses[i]);
-    if (keep) both.kept_poses.push_back(both.poses[i]);
-    sort(keep, both.error_of_pose(i), kDof);
+  const Numbers cut = poses_to_cut(group, held_elsewhere);
+  for (std::size_t i = 0; i < all.poses.size(); ++i) {
+    const bool keep = contains(held_elsewhere, all.poses[i]) && !contains(cut, all.poses[i]);
+    if (keep) all.kept_poses.push_back(all.poses[i]);
+    sort(keep, all.error_of_pose(i), kDof);
   }
-  for (std::size_t i = 0; i < both.landmarks.size(); ++i) {
-    const typename State::Landmark& landmark = state_.landmarks[both.landmarks[i]];
+  for (std::size_t i = 0; i < all.landmarks.size(); ++i) {
+    const typename State::Landmark& landmark = state_.landmarks[all.landmarks[i]];
     const bool keep =
         landmark.slot != State::kNone || std::any_of(landmark.submaps.begin(), landmark.submaps.end(), elsewhere);
-    if (keep) both.kept_landmarks.push_back(both.landmarks[i]);
-    sort(keep, both.error_of_landmark(i), kDim);
+    if (keep) all.kept_landmarks.push_back(all.landmarks[i]);
+    sort(keep, all.error_of_landmark(i), kDim);
   }
-  return both;
+  return all;
 }
 
 // The oldest of these poses, until few enough are left; not those that another leaf needs.
 template <class Pose>
-typename SparseFuser<Pose>::Numbers SparseFuser<Pose>::poses_to_cut(const Pair& pair, const Numbers& poses) const {
+typename SparseFuser<Pose>::Numbers SparseFuser<Pose>::poses_to_cut(const Group& group, const Numbers& poses) const {
   Numbers cut;
   for (const Number pose : poses) {
     if (poses.size() - cut.size() <= kPoses) break;
     const auto needs = [&](Number leaf) {
-      return leaf != State::kNone && leaf != pair.older && leaf != pair.younger && !stands_by_itself(leaf);
+      return leaf != State::kNone && !group.contains(leaf) && !stands_by_itself(leaf);
     };
-    const Number* leaves = state_.bases[pose].leaves;
-    if (pose != state_.solution.newest && !needs(leaves[0]) && !needs(leaves[1])) cut.push_back(pose);
+    const Number* holders = state_.bases[pose].leaves;
+    if (pose != state_.solution.newest && !needs(holders[0]) && !needs(holders[1])) cut.push_back(pose);
   }
   return cut;
 }
@@ -196,47 +224,43 @@ Quadratic SparseFuser<Pose>::cost_of(const Leaf& leaf, const typename Pose::Rota
   return about(factor, state_.values(leaf, factor), all.size());
 }
 
-// An error in the axes of the older leaf's base, while this base stays, is an error in its frame. A leaf's cost does
+// An error in the axes of the oldest leaf's base, while this base stays, is an error in its frame. A leaf's cost does
 // not change if all of its variables move together, so that the base may stay for every leaf (docs/submaps.md, eq. F1).
 template <class Pose>
-void SparseFuser<Pose>::add_cost(const Leaf& leaf, const Leaf& older, const Union& both, Quadratic& sum) const {
-  std::map<Number, Index> of_pose, of_landmark;  // errors of the union
-  for (std::size_t i = 0; i < both.poses.size(); ++i) of_pose[both.poses[i]] = both.error_of_pose(i);
-  for (std::size_t i = 0; i < both.landmarks.size(); ++i) of_landmark[both.landmarks[i]] = both.error_of_landmark(i);
-  Errors own, all;
+void SparseFuser<Pose>::add_cost(const Leaf& leaf, const Leaf& oldest, const Union& all, Quadratic& sum) const {
+  std::unordered_map<Number, Index> of_pose, of_landmark;  // errors of the union
+  for (std::size_t i = 0; i < all.poses.size(); ++i) of_pose[all.poses[i]] = all.error_of_pose(i);
+  for (std::size_t i = 0; i < all.landmarks.size(); ++i) of_landmark[all.landmarks[i]] = all.error_of_landmark(i);
+  Errors from, to;
   Index next = 0;
   const auto add = [&](Index first, int size) {
-    for (int d = 0; d < size; ++d) own.push_back(next + d), all.push_back(first + d);
+    for (int d = 0; d < size; ++d) from.push_back(next + d), to.push_back(first + d);
   };
   for (const Number pose : leaf.poses) {
-    if (pose != older.base()) add(of_pose.at(pose), kDof);
+    if (pose != oldest.base()) add(of_pose.at(pose), kDof);
     next += kDof;
   }
   for (const Index i : held(leaf)) {
     add(of_landmark.at(leaf.landmarks[i]), kDim);
     next += kDim;
   }
-  const Quadratic part = part_of(cost_of(leaf, state_.bases[older.base()].pose.rotation()), own);
-  sum.information(all, all) += part.information;
-  for (std::size_t i = 0; i < all.size(); ++i) sum.gradient(all[i]) += part.gradient(static_cast<Index>(i));
-  sum.constant += part.constant;
+  add_part(cost_of(leaf, state_.bases[oldest.base()].pose.rotation()), from, to, sum);
 }
 
 template <class Pose>
-void SparseFuser<Pose>::fuse(SparseChange<Pose>& change, const Pair& pair, TreeChanges& changes) {
-  const Union both = unite(pair);
-  Leaf& leaf = state_.leaves[pair.older];
-  const Index n = both.error_of_landmark(both.landmarks.size());
+void SparseFuser<Pose>::fuse(SparseChange<Pose>& change, const Group& group, TreeChanges& changes) {
+  const Union all = unite(group);
+  Leaf& leaf = state_.leaves[group.oldest];
+  const Index n = all.error_of_landmark(all.landmarks.size());
   Quadratic sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), 0.0};
-  for (const Number part : {pair.older, pair.younger}) add_cost(state_.leaves[part], leaf, both, sum);
-  Errors order = both.gone;
-  order.insert(order.end(), both.kept.begin(), both.kept.end());
-  const Quadratic cost = without(part_of(sum, order), static_cast<Index>(both.gone.size()));
+  add_cost(leaf, leaf, all, sum);
+  for (const Number other : group.others) add_cost(state_.leaves[other], leaf, all, sum);
+  const Quadratic cost = without(sum, all.gone, all.kept);
 
-  change.save_leaf(pair.older);
+  change.save_leaf(group.oldest);
   leaf.poses.resize(1);
-  leaf.poses.insert(leaf.poses.end(), both.kept_poses.begin(), both.kept_poses.end());
-  leaf.landmarks = both.kept_landmarks;
+  leaf.poses.insert(leaf.poses.end(), all.kept_poses.begin(), all.kept_poses.end());
+  leaf.landmarks = all.kept_landmarks;
   leaf.data = nullptr;
   leaf.factor = nullptr;
   std::vector<std::uint64_t> ids;
@@ -244,32 +268,34 @@ void SparseFuser<Pose>::fuse(SparseChange<Pose>& change, const Pair& pair, TreeC
   leaf.place = std::make_shared<const PlaceFactor<Pose>>(state_.place_values(leaf), std::move(ids), cost);
 
   changes.leaves.push_back(leaf.key);
-  changes.removed.push_back(state_.leaves[pair.younger].key);
-  hand_over_poses(change, pair, both);
-  hand_over_landmarks(change, pair, both, changes);
-  hand_over_submaps(change, pair);
+  hand_over_poses(change, group, all);
+  hand_over_landmarks(change, group, all, changes);
   typename State::Solution& solution = state_.solution;
-  for (Numbers* list : {&solution.pending, &solution.stale, &solution.grown}) erase(*list, pair.younger);
-  solution.pending.push_back(pair.older);
-  solution.grown.push_back(pair.older);
-  change.remove_leaf(pair.younger);
+  for (const Number other : group.others) {
+    hand_over_submaps(change, other, group.oldest);
+    changes.removed.push_back(state_.leaves[other].key);
+    for (Numbers* list : {&solution.pending, &solution.stale, &solution.grown}) erase(*list, other);
+    change.remove_leaf(other);
+  }
+  solution.pending.push_back(group.oldest);
+  solution.grown.push_back(group.oldest);
   state_.shape(leaf);
-  state_.evaluate(pair.older);
+  state_.evaluate(group.oldest);
 }
 
 // A pose that was cut stays with the other leaf that holds it.
 template <class Pose>
-void SparseFuser<Pose>::hand_over_poses(SparseChange<Pose>& change, const Pair& pair, const Union& both) {
+void SparseFuser<Pose>::hand_over_poses(SparseChange<Pose>& change, const Group& group, const Union& all) {
   typename State::Solution& solution = state_.solution;
-  const Number own = state_.leaves[pair.older].base();
-  Numbers poses = both.poses;
+  const Number own = state_.leaves[group.oldest].base();
+  Numbers poses = all.poses;
   poses.push_back(own);
   for (const Number number : poses) {
     change.save_base(number);
     typename State::Base& base = state_.bases[number];
-    for (const Number leaf : {pair.older, pair.younger})
-      if (base.held_by(leaf)) base.replace(leaf, State::kNone);
-    if (number == own || contains(both.kept_poses, number)) base.replace(State::kNone, pair.older);
+    for (Number& leaf : base.leaves)
+      if (group.contains(leaf)) leaf = State::kNone;
+    if (number == own || contains(all.kept_poses, number)) base.add(group.oldest);
     if (base.held() == 0 && number != solution.newest) {
       change.free_base(number);
       solution.tree.forget(base_variable(number));
@@ -282,23 +308,25 @@ void SparseFuser<Pose>::hand_over_poses(SparseChange<Pose>& change, const Pair& 
 }
 
 template <class Pose>
-void SparseFuser<Pose>::hand_over_landmarks(SparseChange<Pose>& change, const Pair& pair, const Union& both,
+void SparseFuser<Pose>::hand_over_landmarks(SparseChange<Pose>& change, const Group& group, const Union& all,
                                             TreeChanges& changes) {
   EliminationTree<Pose>& tree = state_.solution.tree;
-  for (const Number number : both.landmarks) {
+  std::size_t kept = 0;
+  for (const Number number : all.landmarks) {
     typename State::Landmark& landmark = state_.landmarks[number];
-    if (!contains(both.kept_landmarks, number)) {
+    if (kept == all.kept_landmarks.size() || all.kept_landmarks[kept] != number) {
       change.free_landmark(number);
       tree.forget(landmark_variable(number));
       continue;
     }
-    if (contains(landmark.submaps, pair.younger)) {
+    ++kept;
+    const Number first = landmark.submaps[0];
+    if (landmark.submaps.size() > 1 || first != group.oldest) {
       change.save_holders(number);
-      const bool first = landmark.submaps[0] == pair.younger;
-      erase(landmark.submaps, pair.younger);
-      if (!contains(landmark.submaps, pair.older)) landmark.submaps.push_back(pair.older);
+      for (const Number other : group.others) erase(landmark.submaps, other);
+      if (!contains(landmark.submaps, group.oldest)) landmark.submaps.push_back(group.oldest);
       // Its error is in the axes of another base now, and those who hold it have to be linearised anew.
-      if (first)
+      if (first != landmark.submaps[0])
         for (const Number leaf : landmark.submaps) changes.leaves.push_back(state_.leaves[leaf].key);
     }
     tree.set_degree(landmark_variable(number), static_cast<std::int32_t>(landmark.submaps.size()));
@@ -306,15 +334,13 @@ void SparseFuser<Pose>::hand_over_landmarks(SparseChange<Pose>& change, const Pa
 }
 
 template <class Pose>
-void SparseFuser<Pose>::hand_over_submaps(SparseChange<Pose>& change, const Pair& pair) {
-  const Leaf &older = state_.leaves[pair.older], &younger = state_.leaves[pair.younger];
-  const Pose T = state_.bases[older.base()].pose.inverse() * state_.bases[younger.base()].pose;
-  const auto move = [&](Number submap) {
-    change.move_submap(submap, pair.older, T * state_.submaps[submap].T_leaf_submap);
-  };
-  if (younger.place == nullptr) return move(younger.submap);
+void SparseFuser<Pose>::hand_over_submaps(SparseChange<Pose>& change, Number from, Number to) {
+  const Leaf &old = state_.leaves[from], &next = state_.leaves[to];
+  const Pose T = state_.bases[next.base()].pose.inverse() * state_.bases[old.base()].pose;
+  const auto move = [&](Number submap) { change.move_submap(submap, to, T * state_.submaps[submap].T_leaf_submap); };
+  if (old.place == nullptr) return move(old.submap);
   for (Number submap = 0; submap < state_.submaps.size(); ++submap)
-    if (state_.submaps[submap].leaf == pair.younger) move(submap);
+    if (state_.submaps[submap].leaf == from) move(submap);
 }
 
 template class SparseFuser<SE2>;

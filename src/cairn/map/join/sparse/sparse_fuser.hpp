@@ -3,8 +3,8 @@
 // driven (docs/submaps.md, "A map that does not grow").
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "map/join/sparse/sparse_change.hpp"
@@ -17,11 +17,11 @@ template <class Pose>
 class SparseFuser {
  public:
   // The newest submaps stay as they are. Several older ones are fused together: it costs hardly more than one.
-  static constexpr std::size_t kNewest = 2, kTogether = 3;
+  static constexpr std::size_t kNewest = 2, kTogether = 5;
   // Landmarks of a place at most: this many times those of the largest submap, or this number if that is more.
   static constexpr std::size_t kLargest = 4, kFew = 64;
   // Poses that a place has in common with other leaves, at most, where these leaves can do without.
-  static constexpr std::size_t kPoses = 6;
+  static constexpr std::size_t kPoses = 10;
 
   SparseFuser(SparseState<Pose>& state, SpatialIndex& index) : state_(state), index_(index) {}
 
@@ -36,12 +36,18 @@ class SparseFuser {
   using Numbers = std::vector<Number>;
   using Errors = std::vector<Index>;
   static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
-  struct Pair {
-    Number older, younger;  // leaves; the older one stays
+  // Leaves that become one: the oldest one, which stays, and the others.
+  struct Group {
+    Number oldest;
+    Numbers others;
+
+    bool contains(Number leaf) const {
+      return leaf == oldest || std::find(others.begin(), others.end(), leaf) != others.end();
+    }
   };
 
-  // The poses and landmarks of two leaves that become one, but for the base of the older one; and their errors, those
-  // of the poses first.
+  // The poses and landmarks of a group, but for the base of the oldest leaf; and their errors, those of the poses
+  // first.
   struct Union {
     Numbers poses, landmarks;
     Numbers kept_poses, kept_landmarks;  // that the new place holds
@@ -51,20 +57,22 @@ class SparseFuser {
     Index error_of_landmark(std::size_t i) const { return static_cast<Index>(kDof * poses.size() + kDim * i); }
   };
 
-  std::vector<Pair> plan();
+  std::vector<Group> plan();
   bool fusible(Number leaf) const;
   Number partner_of(Number leaf, const Numbers& leaving) const;
-  bool fits(const Pair& pair) const;
+  std::size_t common_landmarks(Number a, Number b) const;
+  bool of_one_place(Number a, Number b) const;
+  bool has_room(const Group& group, Number another) const;
   bool stands_by_itself(Number leaf) const;
   Errors held(const Leaf& leaf) const;
-  Union unite(const Pair& pair) const;
-  Numbers poses_to_cut(const Pair& pair, const Numbers& poses) const;
+  Union unite(const Group& group) const;
+  Numbers poses_to_cut(const Group& group, const Numbers& poses) const;
   Quadratic cost_of(const Leaf& leaf, const typename Pose::Rotation& axes) const;
-  void add_cost(const Leaf& leaf, const Leaf& older, const Union& both, Quadratic& sum) const;
-  void fuse(SparseChange<Pose>& change, const Pair& pair, TreeChanges& changes);
-  void hand_over_poses(SparseChange<Pose>& change, const Pair& pair, const Union& both);
-  void hand_over_landmarks(SparseChange<Pose>& change, const Pair& pair, const Union& both, TreeChanges& changes);
-  void hand_over_submaps(SparseChange<Pose>& change, const Pair& pair);
+  void add_cost(const Leaf& leaf, const Leaf& oldest, const Union& all, Quadratic& sum) const;
+  void fuse(SparseChange<Pose>& change, const Group& group, TreeChanges& changes);
+  void hand_over_poses(SparseChange<Pose>& change, const Group& group, const Union& all);
+  void hand_over_landmarks(SparseChange<Pose>& change, const Group& group, const Union& all, TreeChanges& changes);
+  void hand_over_submaps(SparseChange<Pose>& change, Number from, Number to);
 
   SparseState<Pose>& state_;
   SpatialIndex& index_;

@@ -50,9 +50,7 @@ struct SparseState {
     Number saved = 0;                   // the change that saved it last
 
     int held() const { return (leaves[0] != kNone) + (leaves[1] != kNone); }
-    bool held_by(Number leaf) const { return leaves[0] == leaf || leaves[1] == leaf; }
-    // A leaf holds it instead of another one, or of none.
-    void replace(Number old, Number next) { (leaves[0] == old ? leaves[0] : leaves[1]) = next; }
+    void add(Number leaf) { (leaves[0] == kNone ? leaves[0] : leaves[1]) = leaf; }
   };
   struct Leaf {
     TreeKey key;
