@@ -34,12 +34,13 @@ void SparseFuser<Pose>::run() {
     for (const Number leaf : group.others) paths.leaves.push_back(state_.leaves[leaf].key);
   }
   solver.settle(paths);
-  for (const Group& group : groups) fuse(change, group, changes);
+  bool cut = false;
+  for (const Group& group : groups) cut = fuse(change, group, changes) || cut;
   const auto left = [&](const TreeKey& key) { return !state_.leaves[key.leaf].used(); };
   changes.leaves.erase(std::remove_if(changes.leaves.begin(), changes.leaves.end(), left), changes.leaves.end());
   JoinReport report;
-  solver.refactor(std::move(changes), report);
-  solver.optimise(report);
+  solver.remake(changes, report);
+  if (cut) solver.optimise(report);
   change.prepare(report);
   change.keep();
 }
@@ -81,7 +82,8 @@ bool SparseFuser<Pose>::fusible(Number leaf) const {
   return state_.leaves[leaf].used() && state_.solution.anchors.fixes_of(leaf) == nullptr;
 }
 
-// The leaf of the same place: the one with most landmarks in common.
+// The leaf of the same place: the one with most landmarks in common. Two submaps of one place stay as they are, for they
+// cost less than a place, whose landmarks all are variables: it takes three.
 template <class Pose>
 typename SparseFuser<Pose>::Number SparseFuser<Pose>::partner_of(Number leaf, const Numbers& leaving) const {
   std::map<Number, std::size_t> common;
@@ -90,10 +92,15 @@ typename SparseFuser<Pose>::Number SparseFuser<Pose>::partner_of(Number leaf, co
       if (other != leaf && !contains(state_.solution.recent, other) && !contains(leaving, other) && fusible(other))
         ++common[other];
   Number best = State::kNone;
-  for (const auto& [other, count] : common)
-    if (of_one_place(leaf, other) && has_room({leaf, {}}, other) && (best == State::kNone || count > common[best]))
-      best = other;
-  return best;
+  std::size_t partners = 0;
+  bool place = state_.leaves[leaf].place != nullptr;
+  for (const auto& [other, count] : common) {
+    if (!of_one_place(leaf, other) || !has_room({leaf, {}}, other)) continue;
+    ++partners;
+    place = place || state_.leaves[other].place != nullptr;
+    if (best == State::kNone || count > common[best]) best = other;
+  }
+  return place || partners > 1 ? best : State::kNone;
 }
 
 template <class Pose>
@@ -178,6 +185,7 @@ typename SparseFuser<Pose>::Union SparseFuser<Pose>::unite(const Group& group) c
       held_elsewhere.push_back(pose);
   }
   const Numbers cut = poses_to_cut(group, held_elsewhere);
+  all.cut = !cut.empty();
   for (std::size_t i = 0; i < all.poses.size(); ++i) {
     const bool keep = contains(held_elsewhere, all.poses[i]) && !contains(cut, all.poses[i]);
     if (keep) all.kept_poses.push_back(all.poses[i]);
@@ -248,7 +256,7 @@ void SparseFuser<Pose>::add_cost(const Leaf& leaf, const Leaf& oldest, const Uni
 }
 
 template <class Pose>
-void SparseFuser<Pose>::fuse(SparseChange<Pose>& change, const Group& group, TreeChanges& changes) {
+bool SparseFuser<Pose>::fuse(SparseChange<Pose>& change, const Group& group, TreeChanges& changes) {
   const Union all = unite(group);
   Leaf& leaf = state_.leaves[group.oldest];
   const Index n = all.error_of_landmark(all.landmarks.size());
@@ -281,6 +289,7 @@ void SparseFuser<Pose>::fuse(SparseChange<Pose>& change, const Group& group, Tre
   solution.grown.push_back(group.oldest);
   state_.shape(leaf);
   state_.evaluate(group.oldest);
+  return all.cut;
 }
 
 // A pose that was cut stays with the other leaf that holds it.

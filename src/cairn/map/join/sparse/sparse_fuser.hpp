@@ -52,6 +52,7 @@ class SparseFuser {
     Numbers poses, landmarks;
     Numbers kept_poses, kept_landmarks;  // that the new place holds
     Errors gone, kept;
+    bool cut = false;  // a pose is given up that another leaf holds
 
     Index error_of_pose(std::size_t i) const { return static_cast<Index>(kDof * i); }
     Index error_of_landmark(std::size_t i) const { return static_cast<Index>(kDof * poses.size() + kDim * i); }
@@ -69,7 +70,8 @@ class SparseFuser {
   Numbers poses_to_cut(const Group& group, const Numbers& poses) const;
   Quadratic cost_of(const Leaf& leaf, const typename Pose::Rotation& axes) const;
   void add_cost(const Leaf& leaf, const Leaf& oldest, const Union& all, Quadratic& sum) const;
-  void fuse(SparseChange<Pose>& change, const Group& group, TreeChanges& changes);
+  // Returns whether the minimum may move, for a pose was cut.
+  bool fuse(SparseChange<Pose>& change, const Group& group, TreeChanges& changes);
   void hand_over_poses(SparseChange<Pose>& change, const Group& group, const Union& all);
   void hand_over_landmarks(SparseChange<Pose>& change, const Group& group, const Union& all, TreeChanges& changes);
   void hand_over_submaps(SparseChange<Pose>& change, Number from, Number to);

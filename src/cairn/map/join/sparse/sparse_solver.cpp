@@ -81,6 +81,12 @@ void SparseSolver<Pose>::refactor(TreeChanges changes, JoinReport& report) {
     changes.leaves.push_back(state_.leaves[solution.stale[i]].key);
   solution.stale.resize(solution.stale.size() - taken);
   report.relinearised += taken;
+  remake(changes, report);
+}
+
+template <class Pose>
+void SparseSolver<Pose>::remake(const TreeChanges& changes, JoinReport& report) {
+  typename State::Solution& solution = state_.solution;
   settle(changes);
   std::size_t refactored = 0;
   std::vector<std::uint32_t> assembled;

@@ -20,6 +20,8 @@ class SparseSolver {
   void settle(const TreeChanges& changes);
   // Makes the affected parts of the tree anew: those of `changes` and of stale leaves.
   void refactor(TreeChanges changes, JoinReport& report);
+  // Those of `changes` only.
+  void remake(const TreeChanges& changes, JoinReport& report);
   // Iterates until it converges, or until the limit of iterations of a closing (Solution::settled tells which).
   void optimise(JoinReport& report);
 
