@@ -42,6 +42,15 @@ class Packed {
     return out;
   }
 
+  // The square block on the diagonal that begins at this row.
+  template <int size>
+  Eigen::Matrix<double, size, size> diagonal_block(Eigen::Index first) const {
+    Eigen::Matrix<double, size, size> block;
+    for (Eigen::Index c = 0; c < size; ++c)
+      for (Eigen::Index r = 0; r < size; ++r) block(r, c) = (*this)(first + r, first + c);
+    return block;
+  }
+
   // y = A x
   void times(const double* x, double* y) const {
     std::fill_n(y, size_, 0.0);

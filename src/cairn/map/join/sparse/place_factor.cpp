@@ -6,6 +6,7 @@
 
 #include "geometry/se2.hpp"
 #include "geometry/se3.hpp"
+#include "map/join/sparse/point_blocks.hpp"
 
 namespace cairn {
 
@@ -120,25 +121,15 @@ typename PlaceFactor<Pose>::Matrix PlaceFactor<Pose>::hessian(const Values& valu
     own_rows(columns_of_pose, k);
     H.block(kDof + first, kDof + first, below, kDof) = columns_of_pose;
   }
-  Matrix strip(n, kDim);
-  for (std::size_t j = poses_.size(); j < own.size(); ++j) {
-    const Index first = row(j), below = n - first;
-    strip.topRows(below).noalias() = information.block(first, first, below, kDim).lazyProduct(own[j]);
-    for (std::size_t i = j; i < own.size(); ++i)
-      H.block<kDim, kDim>(kDof + row(i), kDof + first).noalias() =
-          own[i].transpose() * strip.middleRows<kDim>(row(i) - first);
-  }
+  const std::vector<PointSquare> points(own.begin() + static_cast<std::ptrdiff_t>(poses_.size()), own.end());
+  put_point_blocks(information, row(poses_.size()), points, kDof + row(poses_.size()), H);
   return H;
 }
 
 template <class Pose>
 typename PlaceFactor<Pose>::PointSquare PlaceFactor<Pose>::landmark_information(Index i, const Rotation& base) const {
-  const Index first = row(poses_.size() + static_cast<std::size_t>(i));
-  PointSquare block;
-  for (Index c = 0; c < kDim; ++c)
-    for (Index r = 0; r < kDim; ++r) block(r, c) = information_(first + r, first + c);
   const PointSquare R = base.matrix();
-  return R * block * R.transpose();
+  return R * information_.diagonal_block<kDim>(row(poses_.size() + static_cast<std::size_t>(i))) * R.transpose();
 }
 
 template class PlaceFactor<SE2>;

@@ -243,8 +243,7 @@ void SparseChange<Pose>::note_moves() noexcept {
   }
 }
 
-// In reverse order: a change that was nested in this one and kept does not count as saved, so that a value may be saved
-// twice.
+// In reverse order: of a value that was saved twice, the first one stays.
 template <class Pose>
 void SparseChange<Pose>::roll_back() noexcept {
   const auto in_reverse = [](auto& list, auto&& restore) {

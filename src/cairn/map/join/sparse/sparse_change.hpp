@@ -46,7 +46,7 @@ class SparseChange {
   void remove_leaf(Number leaf);
   void free_base(Number base);
   void free_landmark(Number landmark);
-  // To be called before a landmark gets other holders than by extend().
+  // To be called before a landmark gets other holders than by extend(), and not in a change that has extended it.
   void save_holders(Number landmark);
   // The submap lies in another leaf now.
   void move_submap(Number submap, Number leaf, const Pose& T_leaf_submap);

@@ -29,10 +29,8 @@ void SparseFuser<Pose>::run() {
   const std::vector<Group> groups = plan();
   if (groups.empty()) return change.keep();
   TreeChanges paths, changes;
-  for (const Group& group : groups) {
-    paths.leaves.push_back(state_.leaves[group.oldest].key);
-    for (const Number leaf : group.others) paths.leaves.push_back(state_.leaves[leaf].key);
-  }
+  for (const Group& group : groups)
+    for (const Number leaf : group) paths.leaves.push_back(state_.leaves[leaf].key);
   solver.settle(paths);
   bool cut = false;
   for (const Group& group : groups) cut = fuse(change, group, changes) || cut;
@@ -63,15 +61,15 @@ std::vector<typename SparseFuser<Pose>::Group> SparseFuser<Pose>::plan() {
     const bool older = state_.leaves[leaf].submap < state_.leaves[partner].submap;
     const Number stays = older ? leaf : partner, leaves = older ? partner : leaf;
     const auto group_of = [&](Number oldest) {
-      return std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.oldest == oldest; });
+      return std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group[0] == oldest; });
     };
     auto group = group_of(stays);
     if (group_of(leaves) != groups.end() || (group != groups.end() && !has_room(*group, leaves))) {
       solution.grown.push_back(leaf);
       continue;
     }
-    if (group == groups.end()) group = groups.insert(groups.end(), {stays, {}});
-    group->others.push_back(leaves);
+    if (group == groups.end()) group = groups.insert(groups.end(), {stays});
+    group->push_back(leaves);
     leaving.push_back(leaves);
   }
   return groups;
@@ -82,8 +80,8 @@ bool SparseFuser<Pose>::fusible(Number leaf) const {
   return state_.leaves[leaf].used() && state_.solution.anchors.fixes_of(leaf) == nullptr;
 }
 
-// The leaf of the same place: the one with most landmarks in common. Two submaps of one place stay as they are, for they
-// cost less than a place, whose landmarks all are variables: it takes three.
+// The leaf of the same place: the one with most landmarks in common. Two submaps of one place stay as they are, for
+// they cost less than a place, whose landmarks all are variables: it takes three.
 template <class Pose>
 typename SparseFuser<Pose>::Number SparseFuser<Pose>::partner_of(Number leaf, const Numbers& leaving) const {
   std::map<Number, std::size_t> common;
@@ -95,7 +93,7 @@ typename SparseFuser<Pose>::Number SparseFuser<Pose>::partner_of(Number leaf, co
   std::size_t partners = 0;
   bool place = state_.leaves[leaf].place != nullptr;
   for (const auto& [other, count] : common) {
-    if (!of_one_place(leaf, other) || !has_room({leaf, {}}, other)) continue;
+    if (!of_one_place(leaf, other, count) || !has_room({leaf}, other)) continue;
     ++partners;
     place = place || state_.leaves[other].place != nullptr;
     if (best == State::kNone || count > common[best]) best = other;
@@ -103,38 +101,34 @@ typename SparseFuser<Pose>::Number SparseFuser<Pose>::partner_of(Number leaf, co
   return place || partners > 1 ? best : State::kNone;
 }
 
+// A submap belongs to a place if half of the smaller one's landmarks are among the `common` ones. Two places have been
+// visited again and again, and need only touch.
 template <class Pose>
-std::size_t SparseFuser<Pose>::common_landmarks(Number a, Number b) const {
-  std::size_t common = 0;
-  for (const Index i : held(state_.leaves[b]))
-    common += contains(state_.landmarks[state_.leaves[b].landmarks[i]].submaps, a) ? 1 : 0;
-  return common;
-}
-
-// A submap belongs to a place if they have half of the smaller one's landmarks in common. Two places have been visited
-// again and again, and need only touch.
-template <class Pose>
-bool SparseFuser<Pose>::of_one_place(Number a, Number b) const {
-  const std::size_t common = common_landmarks(a, b);
-  if (state_.leaves[a].place != nullptr && state_.leaves[b].place != nullptr) return common > 0;
-  return common > 0 && 2 * common >= std::min(held(state_.leaves[a]).size(), held(state_.leaves[b]).size());
+bool SparseFuser<Pose>::of_one_place(Number a, Number b, std::size_t common) const {
+  const Leaf &first = state_.leaves[a], &second = state_.leaves[b];
+  if (first.place != nullptr && second.place != nullptr) return true;
+  return 2 * common >= std::min(held(first).size(), held(second).size());
 }
 
 // Whether all of them together are not too large.
 template <class Pose>
-bool SparseFuser<Pose>::has_room(const Group& group, Number another) const {
-  std::size_t together = held(state_.leaves[group.oldest]).size();
-  Numbers all = group.others;
-  all.push_back(another);
-  for (std::size_t k = 0; k < all.size(); ++k)
-    for (const Index i : held(state_.leaves[all[k]])) {
-      const Numbers& holders = state_.landmarks[state_.leaves[all[k]].landmarks[i]].submaps;
-      const bool before =
-          contains(holders, group.oldest) || std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k),
-                                                         [&](Number leaf) { return contains(holders, leaf); });
-      together += before ? 0 : 1;
+bool SparseFuser<Pose>::has_room(Group group, Number another) const {
+  group.push_back(another);
+  return landmarks_of(group).size() <= std::max(kFew, kLargest * state_.solution.largest);
+}
+
+// Each landmark once, those of the first leaf first.
+template <class Pose>
+typename SparseFuser<Pose>::Numbers SparseFuser<Pose>::landmarks_of(const Group& group) const {
+  Numbers landmarks;
+  for (auto leaf = group.begin(); leaf != group.end(); ++leaf)
+    for (const Index i : held(state_.leaves[*leaf])) {
+      const Number landmark = state_.leaves[*leaf].landmarks[i];
+      const bool before = std::any_of(
+          group.begin(), leaf, [&](Number earlier) { return contains(state_.landmarks[landmark].submaps, earlier); });
+      if (!before) landmarks.push_back(landmark);
     }
-  return together <= std::max(kFew, kLargest * state_.solution.largest);
+  return landmarks;
 }
 
 // Whether the leaf knows its place without the poses that it has in common with others: most of its landmarks are
@@ -160,21 +154,11 @@ typename SparseFuser<Pose>::Errors SparseFuser<Pose>::held(const Leaf& leaf) con
 template <class Pose>
 typename SparseFuser<Pose>::Union SparseFuser<Pose>::unite(const Group& group) const {
   Union all;
-  const Number own = state_.leaves[group.oldest].base();
-  Numbers leaves = group.others;
-  leaves.insert(leaves.begin(), group.oldest);
-  for (std::size_t k = 0; k < leaves.size(); ++k) {
-    const Leaf& leaf = state_.leaves[leaves[k]];
-    for (const Number pose : leaf.poses)
-      if (pose != own && !contains(all.poses, pose)) all.poses.push_back(pose);
-    for (const Index i : held(leaf)) {
-      const Numbers& holders = state_.landmarks[leaf.landmarks[i]].submaps;
-      const bool before = std::any_of(leaves.begin(), leaves.begin() + static_cast<std::ptrdiff_t>(k),
-                                      [&](Number earlier) { return contains(holders, earlier); });
-      if (!before) all.landmarks.push_back(leaf.landmarks[i]);
-    }
-  }
-  const auto elsewhere = [&](Number leaf) { return leaf != State::kNone && !group.contains(leaf); };
+  all.landmarks = landmarks_of(group);
+  for (const Number leaf : group)
+    for (const Number pose : state_.leaves[leaf].poses)
+      if (pose != state_.leaves[group[0]].base() && !contains(all.poses, pose)) all.poses.push_back(pose);
+  const auto elsewhere = [&](Number leaf) { return leaf != State::kNone && !contains(group, leaf); };
   const auto sort = [&](bool keep, Index first, int size) {
     for (int d = 0; d < size; ++d) (keep ? all.kept : all.gone).push_back(first + d);
   };
@@ -208,7 +192,7 @@ typename SparseFuser<Pose>::Numbers SparseFuser<Pose>::poses_to_cut(const Group&
   for (const Number pose : poses) {
     if (poses.size() - cut.size() <= kPoses) break;
     const auto needs = [&](Number leaf) {
-      return leaf != State::kNone && !group.contains(leaf) && !stands_by_itself(leaf);
+      return leaf != State::kNone && !contains(group, leaf) && !stands_by_itself(leaf);
     };
     const Number* holders = state_.bases[pose].leaves;
     if (pose != state_.solution.newest && !needs(holders[0]) && !needs(holders[1])) cut.push_back(pose);
@@ -258,14 +242,14 @@ void SparseFuser<Pose>::add_cost(const Leaf& leaf, const Leaf& oldest, const Uni
 template <class Pose>
 bool SparseFuser<Pose>::fuse(SparseChange<Pose>& change, const Group& group, TreeChanges& changes) {
   const Union all = unite(group);
-  Leaf& leaf = state_.leaves[group.oldest];
+  const Number oldest = group[0];
+  Leaf& leaf = state_.leaves[oldest];
   const Index n = all.error_of_landmark(all.landmarks.size());
   Quadratic sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), 0.0};
-  add_cost(leaf, leaf, all, sum);
-  for (const Number other : group.others) add_cost(state_.leaves[other], leaf, all, sum);
+  for (const Number part : group) add_cost(state_.leaves[part], leaf, all, sum);
   const Quadratic cost = without(sum, all.gone, all.kept);
 
-  change.save_leaf(group.oldest);
+  change.save_leaf(oldest);
   leaf.poses.resize(1);
   leaf.poses.insert(leaf.poses.end(), all.kept_poses.begin(), all.kept_poses.end());
   leaf.landmarks = all.kept_landmarks;
@@ -279,16 +263,16 @@ bool SparseFuser<Pose>::fuse(SparseChange<Pose>& change, const Group& group, Tre
   hand_over_poses(change, group, all);
   hand_over_landmarks(change, group, all, changes);
   typename State::Solution& solution = state_.solution;
-  for (const Number other : group.others) {
-    hand_over_submaps(change, other, group.oldest);
-    changes.removed.push_back(state_.leaves[other].key);
-    for (Numbers* list : {&solution.pending, &solution.stale, &solution.grown}) erase(*list, other);
-    change.remove_leaf(other);
+  for (std::size_t k = 1; k < group.size(); ++k) {
+    hand_over_submaps(change, group[k], oldest);
+    changes.removed.push_back(state_.leaves[group[k]].key);
+    for (Numbers* list : {&solution.pending, &solution.stale, &solution.grown}) erase(*list, group[k]);
+    change.remove_leaf(group[k]);
   }
-  solution.pending.push_back(group.oldest);
-  solution.grown.push_back(group.oldest);
+  solution.pending.push_back(oldest);
+  solution.grown.push_back(oldest);
   state_.shape(leaf);
-  state_.evaluate(group.oldest);
+  state_.evaluate(oldest);
   return all.cut;
 }
 
@@ -296,15 +280,15 @@ bool SparseFuser<Pose>::fuse(SparseChange<Pose>& change, const Group& group, Tre
 template <class Pose>
 void SparseFuser<Pose>::hand_over_poses(SparseChange<Pose>& change, const Group& group, const Union& all) {
   typename State::Solution& solution = state_.solution;
-  const Number own = state_.leaves[group.oldest].base();
+  const Number own = state_.leaves[group[0]].base();
   Numbers poses = all.poses;
   poses.push_back(own);
   for (const Number number : poses) {
     change.save_base(number);
     typename State::Base& base = state_.bases[number];
     for (Number& leaf : base.leaves)
-      if (group.contains(leaf)) leaf = State::kNone;
-    if (number == own || contains(all.kept_poses, number)) base.add(group.oldest);
+      if (contains(group, leaf)) leaf = State::kNone;
+    if (number == own || contains(all.kept_poses, number)) base.add(group[0]);
     if (base.held() == 0 && number != solution.newest) {
       change.free_base(number);
       solution.tree.forget(base_variable(number));
@@ -330,10 +314,10 @@ void SparseFuser<Pose>::hand_over_landmarks(SparseChange<Pose>& change, const Gr
     }
     ++kept;
     const Number first = landmark.submaps[0];
-    if (landmark.submaps.size() > 1 || first != group.oldest) {
+    if (landmark.submaps.size() > 1 || first != group[0]) {
       change.save_holders(number);
-      for (const Number other : group.others) erase(landmark.submaps, other);
-      if (!contains(landmark.submaps, group.oldest)) landmark.submaps.push_back(group.oldest);
+      for (std::size_t k = 1; k < group.size(); ++k) erase(landmark.submaps, group[k]);
+      if (!contains(landmark.submaps, group[0])) landmark.submaps.push_back(group[0]);
       // Its error is in the axes of another base now, and those who hold it have to be linearised anew.
       if (first != landmark.submaps[0])
         for (const Number leaf : landmark.submaps) changes.leaves.push_back(state_.leaves[leaf].key);

@@ -3,7 +3,6 @@
 // driven (docs/submaps.md, "A map that does not grow").
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -36,15 +35,7 @@ class SparseFuser {
   using Numbers = std::vector<Number>;
   using Errors = std::vector<Index>;
   static constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
-  // Leaves that become one: the oldest one, which stays, and the others.
-  struct Group {
-    Number oldest;
-    Numbers others;
-
-    bool contains(Number leaf) const {
-      return leaf == oldest || std::find(others.begin(), others.end(), leaf) != others.end();
-    }
-  };
+  using Group = Numbers;  // leaves that become one: the oldest comes first, and stays
 
   // The poses and landmarks of a group, but for the base of the oldest leaf; and their errors, those of the poses
   // first.
@@ -61,11 +52,11 @@ class SparseFuser {
   std::vector<Group> plan();
   bool fusible(Number leaf) const;
   Number partner_of(Number leaf, const Numbers& leaving) const;
-  std::size_t common_landmarks(Number a, Number b) const;
-  bool of_one_place(Number a, Number b) const;
-  bool has_room(const Group& group, Number another) const;
+  bool of_one_place(Number a, Number b, std::size_t common) const;
+  bool has_room(Group group, Number another) const;
   bool stands_by_itself(Number leaf) const;
   Errors held(const Leaf& leaf) const;
+  Numbers landmarks_of(const Group& group) const;
   Union unite(const Group& group) const;
   Numbers poses_to_cut(const Group& group, const Numbers& poses) const;
   Quadratic cost_of(const Leaf& leaf, const typename Pose::Rotation& axes) const;

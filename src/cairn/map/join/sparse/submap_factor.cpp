@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "map/join/sparse/point_blocks.hpp"
 
 namespace cairn {
 namespace {
@@ -255,26 +256,17 @@ Matrix SubmapFactor<Pose>::hessian(const Values& values, const std::vector<Rotat
   // The poses' columns are dense, those of a landmark have one block, in its own rows.
   const Matrix weighted = information.selfadjointView<Eigen::Lower>() * poses;
   H.topLeftCorner<2 * kDof, 2 * kDof>().noalias() = poses.transpose() * weighted;
-  Matrix strip(n, kDim);
-  for (Index j = 0; j < shared_count(); ++j) {
-    const Index first = kDof + kDim * j;
-    H.block<kDim, 2 * kDof>(column(j), 0).noalias() = own[j].transpose() * weighted.middleRows<kDim>(first);
-    const Index below = n - first;
-    strip.topRows(below).noalias() = information.block(first, first, below, kDim).lazyProduct(own[j]);
-    for (Index i = j; i < shared_count(); ++i)
-      H.block<kDim, kDim>(column(i), column(j)).noalias() = own[i].transpose() * strip.middleRows<kDim>(kDim * (i - j));
-  }
+  for (Index j = 0; j < shared_count(); ++j)
+    H.block<kDim, 2 * kDof>(column(j), 0).noalias() = own[j].transpose() * weighted.middleRows<kDim>(kDof + kDim * j);
+  put_point_blocks(information, kDof, own, column(0), H);
   if (error_columns() > 0) add_error_hessian(information, weighted, own, H);
   return H;
 }
 
 template <class Pose>
 typename SubmapFactor<Pose>::PointSquare SubmapFactor<Pose>::landmark_information(Index i, const Rotation& base) const {
-  PointSquare block;
-  for (Index c = 0; c < kDim; ++c)
-    for (Index r = 0; r < kDim; ++r) block(r, c) = information_(kDof + kDim * i + r, kDof + kDim * i + c);
   const PointSquare R = base.matrix();
-  return R * block * R.transpose();
+  return R * information_.diagonal_block<kDim>(kDof + kDim * i) * R.transpose();
 }
 
 template <class Pose>
