@@ -10,11 +10,11 @@
 #include <cairn/cairn.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <map>
 #include <random>
@@ -22,13 +22,12 @@
 #include <utility>
 #include <vector>
 
+#include "cairn_run.hpp"
+#include "samples.hpp"
+
 namespace {
 
-void check(cairn_status status) {
-  if (status == CAIRN_OK) return;
-  std::fprintf(stderr, "lifelong: %s\n", cairn_last_message());
-  std::exit(1);
-}
+using bench::check;
 
 struct Point {
   double x, y, z;
@@ -134,9 +133,7 @@ double mean(const std::vector<double>& values, std::size_t from, std::size_t to)
   return to > from ? sum / static_cast<double>(to - from) : 0.0;
 }
 
-}  // namespace
-
-int main(int count, char** arguments) {
+int run(int count, char** arguments) {
   const std::string name = count > 1 ? arguments[1] : "laps", join = count > 3 ? arguments[3] : "sparse";
   const long steps = count > 2 ? std::atol(arguments[2]) : 100000;
   World world(name, count > 4 ? static_cast<unsigned>(std::atol(arguments[4])) : 3u);
@@ -162,10 +159,12 @@ int main(int count, char** arguments) {
   for (int i = 0; i < 3; ++i) noise.velocity_sigma[i] = World::kWay, noise.rate_sigma[i] = World::kTurn;
   check(cairn_filter_set_twist_noise(filter, &noise, nullptr));
 
-  std::vector<double> closings, times;
+  std::vector<double> closings;
+  bench::Samples times;
   times.reserve(static_cast<std::size_t>(steps));
   std::vector<cairn_observation> seen;
-  double squared = 0.0, nees_sum = 0.0, early_mib = 0.0;
+  bench::SquaredError pose_error, map_error;
+  double nees_sum = 0.0, early_mib = 0.0;
   long samples = 0;
   std::size_t closed = 0;
   for (long step = 1; step <= steps; ++step) {
@@ -176,11 +175,11 @@ int main(int count, char** arguments) {
     const double velocity[3] = {way * std::cos(half) + world.normal(World::kWay),
                                 way * std::sin(half) + world.normal(World::kWay), world.normal(World::kWay)};
     world.look(seen);
-    const auto begin = std::chrono::steady_clock::now();
+    const bench::Stopwatch watch;
     check(cairn_filter_predict_twist(filter, 1.0, velocity, rate, nullptr));
     check(cairn_filter_update(filter, sensor, seen.data(), seen.size(), nullptr, nullptr));
     if (name == "stand" && step % 50 == 0) check(cairn_filter_close_submap(filter, nullptr));
-    times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    times.add(watch.milliseconds());
     std::size_t now = 0;
     check(cairn_filter_submap_count(filter, &now, nullptr));
     if (now != closed) {
@@ -199,12 +198,10 @@ int main(int count, char** arguments) {
     check(cairn_filter_pose(filter, &pose, nullptr, nullptr));
     double nees = 0.0;
     check(cairn_filter_pose_nees(filter, &truth, &nees, nullptr));
-    for (int i = 0; i < 3; ++i) squared += std::pow(pose.position[i] - truth.position[i], 2);
+    pose_error.add(pose.position, truth.position);
     nees_sum += nees / 6.0;
     ++samples;
   }
-  double map_squared = 0.0;
-  std::size_t mapped = 0;
   const cairn_map* map = cairn_filter_map(filter);
   std::size_t size = 0;
   check(cairn_map_size(map, &size, nullptr));
@@ -212,14 +209,9 @@ int main(int count, char** arguments) {
     cairn_landmark landmark;
     if (cairn_map_landmark(map, i, &landmark, nullptr) != CAIRN_OK) continue;
     const Point& p = world.landmarks()[i];
-    map_squared += std::pow(landmark.position[0] - p.x, 2) + std::pow(landmark.position[1] - p.y, 2) +
-                   std::pow(landmark.position[2] - p.z, 2);
-    ++mapped;
+    const double there[3] = {p.x, p.y, p.z};
+    map_error.add(landmark.position, there);
   }
-  std::sort(times.begin(), times.end());
-  const auto quantile = [&](double q) {
-    return times[static_cast<std::size_t>(q * static_cast<double>(times.size() - 1))];
-  };
   const std::size_t n = closings.size(), last = n > 100 ? n - 100 : 0;
   std::printf(
       "{\"world\": \"%s\", \"join\": \"%s\", \"steps\": %ld, \"submaps\": %zu, \"landmarks\": %zu, "
@@ -227,10 +219,20 @@ int main(int count, char** arguments) {
       "\"step_ms_mean\": %.4f, \"step_ms_p9999\": %.3f, \"step_ms_worst\": %.3f, \"rss_mib_tenth\": %.1f, "
       "\"rss_mib\": %.1f, \"pose_rmse_m\": %.4f, \"pose_nees_per_dof\": %.3f, \"landmark_rmse_m\": %.4f}\n",
       name.c_str(), join.c_str(), steps, closed, size, mean(closings, 100, 200), mean(closings, last, n),
-      n > 0 ? *std::max_element(closings.begin(), closings.end()) : 0.0, mean(times, 0, times.size()), quantile(0.9999),
-      times.back(), early_mib, resident_mib(), std::sqrt(squared / static_cast<double>(std::max(samples, 1L))),
-      nees_sum / static_cast<double>(std::max(samples, 1L)),
-      std::sqrt(map_squared / static_cast<double>(std::max<std::size_t>(mapped, 1))));
+      n > 0 ? *std::max_element(closings.begin(), closings.end()) : 0.0, times.mean(), times.quantile(0.9999),
+      times.quantile(1.0), early_mib, resident_mib(), pose_error.rms(),
+      nees_sum / static_cast<double>(std::max(samples, 1L)), map_error.rms());
   cairn_filter_destroy(filter);
   return 0;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    return run(count, arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "lifelong: %s\n", error.what());
+    return 1;
+  }
 }

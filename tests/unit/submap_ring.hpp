@@ -106,6 +106,13 @@ class Ring {
   Noise noise_;
 };
 
+template <class Map>
+Vector3 position_of(const Map& map, std::uint64_t id) {
+  std::size_t index = 0;
+  REQUIRE(map.find(id, index));
+  return map.position(index);
+}
+
 // The submap without its landmark of this number.
 template <class Pose>
 Submap<Pose> without_landmark(Submap<Pose> submap, Eigen::Index landmark) {

@@ -21,6 +21,7 @@ using namespace cairn;
 using cairn::test::Ids;
 using cairn::test::kKinds;
 using cairn::test::Noise;
+using cairn::test::position_of;
 using Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 template <class Pose>
@@ -34,13 +35,6 @@ MapOptions<Pose> options_of(const Ring<Pose>& ring, bool fuse) {
   options.fuse = fuse;
   options.initial_covariance *= 1e-6;  // small against the noise: the comparison is between landmarks
   return options;
-}
-
-template <class Pose>
-Vector3 position_of(const SparseMap<Pose>& map, std::uint64_t id) {
-  std::size_t index = 0;
-  REQUIRE(map.find(id, index));
-  return map.position(index);
 }
 
 // Of the base and of all landmarks, by ascending id.
@@ -119,6 +113,27 @@ TEST_CASE_TEMPLATE("sparse fuser: it knows no more than the whole problem, and h
     const double lost = ratio.eigenvalues().array().log().mean();
     CAPTURE(lost);
     CHECK(lost <= 0.1);  // what the places had in common before they became one
+  }
+}
+
+// In one place no pose is cut: the fused map is the whole problem, whatever the linearisation makes of it.
+TEST_CASE_TEMPLATE("sparse fuser: one place knows exactly as much as the whole problem", Pose, SE3, SE2) {
+  for (const ErrorKind error : kKinds) {
+    Ring<Pose> ring(39, error, kBases, 12, {1e-4, 1e-5});
+    SparseMap<Pose> map(options_of(ring, true)), whole(options_of(ring, false));
+    for (int i = 0; i < 40; ++i) {
+      const Submap<Pose> submap = ring.draw(ring.base(i % 3), ring.base((i + 1) % 3), {0, 2, 3, 5, 7, 8, 12, 14});
+      map.join(submap);
+      whole.join(submap);
+    }
+    REQUIRE(map.memory_bytes() < whole.memory_bytes() / 4);
+    const Ids ids = ids_of(map);
+    const Matrix P = joint_covariance(map, ids), Q = joint_covariance(whole, ids);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> ratio(P, Q, Eigen::EigenvaluesOnly);
+    CHECK(ratio.eigenvalues()(0) >= 0.999);
+    CHECK(ratio.eigenvalues().maxCoeff() <= 1.001);
+    const double sigma = std::sqrt(Q.diagonal().minCoeff());
+    for (const std::uint64_t id : ids) CHECK((position_of(map, id) - position_of(whole, id)).norm() <= 0.01 * sigma);
   }
 }
 
