@@ -1117,7 +1117,8 @@ func (f *Filter) LocalPose() (pose Pose, covariance [36]float64, err error) {
 }
 
 // BasePose: pose of the open submap's origin in the map, and the covariance of its error [dp; dtheta] (6x6 row-major).
-// With a single map: identity and zero.
+// That is what the closed submaps tell: landmarks that the open submap sees again, and fixes in it, correct
+// [Filter.Pose] at once and the origin at the closing. With a single map: identity and zero.
 //
 // Errors: ErrArgument.
 func (f *Filter) BasePose() (pose Pose, covariance [36]float64, err error) {

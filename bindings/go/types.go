@@ -373,7 +373,7 @@ const (
 	ClosedByExtent ClosedBy = 4
 	// ClosedBySigma: submap_sigma
 	ClosedBySigma ClosedBy = 5
-	// ClosedByFix: an absolute position, attitude or heading was given
+	// ClosedByFix: an absolute position, attitude or heading could not be taken in otherwise
 	ClosedByFix ClosedBy = 6
 )
 

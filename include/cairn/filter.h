@@ -367,7 +367,8 @@ CAIRN_API cairn_status cairn_filter_split_landmark(cairn_filter *filter, uint64_
  * its landmarks join the map, and the next submap starts at the vehicle's pose. cairn_filter_update closes the submap
  * after the frame that filled it. If the closing fails (memory, capacity), the update still succeeds, the submap stays
  * open, the report of the closing says why, and later frames try again. An absolute observation (position, attitude,
- * heading) first closes the open submap, whatever it holds. */
+ * heading) does not close the open submap, but for two: the first one of a filter whose vehicle has moved, and one that
+ * is not linear in the error of the submap's base (far away, and the heading there hardly known). */
 
 /** Why a submap was closed. */
 typedef int32_t cairn_closed_by;
@@ -378,7 +379,7 @@ enum CAIRN_VALUES(cairn_closed_by) {
   CAIRN_CLOSED_BY_DISTANCE = 3,  /**< submap_distance */
   CAIRN_CLOSED_BY_EXTENT = 4,    /**< submap_extent */
   CAIRN_CLOSED_BY_SIGMA = 5,     /**< submap_sigma */
-  CAIRN_CLOSED_BY_FIX = 6        /**< an absolute position, attitude or heading was given */
+  CAIRN_CLOSED_BY_FIX = 6        /**< an absolute position, attitude or heading could not be taken in otherwise */
 };
 
 /** Report of the last attempt to close a submap. */
@@ -434,7 +435,8 @@ CAIRN_API cairn_status cairn_filter_local_pose(const cairn_filter *filter, CAIRN
                                                cairn_error *error);
 
 /** Pose of the open submap's origin in the map, and the covariance of its error [dp; dtheta] (6x6 row-major); each
- *  may be NULL. With a single map: identity and zero. Threads: as any const query of the handle. Errors:
+ *  may be NULL. That is what the closed submaps tell: landmarks that the open submap sees again, and fixes in it, correct
+ *  \ref cairn_filter_pose at once and the origin at the closing. With a single map: identity and zero. Threads: as any const query of the handle. Errors:
  *  CAIRN_ERROR_ARGUMENT. Complexity: O(1). \since 0.1.0 */
 CAIRN_API cairn_status cairn_filter_base_pose(const cairn_filter *filter, CAIRN_OUT CAIRN_OPTIONAL cairn_pose *pose,
                                               CAIRN_OUT CAIRN_OPTIONAL CAIRN_UNIT(pose^2) double covariance[36],

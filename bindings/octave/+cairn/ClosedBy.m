@@ -17,7 +17,7 @@ classdef ClosedBy
     EXTENT = 4;
     % submap_sigma
     SIGMA = 5;
-    % an absolute position, attitude or heading was given
+    % an absolute position, attitude or heading could not be taken in otherwise
     FIX = 6;
   end
 

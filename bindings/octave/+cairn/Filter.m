@@ -357,8 +357,9 @@ classdef Filter < cairn.internal.Handle
 
     function [pose, covariance] = base_pose(self)
       % [pose, covariance] = filter.base_pose()
-      % Pose of the open submap's origin in the map, and the covariance of its error [dp; dtheta] (6x6 row-major). With
-      % a single map: identity and zero.
+      % Pose of the open submap's origin in the map, and the covariance of its error [dp; dtheta] (6x6 row-major). That
+      % is what the closed submaps tell: landmarks that the open submap sees again, and fixes in it, correct
+      % cairn.Filter.pose at once and the origin at the closing. With a single map: identity and zero.
       %
       %   pose: struct: position, quaternion
       %   covariance: 6 x 6, pose^2

@@ -200,7 +200,7 @@ class ClosedBy(enum.IntEnum):
     SIGMA = 5
     """Submap_sigma."""
     FIX = 6
-    """An absolute position, attitude or heading was given."""
+    """An absolute position, attitude or heading could not be taken in otherwise."""
 
 
 class Verdict(enum.IntEnum):

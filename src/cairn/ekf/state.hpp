@@ -154,8 +154,9 @@ class State {
     const Point* fresh;  // landmarks not known here, in the submap's frame
     Index fresh_count;
     // Error (of the error model) of [end pose; what walked; fresh landmarks] in the submap: K y + w. w has covariance
-    // W, and y is the ordinary error of [systematic errors; fused landmarks].
+    // W, and y is the ordinary error of [systematic errors; base, if by_base; fused landmarks].
     Eigen::MatrixXd K, W;
+    bool by_base = false;
     const Index* walking = nullptr;  // systematic errors that walked in the submap
     Index walking_count = 0;
     Eigen::VectorXd walked;  // how far

@@ -11,8 +11,9 @@ namespace cairn {
 //              xi_x' = xi_pS + R_S xi_xL + hat(p_S) R_S xi_RL       new pose and new landmarks
 //              xi_l' = xi_l + hat(l) R_S xi_RL                      old landmarks: the reference turns
 //   standard   e_R' = e_RS + R_S e_RL,  e_x' = e_pS + G(R_S x_L) e_RS + R_S e_xL,  e_l' = e_l
-// where the submap's errors are K y + w, y the errors of the systematic errors and of the fused landmarks as seen from
-// the base, and w ~ N(0, W). A systematic error that walked changes by s' = s + d.
+// where the submap's errors are K y + w, y the errors of the systematic errors, of the base if fixes in the submap told
+// about it, and of the fused landmarks as seen from the base, and w ~ N(0, W). A systematic error that walked changes
+// by s' = s + d.
 template <class Pose>
 void State<Pose>::compose(const Handover& handover) {
   using Matrix = Eigen::MatrixXd;
@@ -35,15 +36,20 @@ void State<Pose>::compose(const Handover& handover) {
   for (Index c = 0; c < q; ++c)
     for (Index r = 0; r < n; ++r) columns(r, c) = P_.symmetric(r, chosen[c]);
 
-  // Jacobian of the systematic errors and of y = R_S^T (l - p_S) of the fused landmarks by the errors of base,
-  // systematic errors and landmarks.
-  Matrix Y = Matrix::Zero(own + kDim * fused, q);
+  // Jacobian of the systematic errors, the base's ordinary error, and y = R_S^T (l - p_S) of the fused landmarks by the
+  // errors of base, systematic errors and landmarks.
+  const Index first_fused = own + (handover.by_base ? kDof : 0);
+  Matrix Y = Matrix::Zero(first_fused + kDim * fused, q);
   Y.block(0, kDof, own, own).setIdentity();
+  if (handover.by_base) {
+    Y.block(own, 0, kDof, kDof).setIdentity();
+    if (invariant) Y.block(own, kDim, kDim, kTurn) = model_.arm(p);
+  }
   for (Index a = 0; a < fused; ++a) {
-    Y.block(own + kDim * a, 0, kDim, kDim) = -R.transpose();
-    Y.block(own + kDim * a, moving + kDim * a, kDim, kDim) = R.transpose();
-    if (!invariant)
-      Y.block(own + kDim * a, kDim, kDim, kTurn) = -R.transpose() * Rotation::turn(local(handover.fused[a]) - p);
+    const Index row = first_fused + kDim * a;
+    Y.block(row, 0, kDim, kDim) = -R.transpose();
+    Y.block(row, moving + kDim * a, kDim, kDim) = R.transpose();
+    if (!invariant) Y.block(row, kDim, kDim, kTurn) = -R.transpose() * Rotation::turn(local(handover.fused[a]) - p);
   }
   const Matrix KY = handover.K * Y;
 

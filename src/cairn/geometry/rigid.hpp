@@ -96,6 +96,16 @@ typename Rigid<Rotation>::Tangent pose_error(const Rigid<Rotation>& truth, const
   return error;
 }
 
+// Derivative of pose_error(truth, estimate) by the ordinary error of `truth`.
+template <class Rotation>
+typename Rigid<Rotation>::Square pose_error_jacobian(const Rigid<Rotation>& truth, const Rigid<Rotation>& estimate) {
+  using Pose = Rigid<Rotation>;
+  typename Pose::Square J = Pose::Square::Identity();
+  J.template bottomRightCorner<Pose::kTurn, Pose::kTurn>() =
+      Rotation::left_jacobian_inverse((truth.rotation() * estimate.rotation().inverse()).log());
+  return J;
+}
+
 // The ordinary error of a product T_a T_b is by_a e_a + by_b e_b: e_p = e_pa + turn(R_a p_b) e_Ra + R_a e_pb and
 // e_R = e_Ra + R_a e_Rb.
 template <class Rotation>

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 
 #include "association/association.hpp"
 #include "association/doubt.hpp"
 #include "core/chi_square.hpp"
 #include "geometry/embedding.hpp"
+#include "map/fixed_base.hpp"
 #include "sensor/sensor.hpp"
 
 namespace cairn {
@@ -29,6 +31,7 @@ class Naming final : public Innovations {
     std::vector<Index> all;
     for (Index i = 0; i < submap.size(); ++i) all.push_back(i);
     to_ordinary(submap, all, noise_);
+    if (submap.base) use_fixes(all);
     nearest_.assign(submap.landmarks.size(), std::numeric_limits<double>::infinity());
     find_known();
     find_candidates();
@@ -73,7 +76,7 @@ class Naming final : public Innovations {
   void covariance(Index a, Index b, double* block) const override {
     const PairCandidate &p = candidates_[a], &q = candidates_[b];
     Eigen::Map<PointSquare> out(block);
-    out = (across(p.landmark, q.landmark) + noise(p.observation, q.observation)).template topLeftCorner<kDim, kDim>();
+    out = (across(p, q) + noise(p.observation, q.observation)).template topLeftCorner<kDim, kDim>();
   }
 
  private:
@@ -95,17 +98,37 @@ class Naming final : public Innovations {
   Matrix3 noise(Index i, Index j) const {
     return Space::up(PointSquare(noise_.block<kDim, kDim>(kDof + kDim * i, kDof + kDim * j)));
   }
-  // J_k P J_l^T of two known landmarks.
-  Matrix3 across(Index k, Index l) const {
-    return image_covariance(P_, known_[k].prediction, k, known_[l].prediction, l);
+  // The prediction of a known landmark as landmark i of the submap, whose estimate may move with the base.
+  Prediction<Pose> prediction(Index i, Index k) const {
+    Prediction<Pose> out = known_[k].prediction;
+    if (gain_.rows() > 0) out.J_z_pose.template topRows<kDim>() -= gain_.middleRows<kDim>(kDof + kDim * i);
+    return out;
+  }
+  // J_a P J_b^T of two pairs, J by the errors of base and landmarks.
+  Matrix3 across(const PairCandidate& a, const PairCandidate& b) const {
+    return image_covariance(P_, prediction(a.observation, a.landmark), a.landmark,
+                            prediction(b.observation, b.landmark), b.landmark);
+  }
+  Matrix3 covariance_of(const PairCandidate& a) const { return across(a, a) + noise(a.observation, a.observation); }
+
+  // What the fixes told about the base moves the base, and the map around it.
+  void use_fixes(const std::vector<Index>& all) {
+    fixed_.emplace(*submap_.base, submap_.errors);
+    Eigen::MatrixXd cross = submap_.errors.cross.template middleCols<kDof>(submap_.errors.count() - kDof);
+    rows_to_ordinary(submap_, all, cross);
+    gain_ = fixed_->gain(cross);
+    noise_ -= gain_ * cross.transpose();
+    gain_ *= pose_error_jacobian(map_.base(), fixed_->at);
   }
 
   // Finds the candidates for each landmark of the submap among the landmarks of the map, and their joint covariance
   // with the base. Usually the landmarks of the map are at least as certain as the base, so the search radius uses the
   // uncertainty of the base for both.
   void find_known() {
-    const Pose T = map_.base();
-    const typename Pose::Square P = map_.base_covariance();
+    Pose T = map_.base();
+    Eigen::MatrixXd P = map_.base_covariance();
+    std::vector<Point> places;
+    if (fixed_) fixed_->correct(T, places, P);
     std::unordered_map<std::size_t, Index> numbers;
     near_.resize(submap_.landmarks.size());
     std::vector<std::size_t> indices;
@@ -122,9 +145,7 @@ class Naming final : public Innovations {
         const auto [entry, is_new] = numbers.emplace(index, static_cast<Index>(known_.size()));
         if (is_new) {
           Known known{index, {}};
-          const Point l = Space::down(map_.position(index));
-          map_jacobians(T, l, Prediction<Pose>::ByLandmark::Identity(), known.prediction);
-          known.prediction.z = Space::up(Point(T.inverse() * l));
+          places.push_back(Space::down(map_.position(index)));
           known_.push_back(known);
           indices.push_back(index);
         }
@@ -134,16 +155,20 @@ class Naming final : public Innovations {
     const auto n = static_cast<Index>(kDof + kDim * indices.size());
     P_.resize(n, n);
     map_.base_joint_covariance(indices.data(), indices.size(), P_.data());
+    T = map_.base();
+    if (fixed_) fixed_->correct(T, places, P_);
+    for (std::size_t k = 0; k < known_.size(); ++k) {
+      Prediction<Pose>& prediction = known_[k].prediction;
+      map_jacobians(T, places[k], Prediction<Pose>::ByLandmark::Identity(), prediction);
+      prediction.z = Space::up(Point(T.inverse() * places[k]));
+    }
   }
 
   void find_candidates() {
-    std::vector<Matrix3> predicted;
-    for (std::size_t k = 0; k < known_.size(); ++k)
-      predicted.push_back(across(static_cast<Index>(k), static_cast<Index>(k)));
     for (std::size_t i = 0; i < near_.size(); ++i)
       for (const Index k : near_[i]) {
         PairCandidate pair{static_cast<Index>(i), k, 0.0};
-        const Matrix3 S = predicted[k] + noise(pair.observation, pair.observation);
+        const Matrix3 S = covariance_of(pair);
         const Vector3 nu = residual(pair);
         if (!within_bound(nu, S, kDim, new_)) continue;
         pair.distance = squared_distance(nu.data(), S.data(), 3, kDim);
@@ -153,7 +178,7 @@ class Naming final : public Innovations {
   }
 
   bool confusable(const PairCandidate& pair) const {
-    const Matrix3 own = noise(pair.observation, pair.observation), S = across(pair.landmark, pair.landmark) + own;
+    const Matrix3 own = noise(pair.observation, pair.observation), S = covariance_of(pair);
     const Doubt doubt(S, own, kDim, new_);
     if (!doubt.stale()) return false;
     const Vector3& predicted = known_[pair.landmark].prediction.z;
@@ -169,6 +194,8 @@ class Naming final : public Innovations {
   const Submap<Pose>& submap_;
   double gate_, new_;
   Eigen::MatrixXd noise_, P_;
+  std::optional<FixedBase<Pose>> fixed_;  // if there were fixes in the submap
+  Eigen::MatrixXd gain_;                  // of the submap's estimates, by the ordinary error of the base
   std::vector<Known> known_;
   std::vector<std::vector<Index>> near_;  // by landmark of the submap: numbers in known_, nearest first
   std::vector<double> nearest_;           // by landmark of the submap: squared distance, if it is within the bound

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Systematic errors that all submaps of a map share (docs/systematic_errors.md): numbers s. Two submaps that depend on
 // the same error are not independent. Therefore the map holds s, and a submap joins as what it says *given* s, together
-// with what it says about s itself.
+// with what it says about s itself. The error of a submap's base, about which absolute fixes tell, is treated in the
+// same way.
 #pragma once
 
 #include <Eigen/Core>

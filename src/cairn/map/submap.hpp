@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A closed submap: the estimates of the vehicle's end pose and of the landmarks, in the frame of the submap's base,
 // which is the pose at which the submap began. The base is the origin and is known exactly, so a submap is independent
-// of all other submaps, given the systematic errors that they share.
+// of all other submaps, given the systematic errors that they share. Absolute fixes tell where the base is in the map:
+// of a submap that had some, the error of the base is one of the shared errors (docs/submaps.md, "Fixes").
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "ekf/error_model.hpp"
@@ -21,7 +23,10 @@ struct Submap {
   std::vector<std::uint64_t> counts;
   std::vector<typename Pose::Point> landmarks;
   Eigen::MatrixXd covariance;  // of [end pose; landmarks], in the filter's own error coordinates
-  SubmapErrors errors;         // none if the filter estimates no systematic errors
+  SubmapErrors errors;         // none if the filter estimates no systematic errors and had no fixes
+  // Where the base lay in the map when the submap began, if there were fixes: the last kDof of `errors` are the base's
+  // ordinary error against this pose.
+  std::optional<Pose> base;
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(ids.size()); }
 };

@@ -16,8 +16,20 @@ SubmapInnovation<Pose>::SubmapInnovation(const Pose& base, const Eigen::MatrixXd
   for (const Eigen::Index i : locals) seen.push_back(submap.landmarks[static_cast<std::size_t>(i)]);
   const std::vector<Eigen::Index> rows = point_rows<Pose>(locals, Pose::kDof);
   sigma = noise(rows, rows);
-  linearise(base, points, seen);
-  spread(P);
+  Pose corrected = base;
+  std::vector<Point> places = points;
+  Eigen::MatrixXd joint = P;
+  if (submap.base) {
+    const FixedBase<Pose> fixed(*submap.base, submap.errors);
+    Eigen::MatrixXd by_error = submap.errors.cross.middleCols(submap.errors.count() - Pose::kDof, Pose::kDof);
+    rows_to_ordinary(submap, locals, by_error);
+    const Eigen::MatrixXd of_y = by_error(rows, Eigen::all);
+    use(fixed, fixed.gain(of_y));
+    sigma -= gain * of_y.transpose();
+    fixed.correct(corrected, places, joint);
+  }
+  linearise(corrected, places, seen);
+  spread(joint);
 }
 
 template <class Pose>
@@ -34,6 +46,11 @@ void SubmapInnovation<Pose>::linearise(const Pose& base, const std::vector<Point
     by_point = prediction.J_z_landmark.template topRows<kDim>();
     residual.template segment<kDim>(static_cast<Eigen::Index>(kDim * a)) = seen[a] - T_base_map * points[a];
   }
+  if (gain.rows() == 0) return;
+  residual += gain * (pose_error(base, at) - value);
+  const Eigen::MatrixXd by_error = gain * pose_error_jacobian(base, at);
+  for (Eigen::Index a = 0; a < count(); ++a)
+    by_base[static_cast<std::size_t>(a)] -= by_error.template middleRows<kDim>(kDim * a);
 }
 
 template <class Pose>

@@ -9,12 +9,14 @@
 
 #include "linear/joint_gate.hpp"
 #include "linear/robust_loss.hpp"
+#include "map/fixed_base.hpp"
 #include "map/landmarks.hpp"
 #include "map/submap.hpp"
 
 namespace cairn {
 
-// nu = y - R^T (l - p) of the known landmarks, y their estimates in the submap, and S = H P H^T + Sigma.
+// nu = y - R^T (l - p) of the known landmarks, y their estimates in the submap, and S = H P H^T + Sigma. If there were
+// fixes in the submap, y moves by `gain` with the error of the base, and Sigma is that of y given this error.
 template <class Pose>
 struct SubmapInnovation {
   using Point = typename Pose::Point;
@@ -23,12 +25,19 @@ struct SubmapInnovation {
 
   SubmapInnovation() = default;
   // `locals` are the known landmarks in the submap, `points` their places in the map, `P` the joint covariance of
-  // [base; points] and `noise` the submap's covariance with ordinary errors of the known landmarks.
+  // [base; points] and `noise` the submap's covariance with ordinary errors of the known landmarks. What fixes in the
+  // submap told about its base is applied first.
   SubmapInnovation(const Pose& base, const Eigen::MatrixXd& P, const std::vector<Point>& points,
                    const Submap<Pose>& submap, const std::vector<Eigen::Index>& locals, const Eigen::MatrixXd& noise);
 
   // Residual and Jacobians of landmarks that the submap has `seen` at these places.
   void linearise(const Pose& base, const std::vector<Point>& points, const std::vector<Point>& seen);
+  // y depends on the error of the base; before linearise().
+  void use(const FixedBase<Pose>& fixed, Eigen::MatrixXd gain_of_y) {
+    at = fixed.at;
+    value = fixed.value;
+    gain = std::move(gain_of_y);
+  }
   // P H^T and S, from sigma and the joint covariance of [base; points; anything else].
   void spread(const Eigen::MatrixXd& P);
   // H e, the change of the predicted y by errors of [base; points].
@@ -40,6 +49,10 @@ struct SubmapInnovation {
   Eigen::MatrixXd cross;        // P H^T
   std::vector<ByBase> by_base;  // of the predicted y, by the error [dp; dtheta] of the base
   ByPoint by_point;             // and by the error of its own place in the map
+  // Of y, by the error of the base against `at`; no rows if there were no fixes. y is right where the error is `value`.
+  Eigen::MatrixXd gain;
+  Pose at;
+  typename Pose::Tangent value;
 };
 
 // The known landmarks as a batch for gate_blocks().

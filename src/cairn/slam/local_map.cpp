@@ -12,7 +12,8 @@ LocalMap<Pose>::LocalMap(Arena& arena, const FilterOptions<Pose>& options)
       systematic_(options.systematic, !options.single_map()),
       state_(arena, options.error,
              {options.slots(), options.max_observations, options.max_companions,
-              systematic_.states() + (options.single_map() ? 1 : 2) * options.max_sensor_errors}),
+              systematic_.states() + (options.single_map() ? 1 : 2) * options.max_sensor_errors +
+                  (options.single_map() ? 0 : kDof)}),
       table_(arena, options.slots(), options.local_landmarks()) {}
 
 template <class Pose>
@@ -21,8 +22,9 @@ void LocalMap<Pose>::start(const Pose& pose, const Square& covariance) {
 }
 
 template <class Pose>
-void LocalMap<Pose>::start(const Pose& pose, const Square& covariance, const double* values, const double* errors) {
-  systematic_.start(state_, pose, covariance, values, errors);
+void LocalMap<Pose>::start(const Pose& pose, const Square& covariance, const double* values, const double* errors,
+                           const Square* base) {
+  systematic_.start(state_, pose, covariance, values, errors, base);
   table_.clear();
   ++starts_;
 }

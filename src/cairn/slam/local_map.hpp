@@ -25,8 +25,12 @@ class LocalMap final : public Landmarks {
   LocalMap(Arena& arena, const FilterOptions<Pose>& options);
   std::uint64_t starts() const { return starts_; }         // how often it has started
   void start(const Pose& pose, const Square& covariance);  // forgets all landmarks, companions and systematic errors
-  // The same, with these values and this covariance of the systematic errors. Allocates nothing.
-  void start(const Pose& pose, const Square& covariance, const double* values, const double* errors);
+  // The same, with these values and this covariance of the systematic errors, and of the error of the submap's base if
+  // `base` is given. Allocates nothing.
+  void start(const Pose& pose, const Square& covariance, const double* values, const double* errors,
+             const Square* base = nullptr);
+  // Whether the error of the submap's base is a state; its numbers follow those of the systematic errors.
+  bool knows_base() const { return state_.systematic() > systematic_.states(); }
 
   State<Pose>& state() { return state_; }
   const State<Pose>& state() const { return state_; }

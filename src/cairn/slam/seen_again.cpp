@@ -32,6 +32,12 @@ void keep_only(const std::vector<Eigen::Index>& left, CommonPlaces<Pose>& common
   keep_points(common.in_submap);
   keep_rows(common.P);
   keep_rows(common.Sigma);
+  if (!common.fixed) return;
+  std::vector<Eigen::Index> rows(Pose::kDof);
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  const std::vector<Eigen::Index> of_left = point_rows<Pose>(left, Pose::kDof);
+  rows.insert(rows.end(), of_left.begin(), of_left.end());
+  common.gain = Eigen::MatrixXd(common.gain(rows, Eigen::all));
 }
 
 template <class Pose>
@@ -39,6 +45,7 @@ SubmapInnovation<Pose> innovation_at(const Pose& base, const CommonPlaces<Pose>&
   const Eigen::Index m = common.Sigma.rows() - Pose::kDof;
   SubmapInnovation<Pose> innovation;
   innovation.sigma = common.Sigma.bottomRightCorner(m, m);
+  if (common.fixed) innovation.use(*common.fixed, common.gain.bottomRows(m));
   innovation.linearise(base, common.in_map, common.in_submap);
   innovation.spread(common.P);
   return innovation;
@@ -53,7 +60,7 @@ SeenAgain<Pose>::SeenAgain(const FilterOptions<Pose>& options)
 template <class Pose>
 typename SeenAgain<Pose>::Given SeenAgain<Pose>::given(const GlobalMap<Pose>& map, const State<Pose>& open,
                                                        const Commons& landmarks, const std::size_t* indices,
-                                                       std::size_t count) {
+                                                       std::size_t count, const std::optional<FixedBase<Pose>>& fixed) {
   CommonPlaces<Pose> common;
   std::vector<Index> slots;
   for (const CommonLandmark& landmark : landmarks) {
@@ -64,17 +71,55 @@ typename SeenAgain<Pose>::Given SeenAgain<Pose>::given(const GlobalMap<Pose>& ma
   const auto size = static_cast<Eigen::Index>(kDof + kDim * slots.size()),
              rest = static_cast<Eigen::Index>(kDim * count);
   common.P = joint(map, landmarks, indices, count);
-  common.Sigma.resize(size, size);
-  open.gather_ordinary(slots.data(), static_cast<Index>(slots.size()), common.Sigma.data(), size);
-
   Given given{map.base(), open.pose(), Matrix::Zero(2 * kDof + rest, 2 * kDof + rest)};
+  given.covariance.bottomRightCorner(rest, rest) = common.P.bottomRightCorner(rest, rest);
+  if (fixed) {
+    common.fixed = fixed;
+    gather_given_base(open, slots, common);
+    fixed->correct(given.base, common.in_map, common.P);
+  } else {
+    common.Sigma.resize(size, size);
+    open.gather_ordinary(slots.data(), static_cast<Index>(slots.size()), common.Sigma.data(), size);
+  }
   given.covariance.template topLeftCorner<kDof, kDof>() = common.P.template topLeftCorner<kDof, kDof>();
   given.covariance.template block<kDof, kDof>(kDof, kDof) = common.Sigma.template topLeftCorner<kDof, kDof>();
   given.covariance.bottomLeftCorner(rest, kDof) = common.P.bottomLeftCorner(rest, kDof);
   given.covariance.topRightCorner(kDof, rest) = common.P.topRightCorner(kDof, rest);
-  given.covariance.bottomRightCorner(rest, rest) = common.P.bottomRightCorner(rest, rest);
+  if (fixed) correct(common, given);
   if (!landmarks.empty()) condition(std::move(common), given);
   return given;
+}
+
+// The part of the open submap, given the error of its base.
+template <class Pose>
+void SeenAgain<Pose>::gather_given_base(const State<Pose>& open, const std::vector<Index>& slots,
+                                        CommonPlaces<Pose>& common) const {
+  const auto count = static_cast<Index>(slots.size()), first = kDof + open.systematic();
+  Matrix joint(first + kDim * count, first + kDim * count);
+  open.gather_systematic(slots.data(), count, joint.data(), joint.rows(), true);
+  std::vector<Index> rows;
+  for (Index row = 0; row < joint.rows(); ++row)
+    if (row < kDof || row >= first) rows.push_back(row);
+  const Matrix cross = joint.middleCols<kDof>(first - kDof)(rows, Eigen::all);
+  common.gain = common.fixed->gain(cross);
+  common.Sigma = joint(rows, rows) - common.gain * cross.transpose();
+}
+
+// The vehicle in the submap moves with the base.
+template <class Pose>
+void SeenAgain<Pose>::correct(const CommonPlaces<Pose>& common, Given& given) const {
+  const FixedBase<Pose>& fixed = *common.fixed;
+  const Vector moved = common.gain.template topRows<kDof>() * (fixed.error(given.base) - fixed.value);
+  given.vehicle = retract(given.vehicle, typename Pose::Tangent(moved));
+  const Square A = vehicle_by_base(common, given.base);
+  Matrix& covariance = given.covariance;
+  const Index rest = covariance.rows() - 2 * kDof;
+  const Square P = covariance.template topLeftCorner<kDof, kDof>();
+  covariance.template block<kDof, kDof>(kDof, 0) = A * P;
+  covariance.template block<kDof, kDof>(0, kDof) = P * A.transpose();
+  covariance.template block<kDof, kDof>(kDof, kDof) += A * P * A.transpose();
+  covariance.block(kDof, 2 * kDof, kDof, rest) = A * covariance.topRightCorner(kDof, rest);
+  covariance.block(2 * kDof, kDof, rest, kDof) = covariance.block(kDof, 2 * kDof, kDof, rest).transpose();
 }
 
 // The joint covariance of [base; common landmarks; landmarks that were asked for]. The map does not change while a
@@ -111,6 +156,7 @@ void SeenAgain<Pose>::condition(CommonPlaces<Pose> common, Given& given) const {
   SubmapInnovation<Pose> innovation = innovation_at(given.base, common);
   const std::vector<Eigen::Index> left = accepted(innovation);
   if (2 * left.size() <= common.in_map.size()) return;
+  given.agrees = true;
   if (left.size() < common.in_map.size()) {
     keep_only(left, common);
     innovation = innovation_at(given.base, common);
@@ -174,6 +220,8 @@ void SeenAgain<Pose>::correct(const CommonPlaces<Pose>& common, const SubmapInno
   Matrix C(2 * kDof + rest, m);
   C.template topRows<kDof>() = innovation.cross.template topRows<kDof>();
   C.template middleRows<kDof>(kDof) = -common.Sigma.topRightCorner(kDof, m);
+  if (common.fixed)
+    C.template middleRows<kDof>(kDof) += vehicle_by_base(common, given.base) * C.template topRows<kDof>();
   C.bottomRows(rest) = innovation.cross.bottomRows(rest);
   const typename Pose::Tangent e_base = C.template topRows<kDof>() * weights,
                                e_vehicle = C.template middleRows<kDof>(kDof) * weights;

@@ -145,6 +145,13 @@ std::vector<CommonLandmark> SubmapKeeper<Pose>::common() const {
 }
 
 template <class Pose>
+std::uint64_t SubmapKeeper<Pose>::observed_again() const {
+  std::uint64_t sum = 0;
+  for (const CommonLandmark& landmark : common()) sum += local_.table().observations(landmark.slot);
+  return sum;
+}
+
+template <class Pose>
 Submap<Pose> SubmapKeeper<Pose>::take_submap() const {
   const State<Pose>& state = local_.state();
   Submap<Pose> submap;
@@ -162,7 +169,8 @@ Submap<Pose> SubmapKeeper<Pose>::take_submap() const {
   }
   submap.covariance.resize(n, n);
   state.gather(slots.data(), count, submap.covariance.data(), n);
-  if (shares_errors()) submap.errors = take_errors(slots);
+  if (shares()) submap.errors = take_errors(slots);
+  if (fixed()) submap.base = base_;
   return submap;
 }
 
@@ -327,13 +335,24 @@ bool SubmapKeeper<Pose>::moved() const {
 
 template <class Pose>
 FixReport SubmapKeeper<Pose>::fix(const AbsoluteFix<Pose>& fix, double threshold) {
-  return moved() ? join(ClosedBy::fix, &fix, threshold) : map_->fix(fix, threshold);
+  gets_fixes_ = true;
+  if (moved()) return join(ClosedBy::fix, &fix, threshold);
+  const FixReport report = map_->fix(fix, threshold);
+  open();  // at a base that is better known
+  return report;
+}
+
+template <class Pose>
+typename SeenAgain<Pose>::Given SubmapKeeper<Pose>::given(const std::vector<CommonLandmark>& common,
+                                                          const std::size_t* indices, std::size_t count) const {
+  const auto base = fixed() ? std::optional<FixedBase<Pose>>(fixed_base()) : std::nullopt;
+  return seen_again_.given(*map_, local_.state(), common, indices, count, base);
 }
 
 template <class Pose>
 typename SubmapKeeper<Pose>::Place SubmapKeeper<Pose>::place(const std::vector<CommonLandmark>& common,
                                                              const std::size_t* indices, std::size_t count) const {
-  const auto given = seen_again_.given(*map_, local_.state(), common, indices, count);
+  const auto given = this->given(common, indices, count);
   const ProductJacobians J(given.base, given.vehicle);
   const auto landmarks = static_cast<Eigen::Index>(kDim * count);
   Place place{given.base * given.vehicle, Eigen::MatrixXd(kDof + landmarks, kDof + landmarks)};
@@ -357,7 +376,7 @@ typename SubmapKeeper<Pose>::Estimate SubmapKeeper<Pose>::vehicle() const {
     return {own.pose, own.joint};
   }
   const std::vector<CommonLandmark> both = common();
-  if (both.empty())  // no memory is needed
+  if (both.empty() && !fixed())  // no memory is needed
     return {map_->base() * state.pose(),
             ProductJacobians(map_->base(), state.pose()).covariance(map_->base_covariance(), state.pose_covariance())};
   const Place own = place(both, nullptr, 0);
@@ -395,8 +414,9 @@ typename Trajectory<Pose>::Open SubmapKeeper<Pose>::open_submap() const {
   const State<Pose>& state = local_.state();
   if (map_ == nullptr || trajectory_.capacity() == 0) return {};
   const std::vector<CommonLandmark> both = shares_errors() ? std::vector<CommonLandmark>() : common();
-  if (both.empty()) return {map_->base(), map_->base() * state.pose(), state.pose(), state.pose_covariance()};
-  const auto given = seen_again_.given(*map_, state, both, nullptr, 0);
+  if (both.empty() && !fixed())
+    return {map_->base(), map_->base() * state.pose(), state.pose(), state.pose_covariance()};
+  const auto given = this->given(both, nullptr, 0);
   return {given.base, given.base * given.vehicle, state.pose(), state.pose_covariance()};
 }
 

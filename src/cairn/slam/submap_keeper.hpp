@@ -55,9 +55,19 @@ class SubmapKeeper {
   // --- closing --- throws with nothing changed
   void close();
   void close_if_full();  // a closing that fails leaves the submap open, and later frames try again
-  // The map's base gets an absolute fix. The open submap has no pose in the map as a state. Therefore it is closed, so
-  // that the vehicle's pose is the base.
+  // The map's base gets an absolute fix, after the open submap is closed, so that the vehicle's pose is the base. From
+  // then on the error of its base is a state of each submap that begins (docs/submaps.md, "Fixes").
   FixReport fix(const AbsoluteFix<Pose>& fix, double threshold);
+  // An absolute fix that updates the open submap and its base together: whether it can be one, what fills the update,
+  // and that the update has used it.
+  bool takes(const AbsoluteFix<Pose>& fix) const;
+  bool fill_fix(EkfUpdate<Pose>& update, const AbsoluteFix<Pose>& fix, double* residual_only) const;
+  void note_fix() { ++fixes_; }
+  Pose base() const;  // as the open submap knows it, if it takes fixes
+  // Landmarks that the open submap and the map have in common: how often the submap has observed them, and whether they
+  // agree with where the map has them.
+  std::uint64_t observed_again() const;
+  bool agrees_with_map() const { return given(common(), nullptr, 0).agrees; }
   const ClosingReport& closing() const { return closing_; }
 
   // --- the vehicle in the map that the caller sees --- errors of base and open submap are independent, given the
@@ -83,10 +93,16 @@ class SubmapKeeper {
     Pose pose;
     Eigen::MatrixXd joint;
   };
+  typename SeenAgain<Pose>::Given given(const std::vector<CommonLandmark>& common, const std::size_t* indices,
+                                        std::size_t count) const;
   Place place(const std::vector<CommonLandmark>& common, const std::size_t* indices, std::size_t count) const;
   Place place_with_errors(const std::size_t* indices, std::size_t count) const;
   bool shares_errors() const { return map_ != nullptr && local_.systematic().any(); }
+  // Whether what the open submap tells depends on numbers that it shares with the map.
+  bool shares() const { return shares_errors() || fixed(); }
+  bool fixed() const { return fixes_ > 0; }
   SubmapErrors take_errors(const std::vector<Index>& slots) const;
+  FixedBase<Pose> fixed_base() const;
   void open();                         // a new submap; after a closing it does not fail
   std::vector<Index> joining() const;  // slots of the landmarks that join the map
   std::vector<CommonLandmark> common() const;
@@ -110,6 +126,10 @@ class SubmapKeeper {
   Eigen::MatrixXd prior_covariance_;  // of the same
   Eigen::VectorXd next_prior_;        // of the next submap
   Eigen::MatrixXd next_covariance_;
+  bool gets_fixes_ = false;  // the error of the base is a state of the submaps from the next one on
+  int fixes_ = 0;            // that the open submap has used
+  Pose base_;                // of the open submap, when it began
+  Square base_covariance_ = Square::Zero();
   ClosingReport closing_;
 };
 

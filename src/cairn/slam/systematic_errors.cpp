@@ -18,7 +18,7 @@ SystematicErrors::SystematicErrors(const SystematicOptions& options, bool submap
 }
 
 void SystematicErrors::make_room() {
-  const auto n = static_cast<std::size_t>(states_);
+  const auto n = static_cast<std::size_t>(states_ + kBase);
   numbers_.resize(n);
   walks_.resize(n);
   joint_.resize(n * n);
@@ -60,8 +60,10 @@ double SystematicErrors::sum(const double* covariance, Index ld, Index i, Index 
 
 template <class Pose>
 void SystematicErrors::start(State<Pose>& state, const Pose& pose, const typename Pose::Square& covariance,
-                             const double* values, const double* errors) {
-  const auto n = static_cast<std::size_t>(states_);
+                             const double* values, const double* errors, const typename Pose::Square* base) {
+  static_assert(Pose::kDof <= kBase);
+  const Index states = states_ + (base != nullptr ? Pose::kDof : 0);
+  const auto n = static_cast<std::size_t>(states);
   std::fill(numbers_.begin(), numbers_.end(), 0.0);
   std::fill(walks_.begin(), walks_.end(), 0.0);
   std::fill(joint_.begin(), joint_.end(), 0.0);
@@ -73,7 +75,10 @@ void SystematicErrors::start(State<Pose>& state, const Pose& pose, const typenam
     for (std::size_t j = 0; j < errors_.size(); ++j)
       joint_[at * n + static_cast<std::size_t>(errors_[j].start)] = errors[i * errors_.size() + j];
   }
-  state.start(pose, covariance, {states_, motion_states_, numbers_.data(), walks_.data(), joint_.data()});
+  if (base != nullptr)
+    Eigen::Map<Eigen::MatrixXd>(joint_.data(), states, states).template bottomRightCorner<Pose::kDof, Pose::kDof>() =
+        *base;
+  state.start(pose, covariance, {states, motion_states_, numbers_.data(), walks_.data(), joint_.data()});
 }
 
 template <class Pose>
@@ -102,8 +107,10 @@ MotionCoupling<Pose> SystematicErrors::coupling(const CorrectedStep<Pose>& step,
   return coupling;
 }
 
-template void SystematicErrors::start(State<SE2>&, const SE2&, const SE2::Square&, const double*, const double*);
-template void SystematicErrors::start(State<SE3>&, const SE3&, const SE3::Square&, const double*, const double*);
+template void SystematicErrors::start(State<SE2>&, const SE2&, const SE2::Square&, const double*, const double*,
+                                      const SE2::Square*);
+template void SystematicErrors::start(State<SE3>&, const SE3&, const SE3::Square&, const double*, const double*,
+                                      const SE3::Square*);
 template double SystematicErrors::value(const State<SE2>&, Index) const;
 template double SystematicErrors::value(const State<SE3>&, Index) const;
 template MotionErrors SystematicErrors::motion(const State<SE2>&) const;

@@ -37,10 +37,12 @@ class SystematicErrors {
   std::vector<double> initial_values() const { return std::vector<double>(errors_.size(), 0.0); }
   std::vector<double> initial_covariance() const;
 
-  // Starts a state with these values and this covariance (count() x count()) of the errors. Allocates nothing.
+  // Starts a state with these values and this covariance (count() x count()) of the errors. With `base`, the error of
+  // the submap's base [dp; dtheta] is a state, too, behind the others: it is zero, independent of them, and has this
+  // covariance. Allocates nothing.
   template <class Pose>
   void start(State<Pose>& state, const Pose& pose, const typename Pose::Square& covariance, const double* values,
-             const double* errors);
+             const double* errors, const typename Pose::Square* base = nullptr);
   // The estimate of one error, and of all errors of the motion.
   template <class Pose>
   double value(const State<Pose>& state, Index error) const;
@@ -93,6 +95,7 @@ class SystematicErrors {
   void make_room();
 
   std::vector<Error> errors_;
+  static constexpr Index kBase = 6;              // states of a base at most
   std::vector<double> numbers_, walks_, joint_;  // scratch of start()
   bool submaps_;
   Index states_ = 0, motion_states_ = 0;

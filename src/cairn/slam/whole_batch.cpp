@@ -5,11 +5,25 @@
 #include <algorithm>
 #include <exception>
 #include <optional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "ekf/fix_rows.hpp"
 
 namespace cairn {
+namespace {
+
+// S of a fix of a vehicle at `pose` with this covariance.
+template <class Pose>
+Matrix3 innovation_of(const AbsoluteFix<Pose>& fix, const Pose& pose, const typename Pose::Square& covariance) {
+  const Index rows = fix.rows();
+  const auto J = fix.jacobian(pose);
+  Matrix3 S = fix.covariance();
+  S.topLeftCorner(rows, rows) += J.topRows(rows) * covariance * J.topRows(rows).transpose();
+  return S;
+}
+
+}  // namespace
 
 template <class Pose>
 WholeBatchUpdate<Pose>::WholeBatchUpdate(Arena& arena, const FilterOptions<Pose>& options, LocalMap<Pose>& map,
@@ -67,17 +81,12 @@ void WholeBatchUpdate<Pose>::finish_report(Index rows) {
   health_.fixed(rows, distance, refused);
 }
 
-// Whether the motion has to be widened because of this fix, of a vehicle at `pose`.
+// Whether the motion has to be widened because of this fix.
 template <class Pose>
-bool WholeBatchUpdate<Pose>::contradicted(MotionTrust<Pose>& trust, const AbsoluteFix<Pose>& fix, const Pose& pose,
-                                          const Square& covariance, bool accepted, Widening<Pose>& widening) {
-  const Index rows = fix.rows();
-  const Vector3 residual = fix.residual(pose);
-  typename Witness<Pose>::ByPose J = fix.jacobian(pose);
-  Matrix3 S = fix.covariance();
-  S.topLeftCorner(rows, rows) += J.topRows(rows) * covariance * J.topRows(rows).transpose();
+bool WholeBatchUpdate<Pose>::contradicted(MotionTrust<Pose>& trust, Index rows, const Statement& fix, bool accepted,
+                                          Widening<Pose>& widening) {
   trust.hear_nobody();
-  trust.hear(static_cast<int>(rows), kNoId - ++fixes_, pose, residual.data(), J, S.data(), 3);
+  trust.hear(static_cast<int>(rows), kNoId - ++fixes_, fix.pose, fix.residual.data(), fix.J, fix.S.data(), 3);
   return trust.contradicted(accepted, widening);
 }
 
@@ -91,29 +100,47 @@ void WholeBatchUpdate<Pose>::fix(const AbsoluteFix<Pose>& given) {
     log_.say("update: no heading, because the body's x axis may be vertical");
     return report_.finish();
   }
-  if (submaps_.map() != nullptr) return fix_map(*fix);
-  return fix_single(*fix);
+  if (submaps_.map() == nullptr || submaps_.takes(*fix)) return fix_state(*fix, vehicle.covariance);
+  return fix_map(*fix);
 }
 
+// Whether landmarks of the map that the open submap has observed since the last fix speak for the place of both,
+// against a fix that was refused.
 template <class Pose>
-void WholeBatchUpdate<Pose>::fix_single(const AbsoluteFix<Pose>& fix) {
+bool WholeBatchUpdate<Pose>::landmarks_support() {
+  const std::uint64_t before = std::exchange(observed_again_, submaps_.observed_again());
+  return observed_again_ > before && !accepted() && submaps_.agrees_with_map();
+}
+
+// A fix of the state's pose: that of the vehicle with a single map, and in the open submap beside others. `covariance`:
+// of the vehicle in the map.
+template <class Pose>
+void WholeBatchUpdate<Pose>::fix_state(const AbsoluteFix<Pose>& fix, const Square& covariance) {
   State<Pose>& state = map_.state();
+  const bool in_submap = submaps_.map() != nullptr;
   trust_.begin(map_.starts());
   PendingRestore<Pose> restore(state);
   std::optional<EkfUpdate<Pose>> update;
-  const auto fill = [&](double* residual_only) { return fill_fix(*update, fix, residual_only); };
+  const auto fill = [&](double* residual_only) {
+    return in_submap ? submaps_.fill_fix(*update, fix, residual_only) : fill_fix(*update, fix, residual_only);
+  };
   const auto attempt = [&] {
     update.emplace(state, typename State<Pose>::Window());
     test(*update, fix.rows(), kNoId, fill);
   };
   attempt();
+  if (in_submap && landmarks_support()) trust_.agree();
   Widening<Pose> widening;
-  if (contradicted(trust_, fix, state.pose(), state.pose_covariance(), accepted(), widening)) {
+  const Pose base = in_submap ? submaps_.base() : Pose(), T = base * state.pose();
+  const Statement statement{state.pose(), fix.residual(T), fix.jacobian(T) * Pose::turn_axes(base.rotation()),
+                            innovation_of(fix, T, covariance)};
+  if (contradicted(trust_, fix.rows(), statement, accepted(), widening)) {
     widen(state, widening.covariance);
     report_.widened<Pose>(widening.covariance);
     attempt();
   }
   finish(*update, options_.iterations, fill);
+  if (in_submap && matched()) submaps_.note_fix();
   restore.release();
   trust_.commit();
 }
@@ -130,7 +157,9 @@ FixReport WholeBatchUpdate<Pose>::try_fix(const AbsoluteFix<Pose>& fix) {
   if (supported) trust_in_map_.agree();
   Widening<Pose> widening;
   const auto vehicle = submaps_.vehicle();
-  const bool wider = contradicted(trust_in_map_, fix, vehicle.pose, vehicle.covariance, first.accepted, widening);
+  const Statement statement{vehicle.pose, fix.residual(vehicle.pose), fix.jacobian(vehicle.pose),
+                            innovation_of(fix, vehicle.pose, vehicle.covariance)};
+  const bool wider = contradicted(trust_in_map_, fix.rows(), statement, first.accepted, widening);
   if (!wider || first.accepted) {  // an accepted fix has been used: a second time would count it twice
     trust_in_map_.commit();
     return first;

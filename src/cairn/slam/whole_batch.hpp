@@ -36,12 +36,20 @@ class WholeBatchUpdate {
   template <class Fill>
   void finish(EkfUpdate<Pose>& update, int iterations, Fill&& fill);
   bool accepted() { return report_.match(0).distance <= std::min(report_.match(0).threshold, kAbsurdDistance); }
-  void fix_single(const AbsoluteFix<Pose>& fix);
+  void fix_state(const AbsoluteFix<Pose>& fix, const Square& covariance);
   void fix_map(const AbsoluteFix<Pose>& fix);
   void finish_report(Index rows);
   FixReport try_fix(const AbsoluteFix<Pose>& fix);
-  bool contradicted(MotionTrust<Pose>& trust, const AbsoluteFix<Pose>& fix, const Pose& pose, const Square& covariance,
-                    bool accepted, Widening<Pose>& widening);
+  // A fix as a witness, of a vehicle at `pose` in the axes of the trust's record; S of the residual, by the pose.
+  struct Statement {
+    Pose pose;
+    Vector3 residual;
+    typename Witness<Pose>::ByPose J;
+    Matrix3 S;
+  };
+  bool landmarks_support();
+  bool contradicted(MotionTrust<Pose>& trust, Index rows, const Statement& statement, bool accepted,
+                    Widening<Pose>& widening);
   void find_window(const LinearRows& rows);
   bool matched() const { return report_.matches()[0].decision == Decision::matched; }
 
@@ -57,6 +65,7 @@ class WholeBatchUpdate {
   IdTable ids_;    // of the landmarks that the caller's rows depend on
   Index* window_;  // slots
   std::uint64_t fixes_ = 0;
+  std::uint64_t observed_again_ = 0;  // at the last fix in the open submap
 };
 
 extern template class WholeBatchUpdate<SE2>;

@@ -177,7 +177,7 @@ pub const CAIRN_CLOSED_BY_DISTANCE: cairn_closed_by = 3;
 pub const CAIRN_CLOSED_BY_EXTENT: cairn_closed_by = 4;
 /// submap_sigma
 pub const CAIRN_CLOSED_BY_SIGMA: cairn_closed_by = 5;
-/// an absolute position, attitude or heading was given
+/// an absolute position, attitude or heading could not be taken in otherwise
 pub const CAIRN_CLOSED_BY_FIX: cairn_closed_by = 6;
 
 /// The verdict on a filter.
@@ -1966,7 +1966,8 @@ extern "C" {
         error: *mut cairn_error
     ) -> cairn_status;
     /// Pose of the open submap's origin in the map, and the covariance of its error \[dp; dtheta\] (6x6 row-major);
-    /// each may be NULL. With a single map: identity and zero.
+    /// each may be NULL. That is what the closed submaps tell: landmarks that the open submap sees again, and fixes in
+    /// it, correct cairn_filter_pose at once and the origin at the closing. With a single map: identity and zero.
     pub fn cairn_filter_base_pose(
         filter: *const cairn_filter,
         pose: *mut cairn_pose,

@@ -107,7 +107,9 @@ impl Filter {
 
     //~ cairn_filter_base_pose
     /// Pose of the open submap's origin in the map, and the covariance of its error \[dp; dtheta\] (6x6 row-major).
-    /// With a single map: identity and zero.
+    /// That is what the closed submaps tell: landmarks that the open submap sees again, and fixes in it, correct
+    /// [`Filter::pose`](crate::Filter::pose) at once and the origin at the closing. With a single map: identity and
+    /// zero.
     ///
     /// Complexity: O(1).
     ///

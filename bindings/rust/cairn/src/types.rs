@@ -370,7 +370,7 @@ impl ClosedBy {
     pub const EXTENT: ClosedBy = ClosedBy(4);
     /// submap_sigma
     pub const SIGMA: ClosedBy = ClosedBy(5);
-    /// an absolute position, attitude or heading was given
+    /// an absolute position, attitude or heading could not be taken in otherwise
     pub const FIX: ClosedBy = ClosedBy(6);
 }
 

@@ -401,8 +401,9 @@ class Filter : public detail::Owner<detail::FilterKind> {
   PoseEstimate local_pose() const { return estimate(cairn_filter_local_pose); }
 
   //~ cairn_filter_base_pose
-  /// Pose of the open submap's origin in the map, and the covariance of its error [dp; dtheta] (6x6 row-major). With a
-  /// single map: identity and zero.
+  /// Pose of the open submap's origin in the map, and the covariance of its error [dp; dtheta] (6x6 row-major). That is
+  /// what the closed submaps tell: landmarks that the open submap sees again, and fixes in it, correct Filter::pose at
+  /// once and the origin at the closing. With a single map: identity and zero.
   ///
   /// Throws Error: Status::kErrorArgument.
   ///

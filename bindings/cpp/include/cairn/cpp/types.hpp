@@ -338,7 +338,7 @@ enum class ClosedBy : std::int32_t {
   kExtent = CAIRN_CLOSED_BY_EXTENT,
   /// submap_sigma
   kSigma = CAIRN_CLOSED_BY_SIGMA,
-  /// an absolute position, attitude or heading was given
+  /// an absolute position, attitude or heading could not be taken in otherwise
   kFix = CAIRN_CLOSED_BY_FIX,
 };
 

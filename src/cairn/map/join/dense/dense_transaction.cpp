@@ -58,21 +58,29 @@ class DenseTransaction<Pose>::FusingUpdate {
   bool fill(double* residual_only) {
     Batch& batch = update_->batch();
     const Pose T = update_->pose();
+    const Index systematic = K_.cols() - (submap_.base ? kDof : 0);
     if (residual_only == nullptr) batch.clear();
     for (std::size_t a = 0; a < pairs_.size(); ++a) {
       const Point l = update_->landmark(static_cast<Index>(a));
       Point residual = submap_.landmarks[pairs_[a].local] - T.inverse() * l;
       const auto by_errors = K_.middleRows<kDim>(kDof + kDim * pairs_[a].local);
-      for (Index i = 0; i < K_.cols(); ++i)
+      for (Index i = 0; i < systematic; ++i)
         residual += by_errors.col(i) * (update_->systematic(i) - submap_.errors.value(i));
+      if (submap_.base)
+        residual += by_errors.template rightCols<kDof>() *
+                    (pose_error(T, *submap_.base) - submap_.errors.value.template tail<kDof>());
       double* target = residual_only != nullptr ? residual_only : batch.residual();
       std::copy_n(residual.data(), kDim, target + kDim * a);
       if (residual_only != nullptr) continue;
       Prediction<Pose> prediction;
       map_jacobians(T, l, Prediction<Pose>::ByLandmark::Identity(), prediction);
+      if (submap_.base)
+        prediction.J_z_pose.template topRows<kDim>() -=
+            by_errors.template rightCols<kDof>() * pose_error_jacobian(T, *submap_.base);
       const Index row = batch.add_rows(kDim);
-      const auto pose = update_->add_pose_block(row, kDim, prediction.J_z_pose, true);
-      if (K_.cols() > 0) update_->add_systematic_block(row, kDim, Eigen::MatrixXd(-by_errors), 0, K_.cols());
+      const auto pose = update_->add_pose_block(row, kDim, prediction.J_z_pose, !submap_.base);
+      if (systematic > 0)
+        update_->add_systematic_block(row, kDim, Eigen::MatrixXd(-by_errors.leftCols(systematic)), 0, systematic);
       update_->add_landmark_block(row, kDim, prediction.J_z_landmark, static_cast<Index>(a), pose);
     }
     if (residual_only != nullptr) return true;
@@ -112,21 +120,27 @@ GivenErrors DenseTransaction<Pose>::split_errors(const Submap<Pose>& submap) con
   return given;
 }
 
-// The map learns what the submap found out about the systematic errors.
+// The map learns what the submap found out about the systematic errors and its base.
 template <class Pose>
-void DenseTransaction<Pose>::learn_errors(const SubmapErrors& errors) {
-  const ErrorRows found = found_out(errors);
-  const Index rows = found.rows.rows(), g = errors.count();
+void DenseTransaction<Pose>::learn_errors(const Submap<Pose>& submap) {
+  const ErrorRows found = found_out(submap.errors);
+  const Index rows = found.rows.rows(), g = submap.errors.count() - (submap.base ? kDof : 0);
   if (rows == 0) return;
   EkfUpdate<Pose> update = map_.state_.begin({});
   update.linearise([&](double* residual_only) {
     Eigen::VectorXd residual = found.values;
     for (Index i = 0; i < g; ++i) residual -= found.rows.col(i) * update.systematic(i);
+    const Pose T = update.pose();
+    if (submap.base) residual -= found.rows.rightCols<kDof>() * pose_error(T, *submap.base);
     std::copy_n(residual.data(), rows, residual_only != nullptr ? residual_only : update.batch().residual());
     if (residual_only != nullptr) return true;
     update.batch().clear();
     const Index row = update.batch().add_rows(rows);
-    update.add_systematic_block(row, rows, found.rows, 0, g);
+    if (submap.base) {
+      const Eigen::MatrixXd by_base = found.rows.rightCols<kDof>() * pose_error_jacobian(T, *submap.base);
+      update.add_pose_block(row, rows, by_base, false);
+    }
+    if (g > 0) update.add_systematic_block(row, rows, found.rows, 0, g);
     double* noise = update.batch().add_noise(row, rows);
     for (Index c = 0; c < rows; ++c)
       for (Index r = 0; r < rows; ++r) noise[c * rows + r] = r == c ? 1.0 : 0.0;
@@ -138,7 +152,7 @@ void DenseTransaction<Pose>::learn_errors(const SubmapErrors& errors) {
 }
 
 // The error of the rest of the submap (end pose, what the systematic errors walked, new landmarks) is K y + w, with the
-// error y of the systematic errors and the fused landmarks.
+// error y of the systematic errors, the base and the fused landmarks.
 template <class Pose>
 typename State<Pose>::Handover DenseTransaction<Pose>::split_rest(const Submap<Pose>& submap,
                                                                   const GivenErrors& given) const {
@@ -161,6 +175,7 @@ typename State<Pose>::Handover DenseTransaction<Pose>::split_rest(const Submap<P
     K.leftCols(given.K.cols()) = given.K(rest, Eigen::all) - handover.K * given.K(of_fused, Eigen::all);
     K.rightCols(handover.K.cols()) = handover.K;
     handover.K.swap(K);
+    handover.by_base = submap.base.has_value();
     handover.walking = map_.options_.errors.walking.data();
     handover.walking_count = submap.errors.walked.size();
     handover.walked = submap.errors.walked;
@@ -174,6 +189,10 @@ template <class Pose>
 void DenseTransaction<Pose>::hand_over(const Submap<Pose>& submap, typename State<Pose>::Handover& handover,
                                        const Eigen::VectorXd& shift) {
   const Eigen::VectorXd error = handover.K * shift;
+  if (submap.base) {
+    auto by_base = handover.K.middleCols(submap.errors.count() - kDof, kDof);
+    by_base = (by_base * pose_error_jacobian(map_.base(), *submap.base)).eval();
+  }
   const typename Rotation::Tangent turn = error.segment<kTurn>(kDim);
   const Rotation R = Rotation::exp(turn);
   const typename Rotation::Matrix V = Rotation::translation_jacobian(turn);
@@ -230,10 +249,10 @@ JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
                 fresh_.size(), map_.size(), options.max_landmarks);
   const std::size_t known = pairs_.size();
   const GivenErrors given = split_errors(submap);
-  const Index errors = submap.errors.count();
+  const Index errors = submap.errors.count(), systematic = errors - (submap.base ? kDof : 0);
   if (errors > 0) {
     backup_.emplace(state.backup());
-    learn_errors(submap.errors);
+    learn_errors(submap);
   }
   std::optional<FusingUpdate> fusing;
   if (known > 0) {
@@ -273,13 +292,17 @@ JoinReport DenseTransaction<Pose>::join(const Submap<Pose>& submap) {
   if (!backup_) backup_.emplace(state.backup());
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(errors + static_cast<Eigen::Index>(kDim * pairs_.size()));
   if (!pairs_.empty()) {
-    report_.iterations = fusing->iterate_and_commit({options.iterations, options.iteration_tolerance, true});
+    report_.iterations = fusing->iterate_and_commit({options.iterations, options.iteration_tolerance, !submap.base});
     const Pose T_base_map = state.pose().inverse();
     for (std::size_t a = 0; a < pairs_.size(); ++a)
       shift.segment<kDim>(errors + kDim * static_cast<Eigen::Index>(a)) =
           T_base_map * state.landmark(pairs_[a].slot) - submap.landmarks[pairs_[a].local];
   }
-  for (Index i = 0; i < errors; ++i) shift(i) = state.systematic(i) - submap.errors.value(i);
+  for (Index i = 0; i < systematic; ++i) shift(i) = state.systematic(i) - submap.errors.value(i);
+  if (submap.base) {
+    const Eigen::VectorXd missed = pose_error(state.pose(), *submap.base) - submap.errors.value.template tail<kDof>();
+    shift.segment<kDof>(systematic) = missed;
+  }
   hand_over(submap, handover, shift);
   return report_;
 }

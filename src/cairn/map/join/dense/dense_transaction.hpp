@@ -33,9 +33,9 @@ class DenseTransaction final : public MapTransaction<Pose> {
   };
   class FusingUpdate;
 
-  // A submap given the systematic errors, with the errors of the map's landmarks ordinary.
+  // A submap given the systematic errors and the error of its base, with the errors of the map's landmarks ordinary.
   GivenErrors split_errors(const Submap<Pose>& submap) const;
-  void learn_errors(const SubmapErrors& errors);
+  void learn_errors(const Submap<Pose>& submap);
   void give_way(const Submap<Pose>& submap, const std::vector<Fusing>& fusing);
   typename State<Pose>::Handover split_rest(const Submap<Pose>& submap, const GivenErrors& given) const;
   void hand_over(const Submap<Pose>& submap, typename State<Pose>::Handover& handover, const Eigen::VectorXd& shift);

@@ -36,9 +36,13 @@ FactorErrors factor_errors(const SubmapErrors& errors, const ErrorPoints<Pose>& 
     given.covariance.col(first + w) /= unit;
   }
   out.found = found_out(errors);
-  Eigen::MatrixXd found = Eigen::MatrixXd::Zero(out.found.rows.rows(), points.size());
-  out.value = Eigen::VectorXd::Zero(points.size());
-  out.K = Eigen::MatrixXd::Zero(rows, points.size());
+  const Index base = errors.count() - points.count(), size = points.size() + base;
+  Eigen::MatrixXd found = Eigen::MatrixXd::Zero(out.found.rows.rows(), size);
+  out.value = Eigen::VectorXd::Zero(size);
+  out.K = Eigen::MatrixXd::Zero(rows, size);
+  out.value.tail(base) = errors.value.tail(base);
+  out.K.rightCols(base) = given.K.rightCols(base);
+  found.rightCols(base) = out.found.rows.rightCols(base);
   for (Index i = 0; i < points.count(); ++i) {
     out.value(points.at(i)) = errors.value(i) / points.unit(i);
     out.K.col(points.at(i)) = points.unit(i) * given.K.col(i);

@@ -35,7 +35,8 @@ class ErrorPoints {
   Eigen::Index constant_ = 0, walking_ = 0;
 };
 
-// What a submap tells about systematic errors, in the numbers of ErrorPoints at its base.
+// What a submap tells about systematic errors, in the numbers of ErrorPoints at its base; and, if it had fixes, about
+// the error of its base, which then follows these numbers.
 struct FactorErrors {
   Eigen::VectorXd value;   // at which K was computed
   Eigen::MatrixXd K;       // of [end; landmarks; walked]

@@ -16,7 +16,7 @@ class LeafInformation final : public LeafSource {
   void information(std::uint32_t leaf, double* H, Index ld) const override;
   bool kept(std::uint32_t leaf) const override { return state_.leaves[leaf].place != nullptr; }
   bool absolute(std::uint32_t leaf) const override {
-    return leaf == 0 || state_.solution.anchors.fixes_of(leaf) != nullptr;
+    return leaf == 0 || state_.leaves[leaf].fixed() || state_.solution.anchors.fixes_of(leaf) != nullptr;
   }
 
  private:

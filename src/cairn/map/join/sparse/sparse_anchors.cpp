@@ -15,14 +15,6 @@ typename SparseAnchors<Pose>::Square SparseAnchors<Pose>::prior_information() co
   return scale.asDiagonal() * scaled.ldlt().solve(Square::Identity()) * scale.asDiagonal();
 }
 
-template <class Pose>
-typename SparseAnchors<Pose>::Square SparseAnchors<Pose>::prior_jacobian(const Pose& base) const {
-  Square J = Square::Identity();
-  J.template bottomRightCorner<Pose::kTurn, Pose::kTurn>() =
-      Pose::Rotation::left_jacobian_inverse((base.rotation() * prior_.rotation().inverse()).log());
-  return J;
-}
-
 template class SparseAnchors<SE2>;
 template class SparseAnchors<SE3>;
 

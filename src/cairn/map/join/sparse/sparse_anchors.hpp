@@ -24,7 +24,7 @@ class SparseAnchors {
   void set_prior(const Pose& prior, const Square& covariance) { prior_ = prior, prior_covariance_ = covariance; }
   Square prior_information() const;
   // Derivative of pose_error(base, prior) by the ordinary error of the base.
-  Square prior_jacobian(const Pose& base) const;
+  Square prior_jacobian(const Pose& base) const { return pose_error_jacobian(base, prior_); }
 
   void add(std::uint32_t leaf, const AbsoluteFix<Pose>& fix) { fixes_[leaf].push_back(fix); }
   // Null if there is none.

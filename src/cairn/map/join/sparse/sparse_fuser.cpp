@@ -77,7 +77,8 @@ std::vector<typename SparseFuser<Pose>::Group> SparseFuser<Pose>::plan() {
 
 template <class Pose>
 bool SparseFuser<Pose>::fusible(Number leaf) const {
-  return state_.leaves[leaf].used() && state_.solution.anchors.fixes_of(leaf) == nullptr;
+  return state_.leaves[leaf].used() && !state_.leaves[leaf].fixed() &&
+         state_.solution.anchors.fixes_of(leaf) == nullptr;
 }
 
 // The leaf of the same place: the one with most landmarks in common. Two submaps of one place stay as they are, for

@@ -32,6 +32,11 @@ Matrix6 diagonal(double position, double turn) {
   return variances.asDiagonal();
 }
 
+// The data of the other map's submap: fixes are in its own frame.
+std::shared_ptr<const SubmapData<SE3>> here(const SparseState<SE3>::Leaf& leaf) {
+  return leaf.fixed() ? std::make_shared<const SubmapData<SE3>>(leaf.data->without_base()) : leaf.data;
+}
+
 // Whether a bridge ends at a base that is fixed: the bridge may be the only connection between parts of the map.
 bool anchored(const SparseState<SE3>& state) {
   for (const auto& [leaf, fixes] : state.solution.anchors.fixes()) {
@@ -60,7 +65,9 @@ void SparseMerger::append(MergeReport& report) {
   double before = state_.cost();
   for (const State::Leaf& leaf : other_.leaves) {
     if (leaf.place != nullptr) before += leaf.place->evaluate(other_.place_values(leaf)).cost;
-    if (leaf.factor != nullptr) before += leaf.factor->evaluate(other_.values(leaf, *leaf.factor)).cost;
+    if (leaf.factor == nullptr) continue;
+    const State::Factor factor = leaf.fixed() ? State::Factor(here(leaf), leaf.factor->shared()) : *leaf.factor;
+    before += factor.evaluate(other_.values(leaf, factor)).cost;
   }
   before += append_bases();
   append_leaves();
@@ -133,7 +140,7 @@ void SparseMerger::append_leaves() {
     std::vector<Number> poses;
     for (const Number pose : from.poses) poses.push_back(bases_[pose]);
     const Number leaf = change_.add_leaf(std::move(poses));
-    state_.leaves[leaf].data = from.data;
+    state_.leaves[leaf].data = here(from);
     state_.leaves[leaf].place = from.place;
     leaves_[closed.leaf] = leaf;
     fresh_.push_back(leaf);

@@ -75,7 +75,8 @@ struct SparseState {
     Rotation turned;           // turn since then, carried along with other leaves
     Number saved = 0;
 
-    bool used() const { return data != nullptr || place != nullptr; }  // its number is not free
+    bool used() const { return data != nullptr || place != nullptr; }         // its number is not free
+    bool fixed() const { return data != nullptr && data->base.has_value(); }  // there were fixes in the submap
     Number base() const { return poses[0]; }
     // The landmarks that are variables, and their states of the factor.
     Index shared_count() const {

@@ -65,9 +65,10 @@ SubmapData<Pose>::SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>
       T_base_end(submap.T_base_end),
       ids(submap.ids),
       landmarks(submap.landmarks),
-      points(error_points) {
+      points(error_points),
+      base(submap.base) {
   GivenErrors given{Matrix(submap.covariance.rows(), 0), submap.covariance};
-  if (points.count() > 0) {
+  if (submap.errors.count() > 0) {
     given = given_errors(submap.covariance, submap.errors);
     errors = factor_errors(submap.errors, points, given);
   }
@@ -77,6 +78,26 @@ SubmapData<Pose>::SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>
   const double grain = factor<Pose>(given.covariance).grain;
   if (grain > 0.0) given.covariance.diagonal() *= 1.0 + grain;
   covariance = Packed(given.covariance);
+}
+
+// The base's error becomes one that only the fixes know, and is then eliminated: it goes into the covariance.
+template <class Pose>
+SubmapData<Pose> SubmapData<Pose>::without_base() const {
+  constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  constexpr double kFarthest = 1e3, kWidest = 10.0;  // standard deviations where the fixes told nothing: m, rad
+  SubmapData out = *this;
+  out.base.reset();
+  out.errors = FactorErrors();
+  const Matrix& K = errors.K;
+  typename Pose::Square information = errors.found.rows.transpose() * errors.found.rows;
+  for (int d = 0; d < kDof; ++d)
+    information(d, d) += d < kDim ? 1.0 / (kFarthest * kFarthest) : 1.0 / (kWidest * kWidest);
+  Matrix joint(covariance.size(), covariance.size());
+  for (Index c = 0; c < joint.cols(); ++c)
+    for (Index r = 0; r < joint.rows(); ++r) joint(r, c) = covariance(r, c);
+  joint += K * information.ldlt().solve(Matrix(K.transpose()));
+  out.covariance = Packed(joint);
+  return out;
 }
 
 template <class Pose>
@@ -100,7 +121,7 @@ std::vector<Index> SubmapFactor<Pose>::states() const {
 template <class Pose>
 Vector SubmapFactor<Pose>::residual(const Values& values) const {
   Vector xi = whole_error(values);
-  if (data_->points.count() > 0) xi -= K() * error_shift(values);
+  if (data_->shares()) xi -= K() * error_shift(values);
   return xi;
 }
 
@@ -197,12 +218,18 @@ typename SubmapFactor<Pose>::Evaluation SubmapFactor<Pose>::evaluate(const Value
     gradient.segment<kTurn>(kDim) += J.by_base[i + 1].transpose() * w;
     gradient.segment<kTurn>(kDof + kDim) += J.by_end[i + 1].transpose() * w;
   }
-  if (data_->points.count() == 0) return out;
+  if (!data_->shares()) return out;
   const ErrorRows& found = data_->errors.found;
   const Index size = data_->points.size(), first = column(shared_count());
-  const Vector missed = found.rows * values.errors.head(size) - found.values;
-  gradient.tail(error_columns()) += error_jacobian().transpose() * weight;
-  gradient.segment(first, size) += found.rows.transpose() * missed;
+  const Vector missed = found.rows * error_values(values) - found.values;
+  if (size > 0) {
+    gradient.tail(error_columns()) += error_jacobian().transpose() * weight;
+    gradient.segment(first, size) += found.rows.leftCols(size).transpose() * missed;
+  }
+  if (data_->base) {
+    const Vector force = found.rows.rightCols(kDof).transpose() * missed - K().rightCols(kDof).transpose() * weight;
+    gradient.head<kDof>() += base_jacobian(values).transpose() * force;
+  }
   out.cost += 0.5 * missed.squaredNorm();
   for (Index k = 0; k < error_columns(); ++k) {
     if (uses(k)) continue;
@@ -217,12 +244,13 @@ Matrix SubmapFactor<Pose>::dense_jacobian(const Values& values) const {
   const Jacobian J = jacobian(values, whole_error(values));
   Matrix D = Matrix::Zero(rows(), columns());
   D.rightCols(error_columns()) = error_jacobian();
-  D.block<kTurn, kTurn>(kDim, kDim) = -J.turn;
+  if (data_->base) D.leftCols<kDof>() = -K().rightCols(kDof) * base_jacobian(values);
+  D.block<kTurn, kTurn>(kDim, kDim) -= J.turn;
   D.block<kTurn, kTurn>(kDim, kDof + kDim) = J.turn;
   for (Index i = -1; i < shared_count(); ++i) {
     const Index row = i < 0 ? 0 : kDof + kDim * i;
-    D.block<kDim, kDim>(row, 0) = -J.B;
-    D.block<kDim, kTurn>(row, kDim) = J.by_base[i + 1];
+    D.block<kDim, kDim>(row, 0) -= J.B;
+    D.block<kDim, kTurn>(row, kDim) += J.by_base[i + 1];
     D.block<kDim, kDim>(row, i < 0 ? kDof : column(i)) = J.B;
     D.block<kDim, kTurn>(row, kDof + kDim) = J.by_end[i + 1];
   }
@@ -260,6 +288,7 @@ Matrix SubmapFactor<Pose>::hessian(const Values& values, const std::vector<Rotat
     H.block<kDim, 2 * kDof>(column(j), 0).noalias() = own[j].transpose() * weighted.middleRows<kDim>(kDof + kDim * j);
   put_point_blocks(information, kDof, own, column(0), H);
   if (error_columns() > 0) add_error_hessian(information, weighted, own, H);
+  if (data_->base) add_base_hessian(base_jacobian(values) * Pose::turn_axes(axes[0]), H);
   return H;
 }
 
@@ -279,11 +308,11 @@ typename SubmapFactor<Pose>::Points SubmapFactor<Pose>::place_private(const Valu
   PointSquare R = PointSquare::Identity(), V = R;
   if (data_->error != ErrorKind::standard) {
     Tangent turn = xi.segment<kTurn>(kDim);
-    if (data_->points.count() > 0) turn = whole_error(values).template segment<kTurn>(kDim);
+    if (data_->shares()) turn = whole_error(values).template segment<kTurn>(kDim);
     R = Rotation::exp(turn).matrix();
     V = Rotation::translation_jacobian(turn);
   }
-  if (data_->points.count() > 0) errors += data_->errors.K * error_shift(values);
+  if (data_->shares()) errors += data_->errors.K * error_shift(values);
   const PointSquare base = values.base.rotation().matrix();
   Points positions(kDim, static_cast<Index>(data_->landmarks.size()));
   for (Index i = 0; i < positions.cols(); ++i)
@@ -319,15 +348,22 @@ void SubmapFactor<Pose>::express_private(const std::vector<Index>& landmarks, co
   const PointSquare R = values.base.rotation().matrix();
   const Points placed = place_private(values, xi, weight);
   std::vector<Point> arms;
+  const Matrix without_arms = K;
   for (Index a = 0; a < n; ++a) {
     arms.push_back(placed.col(landmarks[a]) - values.base.translation());
     if (data_->error == ErrorKind::invariant)
       K.block<kDim, kTurn>(kDim * a, kDim) += Rotation::turn(R.transpose() * arms[a]);
   }
   A = K * dense_jacobian(values);
-  if (error_columns() > 0) {  // the arms of the turn do not depend on the systematic errors
+  // The arms of the turn do not depend on the errors that the submap shares with the map.
+  if (error_columns() > 0) {
     A.rightCols(error_columns()) = by_errors;
-    A.middleCols(column(shared_count()), data_->points.size()) += data_->errors.K(rows_of, Eigen::all);
+    A.middleCols(column(shared_count()), data_->points.size()) +=
+        data_->errors.K.leftCols(data_->points.size())(rows_of, Eigen::all);
+  }
+  if (data_->base) {
+    const Matrix own = data_->errors.K.rightCols(kDof)(rows_of, Eigen::all);
+    A.leftCols<kDof>() += (own + (K - without_arms) * this->K().rightCols(kDof)) * base_jacobian(values);
   }
   for (Index a = 0; a < n; ++a) {
     A.middleRows<kDim>(kDim * a) = (R * A.middleRows<kDim>(kDim * a)).eval();

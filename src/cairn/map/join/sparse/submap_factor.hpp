@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "map/join/sparse/error_points.hpp"
@@ -20,6 +21,9 @@ namespace cairn {
 template <class Pose>
 struct SubmapData {
   explicit SubmapData(const Submap<Pose>& submap, const ErrorPoints<Pose>& error_points = {});
+  // The same submap for a map with another frame: what its fixes told about the base is left out, and what they told
+  // about the way stays. Without systematic errors.
+  SubmapData without_base() const;
 
   ErrorKind error;
   Pose T_base_end;
@@ -27,7 +31,10 @@ struct SubmapData {
   std::vector<typename Pose::Point> landmarks;  // in the frame of the base
   ErrorPoints<Pose> points;
   FactorErrors errors;
-  Packed covariance;  // of [end; landmarks; walked] given the systematic errors, own error coordinates
+  std::optional<Pose> base;  // against which its error counts, if the submap had fixes
+  Packed covariance;         // of [end; landmarks; walked] given the shared errors, own error coordinates
+
+  bool shares() const { return points.count() > 0 || base.has_value(); }
 };
 
 // Values of the variables of a factor.
@@ -47,6 +54,7 @@ class SubmapFactor {
   using Vector = Eigen::VectorXd;
   using Rotation = typename Pose::Rotation;
   using PointSquare = typename Rotation::Matrix;
+  using Square = typename Pose::Square;
   using Points = Eigen::Matrix<double, kDim, Eigen::Dynamic>;
   using Data = SubmapData<Pose>;
   using Values = FactorValues<Pose>;
@@ -62,7 +70,7 @@ class SubmapFactor {
   static Eigen::Index column(Eigen::Index shared_landmark) { return 2 * kDof + kDim * shared_landmark; }
   Eigen::Index shared_count() const { return static_cast<Eigen::Index>(shared_.size()); }
 
-  // The error xi of the submap's estimate, given the systematic errors, against the values.
+  // The error xi of the submap's estimate, given the errors that it shares with the map, against the values.
   Vector residual(const Values& values) const;
   Vector weighted(const Vector& residual) const;  // Sigma^-1 xi
   struct Evaluation {
@@ -94,12 +102,16 @@ class SubmapFactor {
   Jacobian jacobian(const Values& values, const Vector& whole_error) const;
   std::vector<Eigen::Index> states() const;
   Eigen::Index error_columns() const { return kDim * data_->points.factor_points(); }
-  Vector error_shift(const Values& values) const;  // of the systematic errors, from where K was computed
-  Matrix K() const;                                // of the rows of the factor
-  bool uses(Eigen::Index number) const;            // a number of the factor's points holds an error
-  Matrix error_jacobian() const;                   // of the residual, by the factor's points
+  Vector error_values(const Values& values) const;  // of the errors that the submap shares with the map
+  Vector error_shift(const Values& values) const;   // of these errors, from where K was computed
+  Matrix K() const;                                 // of the rows of the factor
+  // Of the error of the base, by the base, in a submap that had fixes.
+  Square base_jacobian(const Values& values) const { return pose_error_jacobian(values.base, *data_->base); }
+  bool uses(Eigen::Index number) const;  // a number of the factor's points holds an error
+  Matrix error_jacobian() const;         // of the residual, by the factor's points
   void add_error_hessian(const Matrix& information, const Matrix& weighted_poses,
                          const std::vector<PointSquare>& landmark_axes, Matrix& H) const;
+  void add_base_hessian(const Square& error_by_base, Matrix& H) const;
   Matrix dense_jacobian(const Values& values) const;
 
   std::shared_ptr<const Data> data_;
