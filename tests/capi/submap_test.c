@@ -78,7 +78,7 @@ static void each_reason_closes(void** state) {
     }
 }
 
-static void a_fix_closes_first(void** state) {
+static void the_first_fix_closes(void** state) {
   (void)state;
   for (size_t j = 0; j < LENGTH(joins); ++j)
     for (int kind = 0; kind < 3; ++kind) {
@@ -102,18 +102,55 @@ static void a_fix_closes_first(void** state) {
       if (kind == 0)
         for (int i = 0; i < 3; ++i) assert_true(after[7 * i] <= 1e-4 && after[7 * i] < before[7 * i]);
       if (kind > 0) assert_true(after[35] <= (kind == 1 ? 1.01e-6 : 2e-6) && after[35] < before[35]);
-      /* A second closing right after the first has nothing to close. A drive without landmarks can be closed too. */
-      assert_ok(cairn_filter_update_position(f, course.truth.position, c, NULL, &match, NULL));
-      assert_int_equal(submaps_of(f), 1);
-      ring_frame blind;
-      ring_next(&course, &blind);
-      blind.count = 0;
-      assert_ok(ring_take(f, &blind));
+      /* Later ones do not: at the base, after a drive without landmarks, and after one with some. */
+      for (int later = 0; later < 3; ++later) {
+        ring_frame next;
+        if (later > 0) {
+          ring_next(&course, &next);
+          if (later == 1) next.count = 0;
+          assert_ok(ring_take(f, &next));
+        }
+        diagonal(c, 3, 1e-2);
+        assert_ok(cairn_filter_pose(f, NULL, before, NULL));
+        assert_ok(cairn_filter_update_position(f, course.truth.position, c, NULL, &match, NULL));
+        assert_int_equal(match.result, CAIRN_RESULT_MATCHED);
+        assert_ok(cairn_filter_pose(f, NULL, after, NULL));
+        for (int i = 0; i < 3; ++i) assert_true(after[7 * i] <= 1e-2 && after[7 * i] < before[7 * i]);
+        assert_int_equal(submaps_of(f), 1);
+      }
+      /* The closing knows what they told: the pose stays as good, up to linearisation. */
+      assert_ok(cairn_filter_close_submap(f, NULL));
+      assert_int_equal(last_closing(f).status, CAIRN_OK);
+      assert_int_equal(last_closing(f).landmarks_refused, 0);
+      assert_ok(cairn_filter_pose(f, NULL, before, NULL));
+      for (int i = 0; i < 6; ++i) assert_true(fabs(before[7 * i] - after[7 * i]) <= 0.02 * after[7 * i]);
+      cairn_filter_destroy(f);
+    }
+}
+
+/* A base whose heading is hardly known, and a fix so far away that it is not linear in it: the submap is closed. */
+static void a_fix_far_from_an_uncertain_base_closes(void** state) {
+  (void)state;
+  for (size_t j = 0; j < LENGTH(joins); ++j)
+    for (int known = 0; known < 2; ++known) {
+      ring course;
+      cairn_match match;
+      double c[9], covariance[36];
+      ring_init(&course, 6);
+      cairn_filter_options o = ring_options(&course, 500, joins[j]);
+      if (!known) o.initial_covariance[35] = 0.25;
+      cairn_filter* f = ring_filter(&o);
       diagonal(c, 3, 1e-2);
       assert_ok(cairn_filter_update_position(f, course.truth.position, c, NULL, &match, NULL));
+      assert_int_equal(submaps_of(f), 0); /* the vehicle has not moved */
+      for (int step = 0; step < 10; ++step) ring_drive(&course, &f, 1, 1);
+      assert_ok(cairn_filter_update_position(f, course.truth.position, c, NULL, &match, NULL));
       assert_int_equal(match.result, CAIRN_RESULT_MATCHED);
-      check_report(f, CAIRN_CLOSED_BY_FIX, joins[j]);
-      assert_int_equal(submaps_of(f), 2);
+      assert_int_equal(submaps_of(f), known ? 0 : 1);
+      if (!known) check_report(f, CAIRN_CLOSED_BY_FIX, joins[j]);
+      /* It tells the heading at which the vehicle drove there. */
+      assert_ok(cairn_filter_pose(f, NULL, covariance, NULL));
+      assert_true(covariance[35] < 0.01);
       cairn_filter_destroy(f);
     }
 }
@@ -179,7 +216,8 @@ static void poses_compose(void** state) {
         congruence(to_local, L, from_local);
         for (int i = 0; alone && i < 36; ++i)
           assert_near(P[i], from_base[i] + from_local[i], 1e-9 * sqrt(P[7 * (i / 6)] * P[7 * (i % 6)]) + 1e-18);
-        for (int i = 0; !alone && i < 6; ++i) assert_true(P[7 * i] <= (from_base[7 * i] + from_local[7 * i]) * (1 + 1e-9));
+        for (int i = 0; !alone && i < 6; ++i)
+          assert_true(P[7 * i] <= (from_base[7 * i] + from_local[7 * i]) * (1 + 1e-9));
       }
       assert_true(together > RING_STEPS && together < 2 * RING_STEPS);
       assert_true(submaps_of(f) > 6);
@@ -221,8 +259,7 @@ static void the_pose_knows_what_was_seen_again(void** state) {
           assert_near(before.quaternion[i + 1], after.quaternion[i + 1], same * sqrt(Q[7 * i + 21]));
         }
         for (int r = 0; r < 6; ++r)
-          for (int c = 0; c < 6; ++c)
-            assert_near(P[6 * r + c], Q[6 * r + c], 0.05 * sqrt(Q[7 * r] * Q[7 * c]));
+          for (int c = 0; c < 6; ++c) assert_near(P[6 * r + c], Q[6 * r + c], 0.05 * sqrt(Q[7 * r] * Q[7 * c]));
         if (!ask) continue;
         for (int r = 0; r < 6; ++r)
           for (int c = 0; c < 6; ++c) assert_near(joint[9 * r + c], P[6 * r + c], 1e-9 * sqrt(P[7 * r] * P[7 * c]));
@@ -509,7 +546,8 @@ static void submaps_and_a_single_map_agree(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(each_reason_closes),
-      cmocka_unit_test(a_fix_closes_first),
+      cmocka_unit_test(the_first_fix_closes),
+      cmocka_unit_test(a_fix_far_from_an_uncertain_base_closes),
       cmocka_unit_test(poses_compose),
       cmocka_unit_test(the_pose_knows_what_was_seen_again),
       cmocka_unit_test(the_list_of_submaps),

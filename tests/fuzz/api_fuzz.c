@@ -106,6 +106,7 @@ static void absolute(slot* s) {
   cairn_match m, *out = fuzz_one_in(3) ? NULL : &m;
   fuzz_numbers(z, 3, 5), fuzz_covariance(c, 3, 0.1), fuzz_numbers(lever, 3, 1), fuzz_numbers(q, 4, 1);
   const int kind = (int)fuzz_below(3);
+  s->fixed = true;
   if (kind == 0)
     fuzz_check_status(cairn_filter_update_position(s->filter, fuzz_maybe(z), fuzz_maybe(c),
                                                    fuzz_one_in(2) ? NULL : lever, out, NULL));
@@ -221,8 +222,8 @@ static void ask_submaps(slot* s) {
   HOLDS(cairn_pose_compose(&base, &local, &composed, NULL) == CAIRN_OK, 0);
   size_t mapped = 0;
   HOLDS(cairn_map_size(cairn_filter_map(f), &mapped, NULL) == CAIRN_OK, mapped);
-  /* What submap and map have in common corrects the pose, also what is still deferred. */
-  if (count > 0 && mapped > 0) return;
+  /* What submap and map have in common corrects the pose, also what is still deferred; so do fixes. */
+  if (s->fixed || (count > 0 && mapped > 0)) return;
   for (int i = 0; i < 3; ++i) {
     const double scale =
         1 + fabs(base.position[i]) + fabs(local.position[0]) + fabs(local.position[1]) + fabs(local.position[2]);

@@ -68,6 +68,7 @@ void create_filter(slot* s) {
   slot fresh = {NULL,
                 fuzz_one_in(2),
                 fuzz_one_in(3),
+                false,
                 1 + (uint32_t)fuzz_below(fuzz_one_in(10) ? 120 : 25),
                 1 + (uint32_t)fuzz_below(12),
                 0,

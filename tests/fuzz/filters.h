@@ -8,6 +8,7 @@
 typedef struct slot {
   cairn_filter* filter;
   bool wild, planar;
+  bool fixed; /* an absolute observation was given */
   uint32_t max_landmarks, max_observations;
   int32_t sensors;
   uint32_t rows[64]; /* number of values of an observation, by sensor */

@@ -75,6 +75,28 @@ Submap<Pose> random_submap(Random& random, ErrorKind error, int landmarks) {
   return submap;
 }
 
+// The same with absolute fixes: its base lies at `base`, whose error against Submap::base the submap knows without a
+// contribution of the prior.
+template <class Pose>
+Submap<Pose> fixed_submap(Random& random, ErrorKind error, int landmarks, const Pose& base) {
+  constexpr int kDim = Pose::kDim, kDof = Pose::kDof;
+  const Index n = in_submap<Pose>(landmarks), all = n + kDof;
+  Submap<Pose> submap = random_submap<Pose>(random, error, landmarks);
+  Matrix root(all, all + 4);
+  for (Index i = 0; i < root.size(); ++i) root.data()[i] = random.normal();
+  for (Index r = 0; r < all; ++r) root.row(r) *= (r >= kDim && r < kDof) || r >= n + kDim ? 0.004 : 0.03;
+  const Matrix joint = root * root.transpose();
+  SubmapErrors& errors = submap.errors;
+  submap.covariance = joint.topLeftCorner(n, n);
+  errors.cross = joint.topRightCorner(n, kDof);
+  errors.covariance = joint.bottomRightCorner(kDof, kDof);
+  errors.prior_covariance = 3 * errors.covariance;
+  errors.value = errors.prior = 0.1 * random.normal_vector<kDof>();
+  submap.base = retract(base, typename Pose::Tangent(0.2 * random.normal_vector<kDof>()));
+  errors.value = errors.prior = pose_error(base, *submap.base);
+  return submap;
+}
+
 // The estimates of the submap, seen from a base.
 template <class Pose>
 FactorValues<Pose> own_values(const Submap<Pose>& submap, const Numbers& shared, const Pose& base) {
@@ -259,13 +281,14 @@ TEST_CASE_TEMPLATE("submap factor: private landmarks leave cost and gradient of 
 TEST_CASE_TEMPLATE("submap factor: covariances of private landmarks against the whole problem's", Pose, SE3, SE2) {
   Random random(7);
   for (const ErrorKind error : kKinds)
-    for (int repeat = 0; repeat < 4; ++repeat) {
-      const Submap<Pose> submap = random_submap<Pose>(random, error, 5);
+    for (int repeat = 0; repeat < 6; ++repeat) {
+      const Pose base = random_pose<Pose>(random, 1, 10);
+      const Submap<Pose> submap =
+          repeat < 4 ? random_submap<Pose>(random, error, 5) : fixed_submap<Pose>(random, error, 5, base);
       const auto data = std::make_shared<const SubmapData<Pose>>(submap);
       const Numbers shared = repeat == 0 ? Numbers{} : Numbers{1, 3},
                     privates = repeat == 0 ? Numbers{4, 0, 2} : Numbers{4, 2};
       const SubmapFactor<Pose> part(data, shared), full(data, all_of(submap));
-      const Pose base = random_pose<Pose>(random, 1, 10);
       const FactorValues<Pose> values = own_values(submap, shared, base);
       const FactorValues<Pose> whole = own_values(submap, all_of(submap), base);
       // Other information about base, end and shared landmarks.
@@ -413,4 +436,72 @@ TEST_CASE_TEMPLATE("submap factor: derivatives by systematic errors against diff
         CHECK((change.head(first) - H.row(c).head(first).transpose()).norm() <= 1e-7 * (1 + change.norm()));
       }
     }
+}
+
+TEST_CASE_TEMPLATE("submap factor: derivatives by a base of which fixes tell, against differences", Pose, SE3, SE2) {
+  Random random(13);
+  for (const ErrorKind error : kKinds)
+    for (const double away : {0.0, 0.1, 0.5}) {
+      const Pose base = random_pose<Pose>(random, 1, 20);
+      const Submap<Pose> submap = fixed_submap<Pose>(random, error, 4, base);
+      const SubmapFactor<Pose> factor(std::make_shared<SubmapData<Pose>>(submap), {0, 2});
+      const FactorValues<Pose> values = disturbed(own_values(submap, factor.shared(), base), random, away, away);
+      const typename SubmapFactor<Pose>::Evaluation out = factor.evaluate(values);
+      for (Index c = 0; c < factor.columns(); ++c) {
+        const Vector e = cairn::test::kStep * Vector::Unit(factor.columns(), c);
+        const auto cost = [&](double times) { return factor.evaluate(moved(values, times * e)).cost; };
+        const double slope = (8 * (cost(1) - cost(-1)) - (cost(2) - cost(-2))) / (12 * cairn::test::kStep);
+        CHECK(out.gradient(c) == doctest::Approx(slope).epsilon(1e-5).scale(1 + out.gradient.norm()));
+      }
+      if (away > 0.0) continue;
+      CHECK(out.cost < 1e-20);  // without residual the second derivative of the cost is J^T Sigma^-1 J
+      const Matrix H = whole_hessian(factor, values);
+      for (Index c = 0; c < factor.columns(); ++c) {
+        const Vector e = 1e-5 * Vector::Unit(factor.columns(), c);
+        const Vector change =
+            (factor.evaluate(moved(values, e)).gradient - factor.evaluate(moved(values, -1.0 * e)).gradient) / 2e-5;
+        CHECK((change - H.col(c)).norm() <= 1e-6 * H.norm());
+      }
+    }
+}
+
+TEST_CASE_TEMPLATE("submap factor: without its frame a submap keeps what the fixes told about the way", Pose, SE3,
+                   SE2) {
+  Random random(14);
+  for (const ErrorKind error : kKinds) {
+    const Pose base = random_pose<Pose>(random, 1, 10);
+    const Submap<Pose> submap = fixed_submap<Pose>(random, error, 3, base);
+    const SubmapData<Pose> data(submap), relative = data.without_base();
+    const SubmapFactor<Pose> with(std::make_shared<SubmapData<Pose>>(data), all_of(submap)),
+        without(std::make_shared<SubmapData<Pose>>(relative), all_of(submap));
+    CHECK(!relative.base.has_value());
+    const FactorValues<Pose> values = own_values(submap, all_of(submap), base);
+    const Matrix H = whole_hessian(without, values), G = whole_hessian(with, values);
+    constexpr int kDof = Pose::kDof;
+    // Motions of the whole submap cost nothing any more.
+    Matrix rigid = Matrix::Zero(H.rows(), kDof);
+    rigid.topRows<kDof>().setIdentity();
+    const ProductJacobians of_end(base, submap.T_base_end);
+    rigid.middleRows<kDof>(kDof) = of_end.by_a;
+    for (Index i = 0; i < submap.size(); ++i) {
+      const Index row = in_factor<Pose>(i);
+      rigid.block<Pose::kDim, Pose::kDim>(row, 0).setIdentity();
+      rigid.block<Pose::kDim, Pose::kTurn>(row, Pose::kDim) =
+          Pose::Rotation::turn(base.rotation() * submap.landmarks[static_cast<std::size_t>(i)]);
+    }
+    CHECK((H * rigid).norm() <= 1e-9 * H.norm() * rigid.norm());
+    CHECK((G * rigid).norm() > 1e-6 * G.norm());
+    // After the base is eliminated, both say the same about what no motion of the whole changes.
+    const Index m = H.rows() - kDof;
+    const auto shape = [&](const Matrix& information, double hold) {
+      const Matrix free = rigid.bottomRows(m);
+      const Matrix own = information.bottomRightCorner(m, m), cross = information.bottomLeftCorner(m, kDof);
+      const Matrix rest =
+          own - cross * Matrix(information.topLeftCorner(kDof, kDof)).ldlt().solve(Matrix(cross.transpose()));
+      const Matrix basis = Eigen::FullPivLU<Matrix>(free.transpose()).kernel();
+      const Matrix P = (rest + hold * free * free.transpose()).ldlt().solve(basis);
+      return Matrix(basis.transpose() * P);
+    };
+    CHECK(difference(shape(H, 1.0), shape(G, 0.0)) < 1e-4);
+  }
 }
