@@ -18,7 +18,9 @@ begin() {
   say "$step"
 }
 all_done=false
+sanitized=""  # process of the sanitized build
 summary() {
+  if [[ -n $sanitized ]]; then kill -- "-$sanitized" 2>/dev/null || true; fi
   finish_step
   say "Summary"
   printf '%s\n' "${steps[@]}"
@@ -51,6 +53,19 @@ cmake --build "$root/build/check" --parallel "$jobs"
 begin "Tests"
 ctest --test-dir "$root/build/check" --output-on-failure -j "$jobs"
 
+# The sanitized build needs the processors while the next steps mostly wait for one of them.
+mkdir -p "$root/build"
+sanitized_log=$root/build/sanitize.log
+build_sanitized() {
+  configure "$root/build/sanitize" --preset sanitize "${launcher[@]}" -DCAIRN_SANITIZE_ACCESSES=OFF \
+    -DCAIRN_UNIT_ARCHIVE="$root/build/check/tests/unit/libcairn_unit_archive.a"
+  nice -n 10 cmake --build "$root/build/sanitize" --parallel "$jobs"
+}
+set -m # in a process group of its own, so that a failure of the check ends it
+build_sanitized >"$sanitized_log" 2>&1 &
+sanitized=$!
+set +m
+
 begin "Python: the package installed, its documentation's commands, the report in a browser"
 bash "$root/tests/python/check_python.sh" "$root/build/check"
 
@@ -66,10 +81,13 @@ begin "Documentation: warnings and broken links are errors"
 cmake --build "$root/build/check" --target docs
 /usr/bin/python3 -B "$root/tests/docs/links_test.py" "$root/build/check/docs/html"
 
-begin "Build: sanitizers (build/sanitize)"
-configure "$root/build/sanitize" --preset sanitize "${launcher[@]}" -DCAIRN_SANITIZE_ACCESSES=OFF \
-  -DCAIRN_UNIT_ARCHIVE="$root/build/check/tests/unit/libcairn_unit_archive.a"
-cmake --build "$root/build/sanitize" --parallel "$jobs"
+begin "Build: sanitizers (build/sanitize), what is left of it"
+wait "$sanitized" || {
+  cat "$sanitized_log"
+  fail "the sanitized build"
+}
+sanitized=""
+tail -n 1 "$sanitized_log"
 
 begin "Tests under sanitizers"
 ctest --test-dir "$root/build/sanitize" --output-on-failure -j "$jobs"
