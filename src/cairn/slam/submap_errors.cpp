@@ -73,20 +73,22 @@ FixedBase<Pose> SubmapKeeper<Pose>::fixed_base() const {
   return FixedBase<Pose>(base_, take_errors({}));
 }
 
-// Whether the error of the base is a state, and a fix of the vehicle is linear in it, as far as the base is known: the
-// second order moves its residual by less than a small part of its noise. It grows with the way from the base.
+// Whether the error of the base is a state, and a fix of the vehicle is linear in it: where the base was as far from its
+// estimate as the map had it when the submap began, the second order moves the residual by less than a small part of the
+// fix's noise. It grows with the way from the base. It is the same for all fixes of a submap, so the part has to be
+// small against 1 / sqrt(their number).
 template <class Pose>
 bool SubmapKeeper<Pose>::takes(const AbsoluteFix<Pose>& fix) const {
   if (map_ == nullptr || !local_.knows_base()) return false;
-  constexpr double kMost = 0.05;  // standard deviations
+  constexpr double kMost = 0.005;  // standard deviations
   const Eigen::Index rows = fix.rows();
   const Pose local = local_.state().pose(), T = base_ * local;
   const ProductJacobians J(base_, local);
   const Eigen::MatrixXd by_base = fix.jacobian(T).topRows(rows) * J.by_a;
   const Eigen::LLT<Eigen::MatrixXd> noise(fix.covariance().topLeftCorner(rows, rows));
-  const Eigen::LLT<Square> base(base_covariance_);
-  if (base.info() != Eigen::Success || noise.info() != Eigen::Success) return false;
-  const Square spread = base.matrixL();
+  const Eigen::LLT<Square> known(base_covariance_);
+  if (known.info() != Eigen::Success || noise.info() != Eigen::Success) return false;
+  const Square spread = known.matrixL();
   for (int d = 0; d < kDof; ++d)
     for (const double sign : {-1.0, 1.0}) {
       const typename Pose::Tangent error = sign * spread.col(d);
