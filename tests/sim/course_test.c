@@ -222,7 +222,7 @@ static void laps_close_and_repeat(void** state) {
 static void traverse_turns_by_turns(void** state) {
   cairn_world_options o = course_options(CAIRN_COURSE_TRAVERSE, 2400);
   cairn_world* w = open_world(&o);
-  double turned = 0, travelled = 0, length = 0, t;
+  double turned = 0, travelled = 0, t;
   int rounds = 0, sense = 1;
   cairn_pose a, b;
   (void)state;
@@ -237,7 +237,7 @@ static void traverse_turns_by_turns(void** state) {
     if (bend * sense < 0) { /* on to the next circle */
       assert_near(turned, sense * 2.5 * PI, 0.02);
       assert_between(travelled / 1.25, 1500 * 0.8, 1500 * 1.25);
-      length += travelled, travelled = 0, turned = 0, sense = -sense, ++rounds;
+      travelled = 0, turned = 0, sense = -sense, ++rounds;
     }
     turned += bend, travelled += 0.5 * o.speed, a = b;
   }

@@ -15,7 +15,7 @@ namespace {
 
 struct Run {
   Run(const FilterOptions<SE3>& options, const Sensor<SE3>& sensor)
-      : arena(Filter<SE3>::arena_bytes(options)), filter(arena, options), sensor_(sensor) {
+      : arena(Filter<SE3>::arena_bytes(options)), filter(arena, options) {
     if (const auto* head = dynamic_cast<const StereoHead*>(&sensor)) filter.add(*head);
     if (const auto* camera = dynamic_cast<const StereoCamera*>(&sensor)) filter.add(*camera);
   }
@@ -53,9 +53,6 @@ struct Run {
 
   Arena arena;
   Filter<SE3> filter;
-
- private:
-  const Sensor<SE3>& sensor_;
 };
 
 // Largest factor by which `after` exceeds `before` along any direction.
